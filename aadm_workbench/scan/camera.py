@@ -1,0 +1,165 @@
+"""The pinhole camera of a scan: depth to points, whether points belong to it, and its intrinsics from a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from aadm_workbench.errors import CameraError
+from aadm_workbench.model import Array, Camera, FloatArray
+from aadm_workbench.scan import intrinsics
+from aadm_workbench.scan.file import load
+
+LARGEST_PIXEL_OFFSET = 2.0
+"""Conventions differ by half a pixel; the intrinsics of another camera of the same model by ten and more."""
+
+LEAST_FRACTION_IN_VIEW = 0.95
+_SAMPLE_SIZE = 20_000
+
+
+def depth_to_points(depth_mm: FloatArray, camera: Camera) -> FloatArray:
+    """Return the points of a depth map: X = (u - cx) Z / fx, Y = (v - cy) Z / fy, with u and v whole at pixel centres.
+
+    Parameters
+    ----------
+    depth_mm
+        (h, w) floating, mm, along the optical axis; 0, negative and not finite is no return.
+    camera
+        Intrinsics of the same size.
+
+    Returns
+    -------
+    FloatArray
+        (h, w, 3) float32, mm, camera frame; NaN where there is no return.
+    """
+    has_return = (depth_mm > 0) & (depth_mm < np.inf)
+    z = np.where(has_return, depth_mm, np.nan).astype(np.float32, copy=False)
+    height, width = z.shape
+    points = np.empty((height, width, 3), np.float32)
+    np.multiply(z, ((np.arange(width) - camera.cx) / camera.fx).astype(np.float32), out=points[..., 0])
+    np.multiply(z, ((np.arange(height) - camera.cy) / camera.fy).astype(np.float32)[:, None], out=points[..., 1])
+    points[..., 2] = z
+    return points
+
+
+def projected(points: FloatArray, camera: Camera) -> Array:
+    """Return the pixels (u, v) at which a camera sees points.
+
+    Parameters
+    ----------
+    points
+        (n, 3) floating, camera frame, any unit.
+
+    Returns
+    -------
+    Array
+        (n, 2) float64; not finite for points in the plane of the camera.
+    """
+    x, y, z = points.astype(np.float64).T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.stack([x / z * camera.fx + camera.cx, y / z * camera.fy + camera.cy], axis=-1)
+
+
+def seen_by(name: str, points: FloatArray, camera: Camera) -> FloatArray:
+    """Check that this camera took a cloud; make it organised where its points fill the image pixel by pixel.
+
+    Parameters
+    ----------
+    name
+        The scan, for messages.
+    points
+        (n, 3) or (h, w, 3) floating, mm; NaN where there is no return.
+    camera
+        The declared camera.
+
+    Returns
+    -------
+    FloatArray
+        (n, 3) or (h, w, 3): the same points.
+
+    Raises
+    ------
+    CameraError
+        Where an organised cloud has another size or other rays than the camera, or where less than
+        ``LEAST_FRACTION_IN_VIEW`` of another cloud lies in its view.
+    """
+    shape = (camera.height, camera.width)
+    if points.ndim == 3:
+        if points.shape[:2] != shape:
+            size = f"{points.shape[1]} x {points.shape[0]}"
+            message = f"{name}: the cloud is {size} pixels, [camera] says {camera.width} x {camera.height}"
+            raise CameraError(f"{message}; write the intrinsics that belong to the scan")
+        offset = _pixel_offset(points, camera)
+        if offset > LARGEST_PIXEL_OFFSET:
+            raise CameraError(f"{name}: its points lie {offset:.1f} pixels beside the rays of their pixels; {_REMEDY}")
+        return points
+    if len(points) == camera.width * camera.height:
+        image = points.reshape(*shape, 3)
+        if _pixel_offset(image, camera) <= LARGEST_PIXEL_OFFSET:
+            return image
+    fraction = _fraction_in_view(points, camera)
+    if fraction < LEAST_FRACTION_IN_VIEW:
+        raise CameraError(f"{name}: only {fraction:.0%} of its points lie in the view of [camera]; {_REMEDY}")
+    return points
+
+
+_REMEDY = (
+    "either [camera] holds the intrinsics of another camera, or the cloud is not in the camera's frame: "
+    "then check it in a job without [camera]"
+)
+
+
+def _sample(points: FloatArray) -> tuple[FloatArray, Array]:
+    """Return evenly spread finite points (n, 3) and their flat indices (n,)."""
+    flat = points.reshape(-1, 3)
+    index = np.arange(0, len(flat), max(1, len(flat) // _SAMPLE_SIZE))
+    index = index[np.isfinite(flat[index]).all(axis=1)]
+    return flat[index], index.astype(np.float64)
+
+
+def _pixel_offset(points: FloatArray, camera: Camera) -> float:
+    """Return the median distance, in pixels, of points (h, w, 3) from the pixels that they stand at in the grid."""
+    sample, index = _sample(points)
+    if len(sample) == 0:
+        return 0.0
+    grid = np.stack([index % camera.width, index // camera.width], axis=-1)
+    offset = np.abs(projected(sample, camera) - grid).max(axis=1)
+    return float(np.median(np.nan_to_num(offset, nan=np.inf)))
+
+
+def _fraction_in_view(points: FloatArray, camera: Camera) -> float:
+    sample, _ = _sample(points)
+    if len(sample) == 0:
+        return 1.0
+    pixels = projected(sample, camera)
+    beyond = [camera.width, camera.height]
+    in_view = (sample[:, 2] > 0) & (pixels > -1.0).all(axis=1) & (pixels < beyond).all(axis=1)
+    return float(in_view.mean())
+
+
+def read_camera(path: Path) -> Camera:
+    """Read intrinsics from a TOML or JSON file, or from the text that a camera's SDK prints.
+
+    Parameters
+    ----------
+    path
+        ``.toml`` or ``.json`` with fx, fy, cx, cy, width and height (at the top or in a table), or any text with a
+        3 x 3 camera matrix or the rows ``[fx, fy; cx, cy]``, and ``width: ..., height: ...``. Where a file describes a
+        texture and a depth camera, the depth camera is meant.
+
+    Raises
+    ------
+    CameraError
+        For a file that lacks one of the six numbers, contradicts itself, or describes a lens whose distortion was not
+        taken out.
+    ScanError
+        For a file that cannot be read.
+    """
+    path = Path(path)
+    text = load(path, str(path)).content.decode("utf-8-sig", errors="replace")
+    try:
+        found = intrinsics.parse(text, path.suffix.lower())
+        return intrinsics.checked_camera(found)
+    except CameraError as error:
+        raise CameraError(f"{path}: {error}") from error

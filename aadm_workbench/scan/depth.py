@@ -1,0 +1,76 @@
+"""Depth maps (.tiff, .png): one depth a pixel, to points by the camera's intrinsics."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from aadm_workbench.errors import CameraError
+from aadm_workbench.model import Camera, FloatArray
+from aadm_workbench.scan.camera import depth_to_points
+from aadm_workbench.scan.file import Cloud, Declared, ScanFile
+from aadm_workbench.scan.picture import Pixels, pixels_of, size_of
+
+
+def read_depth_map(file: ScanFile, declared: Declared) -> Cloud:
+    """Read a depth map: uint16 in steps of ``depth_scale_mm``, or floating in the declared unit.
+
+    Raises
+    ------
+    CameraError
+        Where no camera is declared, its image has another size, or an integer map comes without ``depth_scale_mm``.
+    ScanError
+        Where the picture cannot be decoded or is no depth map.
+    """
+    width, height = size_of(file)
+    _checked_camera(file, width, height, declared)
+    return cloud_of_depth_map(file, pixels_of(file), declared)
+
+
+def cloud_of_depth_map(file: ScanFile, depth: Pixels, declared: Declared) -> Cloud:
+    """Return the points of a depth map, organised, in mm; 0, negative and not finite is no return.
+
+    Parameters
+    ----------
+    file
+        Where the map is from, for messages.
+    depth
+        (h, w) uint16, float32 or float64.
+    declared
+        Camera, unit of floating maps, step of integer maps.
+
+    Returns
+    -------
+    Cloud
+        (h, w, 3) float32, mm, camera frame; the camera stands at the origin.
+    """
+    if depth.ndim != 2:
+        raise file.wrong(f"has {depth.shape[-1]} channels: it is a picture, not a depth map, which has one")
+    height, width = depth.shape
+    camera = _checked_camera(file, width, height, declared)
+    depth_mm = _in_millimetres(file, depth, declared)
+    return Cloud(depth_to_points(depth_mm, camera), mm_per_unit=1.0, T_scan_file=np.eye(4))
+
+
+def _checked_camera(file: ScanFile, width: int, height: int, declared: Declared) -> Camera:
+    camera = declared.camera
+    if camera is None:
+        wanted = f"fx, fy, cx, cy, width = {width} and height = {height}"
+        raise CameraError(f"{file.name}: a depth map needs its intrinsics; add [camera] with {wanted} to the job")
+    if (width, height) != (camera.width, camera.height):
+        raise CameraError(
+            f"{file.name}: the depth map is {width} x {height} pixels, [camera] says {camera.width} x {camera.height}; "
+            "write the intrinsics of the depth map (those of the texture camera may differ by a factor of 2)"
+        )
+    return camera
+
+
+def _in_millimetres(file: ScanFile, depth: Pixels, declared: Declared) -> FloatArray:
+    if depth.dtype.kind == "f":
+        return depth if declared.mm_per_unit == 1.0 else depth * depth.dtype.type(declared.mm_per_unit)
+    if depth.dtype == np.uint8:
+        raise file.wrong("has 8 bits a pixel: it is a picture or a preview; export the depth map itself")
+    if depth.dtype != np.uint16:
+        raise file.wrong(f"has pixels of type {depth.dtype}; a depth map is uint16, float32 or float64")
+    if declared.depth_scale_mm is None:
+        raise CameraError(f"{file.name}: an integer depth map needs its step; add depth_scale_mm to [camera]")
+    return depth * np.float32(declared.depth_scale_mm)

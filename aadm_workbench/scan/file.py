@@ -1,0 +1,101 @@
+"""What a reader is given and what it gives back: the bytes of a file, what the job says of it, its points."""
+
+from __future__ import annotations
+
+import hashlib
+import stat
+from dataclasses import dataclass
+from pathlib import Path
+
+from aadm_workbench.errors import ScanError
+from aadm_workbench.model import Array, Camera, FloatArray
+
+LARGEST_FILE_BYTES = 4 * 2**30
+"""A frame of a structured-light camera takes 10 to 100 MB; beyond this it is something else."""
+
+LARGEST_POINT_COUNT = 100_000_000
+"""Bound on what a compressed file may unpack to."""
+
+
+@dataclass(frozen=True, eq=False)
+class ScanFile:
+    """The bytes of one scan file, read once.
+
+    Parameters
+    ----------
+    name
+        The file as the job names it; every message about the file starts with it.
+    content
+        All bytes.
+    sha256
+        Their hash, hexadecimal.
+    """
+
+    name: str
+    content: bytes
+    sha256: str
+
+    def wrong(self, what: str) -> ScanError:
+        """Return the error that says what is wrong with this file."""
+        return ScanError(f"{self.name}: {what}")
+
+
+@dataclass(frozen=True)
+class Declared:
+    """What the job says of a scan because most formats do not: unit, camera, step of an integer depth map."""
+
+    mm_per_unit: float = 1.0
+    camera: Camera | None = None
+    depth_scale_mm: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Cloud:
+    """The points of a file as they stand in it.
+
+    Parameters
+    ----------
+    points
+        (n, 3) or, organised, (h, w, 3) floating, native byte order, writable, in the unit and frame of the file.
+    mm_per_unit
+        Millimetres in one unit of the file.
+    T_scan_file
+        (4, 4) float64, in units of the file: the pose of the sensor that the file carries; None where it carries none.
+    """
+
+    points: FloatArray
+    mm_per_unit: float
+    T_scan_file: Array | None = None
+
+
+def load(path: Path, name: str) -> ScanFile:
+    """Read a scan file and hash it.
+
+    Raises
+    ------
+    ScanError
+        Where there is no such file, or it is a folder, empty, unreadable or larger than ``LARGEST_FILE_BYTES``.
+    """
+    try:
+        status = path.stat()
+        _check_status(status.st_mode, status.st_size, path)
+        content = path.read_bytes()
+    except FileNotFoundError as error:
+        message = f"{path}: there is no such file; check its name, upper and lower case included, and its folder"
+        raise ScanError(message) from error
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise ScanError(f"{path}: cannot be read ({reason}); check the permissions and the disk it is on") from error
+    return ScanFile(name, content, hashlib.sha256(content).hexdigest())
+
+
+def _check_status(mode: int, size_bytes: int, path: Path) -> None:
+    if stat.S_ISDIR(mode):
+        raise ScanError(f"{path}: is a folder; name one scan file in it")
+    if not stat.S_ISREG(mode):
+        raise ScanError(f"{path}: is a device or a pipe; name a scan file")
+    if size_bytes == 0:
+        raise ScanError(f"{path}: is empty (0 bytes); the export or the copy did not finish, export it again")
+    if size_bytes > LARGEST_FILE_BYTES:
+        limit_gb = LARGEST_FILE_BYTES / 2**30
+        raise ScanError(f"{path}: has {size_bytes} bytes, more than {limit_gb:.0f} GiB; crop the scan to the component")

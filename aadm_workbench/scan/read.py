@@ -1,0 +1,148 @@
+"""One scan file, of any supported format, to a :class:`Scan` in millimetres."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from types import MappingProxyType
+
+import numpy as np
+import numpy.typing as npt
+
+from aadm_workbench.errors import CameraError, ScanError
+from aadm_workbench.model import Array, Camera, FloatArray, Scan
+from aadm_workbench.scan.camera import seen_by
+from aadm_workbench.scan.depth import read_depth_map
+from aadm_workbench.scan.file import Cloud, Declared, ScanFile, load
+from aadm_workbench.scan.npz import read_npz
+from aadm_workbench.scan.pcd import read_pcd
+from aadm_workbench.scan.picture import grey_of
+from aadm_workbench.scan.ply import read_ply
+from aadm_workbench.scan.points import to_millimetres, without_return
+from aadm_workbench.scan.text import read_text
+
+Reader = Callable[[ScanFile, Declared], Cloud]
+
+MM_PER_UNIT = MappingProxyType({"mm": 1.0, "m": 1000.0})
+
+_READERS: MappingProxyType[str, Reader] = MappingProxyType(
+    {
+        ".tif": read_depth_map,
+        ".tiff": read_depth_map,
+        ".png": read_depth_map,
+        ".ply": read_ply,
+        ".pcd": read_pcd,
+        ".xyz": read_text,
+        ".txt": read_text,
+        ".csv": read_text,
+        ".asc": read_text,
+        ".pts": read_text,
+        ".npz": read_npz,
+    }
+)
+
+
+def supported_formats() -> tuple[str, ...]:
+    """Return the extensions of the files that :func:`read_scan` reads, in lower case with their dot."""
+    return tuple(_READERS)
+
+
+def read_scan(
+    path: Path,
+    *,
+    units: str = "mm",
+    camera: Camera | None = None,
+    depth_scale_mm: float | None = None,
+    source: str | None = None,
+    image: Path | None = None,
+) -> Scan:
+    """Read one scan.
+
+    Parameters
+    ----------
+    path
+        The file; its extension (in any case) tells the format.
+    units
+        Unit of its coordinates, or of a floating depth map: "mm" or "m". It is never guessed.
+    camera
+        Intrinsics. Depth maps need them; of a cloud they say that it is in the camera's frame, which is checked.
+    depth_scale_mm
+        Step of an integer depth map.
+    source
+        How the job names the file; ``path`` by default.
+    image
+        Grey picture of the same view, pixel for pixel.
+
+    Returns
+    -------
+    Scan
+        Points in the precision of the file (depth maps float32). The scan frame is that of the camera where one is
+        given; else that of the file, after the pose that the file carries. ``viewpoint`` is None where neither tells
+        it. Points that are not finite or exactly zero are no measurement: NaN in an organised scan, left out of
+        another, and counted in ``dropped``.
+
+    Raises
+    ------
+    ScanError
+        Where the file cannot be read or is no scan.
+    CameraError
+        Where intrinsics are missing or cannot belong to the scan.
+    MissingDependencyError
+        Where the format needs a package that is not installed.
+    """
+    path = Path(path)
+    declared = _declared(units, camera, depth_scale_mm)
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        known = " ".join(supported_formats())
+        raise ScanError(f"{path}: files of type {path.suffix or '(none)'} are not read; export one of {known}")
+    file = load(path, source or str(path))
+    cloud = reader(file, declared)
+    points, dropped = _measured(file, cloud, camera)
+    grey = None if image is None else _grey_picture(Path(image), points, camera)
+    return Scan(points, file.name, file.sha256, camera, _viewpoint(cloud, camera), dropped, grey)
+
+
+def _declared(units: str, camera: Camera | None, depth_scale_mm: float | None) -> Declared:
+    if units not in MM_PER_UNIT:
+        raise ScanError(f"the unit of scans is {units!r}; it must be one of {', '.join(map(repr, MM_PER_UNIT))}")
+    if depth_scale_mm is not None and not (math.isfinite(depth_scale_mm) and depth_scale_mm > 0):
+        raise CameraError(f"depth_scale_mm is {depth_scale_mm}; it must be greater than 0, such as 0.02")
+    return Declared(MM_PER_UNIT[units], camera, depth_scale_mm)
+
+
+def _measured(file: ScanFile, cloud: Cloud, camera: Camera | None) -> tuple[FloatArray, int]:
+    """Return the points in mm in the scan frame, and how many of the file are no measurement."""
+    missing = without_return(cloud.points)
+    dropped = int(np.count_nonzero(missing))
+    if dropped == missing.size:
+        raise file.wrong(f"none of its {missing.size} points is a measurement; scan again, or export the right frame")
+    # A declared camera fixes the frame to its own, in which the files of all cameras hold their points.
+    T_scan_file = None if camera is not None else cloud.T_scan_file
+    if dropped and (camera is not None or cloud.points.ndim == 3):
+        cloud.points[missing] = np.nan
+    points = cloud.points
+    if camera is not None:
+        points = seen_by(file.name, points, camera)
+    if dropped and points.ndim == 2:
+        points = points[~missing]
+    return to_millimetres(points, cloud.mm_per_unit, T_scan_file), dropped
+
+
+def _viewpoint(cloud: Cloud, camera: Camera | None) -> Array | None:
+    if camera is not None:
+        return np.zeros(3)
+    return None if cloud.T_scan_file is None else cloud.T_scan_file[:3, 3] * cloud.mm_per_unit
+
+
+def _grey_picture(path: Path, points: FloatArray, camera: Camera | None) -> npt.NDArray[np.uint8]:
+    file = load(path, str(path))
+    grey = grey_of(file)
+    size = (camera.height, camera.width) if camera is not None else points.shape[:2] if points.ndim == 3 else grey.shape
+    if grey.shape != size:
+        raise file.wrong(
+            f"is {grey.shape[1]} x {grey.shape[0]} pixels, its scan {size[1]} x {size[0]}; name the picture of the "
+            "depth camera, or leave it out"
+        )
+    return grey

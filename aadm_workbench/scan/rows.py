@@ -1,0 +1,89 @@
+"""Coordinates out of rows of text, as ASCII PLY, ASCII PCD and XYZ files store them."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from collections.abc import Sequence
+
+import numpy as np
+
+from aadm_workbench.errors import ScanError
+from aadm_workbench.model import Array
+from aadm_workbench.scan.file import ScanFile
+
+
+def parse_rows(
+    file: ScanFile,
+    body: bytes,
+    start: int,
+    columns: Sequence[int],
+    *,
+    count: int | None = None,
+    delimiter: str | None = None,
+) -> Array:
+    """Return three columns of a table of numbers in text.
+
+    Parameters
+    ----------
+    file
+        The file, for messages.
+    body
+        The rows; what follows ``count`` of them is not looked at.
+    start
+        Byte offset of ``body`` in the file, for the line numbers in messages.
+    columns
+        Indices of x, y and z.
+    count
+        Rows that the header announces; None where the file has no header and ends with its last row.
+    delimiter
+        One character, or None for white space.
+
+    Returns
+    -------
+    Array
+        (n, 3) float64, unit of the file; "nan" and "inf" are read as such.
+
+    Raises
+    ------
+    ScanError
+        Naming the line that is no row of numbers, or how many rows are missing.
+    """
+    if b"\n" not in body and b"\r" in body:
+        body = body.replace(b"\r", b"\n")
+    try:
+        with warnings.catch_warnings():
+            # numpy warns of blank lines and of a body without rows; both are judged by the count below.
+            warnings.simplefilter("ignore", UserWarning)
+            points = np.loadtxt(
+                io.TextIOWrapper(io.BytesIO(body), encoding="latin-1"),
+                usecols=tuple(columns),
+                max_rows=count,
+                delimiter=delimiter,
+                ndmin=2,
+            )
+    except ValueError as error:
+        raise _bad_row(file, body, start, columns, delimiter, str(error)) from error
+    found = len(points)
+    if count is not None and found < count:
+        raise file.wrong(
+            f"its header announces {count} points, but after {found} of them the file ends (at byte "
+            f"{len(file.content)}): it is cut off or its header is wrong; copy or export it again"
+        )
+    return points.reshape(-1, 3)
+
+
+def _bad_row(
+    file: ScanFile, body: bytes, start: int, columns: Sequence[int], delimiter: str | None, reason: str
+) -> ScanError:
+    first_line = file.content.count(b"\n", 0, start) + 1
+    for number, line in enumerate(body.splitlines(), start=first_line):
+        text = line.decode("latin-1").partition("#")[0].strip()
+        fields = text.split(delimiter)
+        try:
+            _ = [float(fields[column]) for column in columns if text]
+        except (ValueError, IndexError):
+            shown = text if len(text) <= 80 else f"{text[:80]}..."
+            needed = max(columns) + 1
+            return file.wrong(f"line {number} should begin with {needed} numbers, but reads {shown!r}; export it again")
+    return file.wrong(f"its points cannot be read ({reason}, counted from line {first_line}); export it again")
