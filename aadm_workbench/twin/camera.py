@@ -1,0 +1,46 @@
+"""Where the virtual camera stands, and with which lens."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from aadm_workbench.model import Array, Camera
+
+# Mech-Eye PRO M as logged by one of its users (1920 x 1200, distortion already removed)
+PRO_M = Camera(fx=2425.4796, fy=2425.3285, cx=959.7418, cy=632.7028, width=1920, height=1200)
+
+
+def facing(
+    target: Array, forward: Array, image_up: Array, distance: float, tilt: tuple[float, float], roll: float
+) -> Array:
+    """Pose T_column_scan (4, 4) of a camera that looks along ``forward`` at a target.
+
+    Parameters
+    ----------
+    target
+        (3,) mm, column frame: what lies on the optical axis.
+    forward, image_up
+        (3,) unit, column frame: viewing direction and the direction at the top of the picture, before tilting.
+    distance
+        mm from the camera to the target.
+    tilt
+        rad, turn of the view about the picture's x and y axis; the camera moves so that it still sees the target.
+    roll
+        rad, turn about the optical axis.
+    """
+    down = -image_up
+    upright = np.column_stack([np.cross(down, forward), down, forward])
+    rotation = upright @ _turn(0, tilt[0]) @ _turn(1, tilt[1]) @ _turn(2, roll)
+    pose = np.eye(4)
+    pose[:3, :3] = rotation
+    pose[:3, 3] = target - distance * rotation[:, 2]
+    return pose
+
+
+def _turn(axis: int, angle: float) -> Array:
+    c, s = np.cos(angle), np.sin(angle)
+    i, j = [(1, 2), (2, 0), (0, 1)][axis]
+    matrix = np.eye(3)
+    matrix[i, i] = matrix[j, j] = c
+    matrix[i, j], matrix[j, i] = -s, s
+    return matrix

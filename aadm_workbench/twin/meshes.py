@@ -1,0 +1,189 @@
+"""Triangle meshes of the as-built parts, with a surface number for every triangle.
+
+Boolean work is Manifold's (through ``manifold3d``); bars are height fields over (angle, length).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from aadm_workbench.model import Array, IntArray
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot, SleeveAsBuilt, axis_of
+
+CONCRETE, SLEEVE_WALL, BAR, FLOOR, TAPE = range(5)
+_RIB_INCLINATION = np.radians(60.0)  # of transverse ribs against the bar's axis; 45 to 70 degrees are usual
+SEGMENTS = 256  # of a bore's outline: the chord stays within 0.003 mm of a 36 mm circle
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A triangle mesh: vertices (n, 3) mm, triangles (m, 3), ``kind`` and ``owner`` (m,) per triangle."""
+
+    vertices: Array
+    triangles: IntArray
+    kind: IntArray
+    owner: IntArray
+
+
+def foot_surface(foot: Foot) -> Surface:
+    """Mesh of the foot with its bores, plugs, chips and tapes."""
+    import manifold3d
+
+    block = manifold3d.Manifold.cube([*foot.size, foot.height]).translate([-foot.size[0] / 2, -foot.size[1] / 2, 0.0])
+    block = block.as_original()
+    bores = [_bore(sleeve).as_original() for sleeve in foot.sleeves]
+    cutters = list(bores)
+    cutters += [_chip(sleeve) for sleeve in foot.sleeves if sleeve.chip > 0]
+    solid = manifold3d.Manifold.batch_boolean([block, *cutters], manifold3d.OpType.Subtract)
+    owner_of = {bore.original_id(): number for number, bore in enumerate(bores)}
+    surfaces = [_labelled(solid, owner_of)]
+    surfaces += [_tape(sleeve, number) for number, sleeve in enumerate(foot.sleeves) if sleeve.taped > 0]
+    return joined(surfaces)
+
+
+def bars_surface(group: BarGroup) -> Surface:
+    """Mesh of a bar group and the floor it stands in."""
+    surfaces = [_bar(bar, number, group.floor - 5.0) for number, bar in enumerate(group.bars)]
+    surfaces.append(_floor(group))
+    surfaces += [_box(x, y, group.floor, edge) for x, y, edge in group.debris]
+    return joined(surfaces)
+
+
+def joined(surfaces: list[Surface]) -> Surface:
+    """One surface of several."""
+    starts = np.cumsum([0] + [len(surface.vertices) for surface in surfaces[:-1]])
+    return Surface(
+        np.concatenate([surface.vertices for surface in surfaces]),
+        np.concatenate([surface.triangles + start for surface, start in zip(surfaces, starts, strict=True)]),
+        np.concatenate([surface.kind for surface in surfaces]),
+        np.concatenate([surface.owner for surface in surfaces]),
+    )
+
+
+def moved(surface: Surface, T: Array) -> Surface:
+    """The surface after a rigid transform (4, 4)."""
+    return Surface(surface.vertices @ T[:3, :3].T + T[:3, 3], surface.triangles, surface.kind, surface.owner)
+
+
+def _bore_profile(sleeve: SleeveAsBuilt) -> list[tuple[float, float]]:
+    radius, chamfer = sleeve.diameter / 2, sleeve.chamfer
+    depth = sleeve.depth if sleeve.plugged_at is None else max(sleeve.plugged_at, 0.05)
+    profile = [(0.0, -15.0), (radius + chamfer, -15.0)]
+    profile += [(radius + chamfer, 0.0), (radius, chamfer)] if chamfer > 0 else []
+    if sleeve.rib_height > 0:
+        for start in np.arange(sleeve.rib_start, depth - 10.0, sleeve.rib_pitch):
+            profile += [
+                (radius, start),
+                (radius - sleeve.rib_height, start + 1.5),
+                (radius - sleeve.rib_height, start + 4.5),
+                (radius, start + 6.0),
+            ]
+    return [*profile, (radius, depth), (0.0, depth)]
+
+
+def _bore(sleeve: SleeveAsBuilt) -> Any:
+    import manifold3d
+
+    section = manifold3d.CrossSection([_bore_profile(sleeve)])
+    upright = manifold3d.Manifold.revolve(section, SEGMENTS)
+    return upright.transform(_leaning(sleeve.lean, (sleeve.x, sleeve.y, 0.0)))
+
+
+def _leaning(lean: tuple[float, float], origin: tuple[float, float, float]) -> Array:
+    z = axis_of(lean)
+    x = np.cross([0.0, 1.0, 0.0], z)
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(z, x), z, origin])
+
+
+def _chip(sleeve: SleeveAsBuilt) -> Any:
+    import manifold3d
+
+    reach = sleeve.diameter / 2 + 0.4 * sleeve.chip
+    x = sleeve.x + reach * np.cos(sleeve.chip_direction)
+    y = sleeve.y + reach * np.sin(sleeve.chip_direction)
+    return manifold3d.Manifold.sphere(1.0, 64).scale([sleeve.chip * 0.6, sleeve.chip, 4.0]).translate([x, y, 0.0])
+
+
+def _labelled(solid: Any, owner_of: dict[int, int]) -> Surface:
+    mesh = solid.to_mesh64()
+    vertices = np.asarray(mesh.vert_properties, np.float64)[:, :3]
+    triangles = np.asarray(mesh.tri_verts, np.int64)
+    kind = np.full(len(triangles), CONCRETE, np.int64)
+    owner = np.full(len(triangles), -1, np.int64)
+    bounds = np.asarray(mesh.run_index, np.int64) // 3
+    for original, begin, end in zip(mesh.run_original_id, bounds[:-1], bounds[1:], strict=True):
+        if int(original) in owner_of:
+            kind[begin:end] = SLEEVE_WALL
+            owner[begin:end] = owner_of[int(original)]
+    return Surface(vertices, triangles, kind, owner)
+
+
+def _tape(sleeve: SleeveAsBuilt, number: int) -> Surface:
+    """A strip 0.15 mm below the face that covers the side of the mouth towards ``chip_direction``."""
+    radius = sleeve.diameter / 2 + 4.0
+    begin = radius - 2 * radius * sleeve.taped
+    along, across = np.array([np.cos(sleeve.chip_direction), np.sin(sleeve.chip_direction)]), None
+    across = np.array([-along[1], along[0]])
+    corners = [along * a + across * b for a in (begin, radius) for b in (-radius, radius)]
+    vertices = np.array([[sleeve.x + corner[0], sleeve.y + corner[1], -0.15] for corner in corners])
+    triangles = np.array([[0, 1, 2], [1, 3, 2]])
+    return Surface(vertices, triangles, np.full(2, TAPE), np.full(2, number))
+
+
+def _rib_profile(bar: BarAsBuilt, angle: Array, below_top: Array) -> Array:
+    """Height (rows, angles) of the ribs over the core: inclined crescents on two sides, two ridges along."""
+    height = np.zeros((len(below_top), len(angle)))
+    for side in (0, 1):
+        turned = np.mod(angle - bar.rib_turn - side * np.pi, 2 * np.pi)
+        crescent = np.where(turned < np.pi, np.sin(turned), 0.0) ** 0.7
+        climb = (1 - 2 * side) * bar.core_diameter / 2 * (turned - np.pi / 2) / np.tan(_RIB_INCLINATION)
+        place = np.mod((below_top[:, None] + climb[None, :]) / bar.rib_pitch + bar.rib_phase + 0.5 * side, 1.0) - 0.5
+        bump = np.clip((1.5 - np.abs(place) * bar.rib_pitch) / 0.9, 0.0, 1.0)  # crest 1.2 mm, flanks of 45 degrees
+        height = np.maximum(height, bar.rib_height * bump * crescent[None, :])
+    ridge = np.abs(np.mod(angle - bar.rib_turn + np.pi / 2, np.pi) - np.pi / 2) * bar.core_diameter / 2
+    return np.maximum(height, bar.longitudinal_rib * np.clip(2.0 - ridge / 0.7, 0.0, 1.0)[None, :])
+
+
+def _bar(bar: BarAsBuilt, number: int, foot_z: float) -> Surface:
+    angles = np.linspace(0.0, 2 * np.pi, 96, endpoint=False)
+    length = bar.top - foot_z
+    below_top = np.arange(0.0, length + 0.8, 0.8)
+    radius = bar.core_diameter / 2 + _rib_profile(bar, angles, below_top)
+    radius[:2] += bar.burr
+    x, y = radius * np.cos(angles), radius * np.sin(angles)
+    cut = bar.slant[0] * x[0] + bar.slant[1] * y[0] - bar.missing_top * (x[0] > 0.2 * bar.core_diameter)
+    fade = np.clip(1.0 - below_top / (0.6 * length), 0.0, 1.0)
+    z = -below_top[:, None] + fade[:, None] * cut[None, :]
+    rows, columns = radius.shape
+    local = np.stack([x, y, z], -1).reshape(-1, 3)
+    T = _leaning(bar.lean, (bar.x, bar.y, bar.top))
+    vertices = np.vstack([local, [[0.0, 0.0, 0.0]]]) @ T[:, :3].T + T[:, 3]
+    grid = np.arange(rows * columns).reshape(rows, columns)
+    beside = np.roll(grid, -1, axis=1)
+    a, b, c, d = grid[:-1].ravel(), beside[:-1].ravel(), grid[1:].ravel(), beside[1:].ravel()
+    cap = np.column_stack([grid[0], beside[0], np.full(columns, rows * columns)])
+    triangles = np.vstack([np.column_stack([a, c, b]), np.column_stack([b, c, d]), cap])
+    return Surface(vertices, triangles, np.full(len(triangles), BAR), np.full(len(triangles), number))
+
+
+def _floor(group: BarGroup) -> Surface:
+    half_x, half_y = group.floor_size[0] / 2, group.floor_size[1] / 2
+    corners = np.array([[x, y] for x in (-half_x, half_x) for y in (-half_y, half_y)])
+    heights = group.floor - corners @ np.asarray(group.floor_lean)
+    vertices = np.column_stack([corners, heights])
+    return Surface(vertices, np.array([[0, 2, 1], [1, 2, 3]]), np.full(2, FLOOR), np.full(2, -1))
+
+
+def _box(x: float, y: float, floor: float, edge: float) -> Surface:
+    import manifold3d
+
+    cube = manifold3d.Manifold.cube([edge, edge, edge]).translate([x - edge / 2, y - edge / 2, floor])
+    mesh = cube.to_mesh64()
+    triangles: npt.NDArray[np.int64] = np.asarray(mesh.tri_verts, np.int64)
+    vertices = np.asarray(mesh.vert_properties, np.float64)[:, :3]
+    return Surface(vertices, triangles, np.full(len(triangles), FLOOR), np.full(len(triangles), -1))

@@ -1,0 +1,75 @@
+"""One scan with its truth: parts, camera and noise put together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.model import Array, AssemblyPoint, Camera, Kind, Scan
+from aadm_workbench.scan.camera import depth_to_points
+from aadm_workbench.twin.camera import PRO_M
+from aadm_workbench.twin.meshes import Surface, bars_surface, foot_surface, moved
+from aadm_workbench.twin.noise import CameraNoise, captured
+from aadm_workbench.twin.parts import BarGroup, Foot, axis_of
+from aadm_workbench.twin.raycast import look
+
+
+@dataclass(frozen=True, eq=False)
+class TrueScan:
+    """A synthetic scan, with the true points in the column frame and the true pose of the camera.
+
+    ``depth`` (h, w) float32, mm. ``T_column_scan`` (4, 4).
+    """
+
+    depth: np.ndarray
+    camera: Camera
+    points: tuple[AssemblyPoint, ...]
+    T_column_scan: Array
+
+    def scan(self, source: str = "") -> Scan:
+        """The scan as the readers would give it."""
+        return Scan(depth_to_points(self.depth, self.camera), source, "", self.camera, np.zeros(3))
+
+    def points_scan(self) -> Array:
+        """True centres (n, 3), mm, scan frame."""
+        T = np.linalg.inv(self.T_column_scan)
+        return np.array([T[:3, :3] @ point.centre + T[:3, 3] for point in self.points])
+
+    def axes_scan(self) -> Array:
+        """True axes (n, 3), unit, scan frame."""
+        return np.array([self.T_column_scan[:3, :3].T @ point.axis for point in self.points])
+
+
+def scan_of(
+    part: Foot | BarGroup, T_column_scan: Array, noise: CameraNoise, rng: np.random.Generator, camera: Camera = PRO_M
+) -> TrueScan:
+    """Scan a foot or a bar group from a pose of the camera."""
+    surface = foot_surface(part) if isinstance(part, Foot) else bars_surface(part)
+    return shot(surface, truth_of(part), T_column_scan, noise, rng, camera)
+
+
+def shot(
+    surface: Surface,
+    truth: tuple[AssemblyPoint, ...],
+    T_column_scan: Array,
+    noise: CameraNoise,
+    rng: np.random.Generator,
+    camera: Camera = PRO_M,
+) -> TrueScan:
+    """Scan any surface, given in the column frame."""
+    view = look(moved(surface, np.linalg.inv(T_column_scan)), camera)
+    return TrueScan(captured(view, camera, noise, rng), camera, truth, T_column_scan)
+
+
+def truth_of(part: Foot | BarGroup) -> tuple[AssemblyPoint, ...]:
+    """The true assembly points of a part, in the order in which it lists them."""
+    if isinstance(part, Foot):
+        return tuple(
+            AssemblyPoint(f"S{k}", Kind.SLEEVE, np.array([s.x, s.y, 0.0]), axis_of(s.lean), s.diameter)
+            for k, s in enumerate(part.sleeves, 1)
+        )
+    return tuple(
+        AssemblyPoint(f"R{k}", Kind.REBAR, np.array([b.x, b.y, b.top]), axis_of(b.lean), b.core_diameter)
+        for k, b in enumerate(part.bars, 1)
+    )

@@ -1,0 +1,69 @@
+"""What the verdicts on a column would be if its centres were known without error."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.assembly.inspect import inspect_group
+from aadm_workbench.assembly.match import match_extraction
+from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.assembly.trial import try_scans
+from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Kind, TrialPose, TrialReport, Verdict, worst
+from aadm_workbench.twin.parts import BarGroup, Foot
+from aadm_workbench.twin.scene import truth_of
+
+_UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class TrueVerdicts:
+    """Verdicts by the profile on exact centres, compared as ``decision = "simple"`` does."""
+
+    verdict: Verdict
+    goes_on: Verdict
+    least_squares: dict[str, object] | None
+    minimax: dict[str, object] | None
+
+
+def true_verdicts(design: ColumnDesign, foot: Foot, bars: BarGroup | None, profile: str = "cn") -> TrueVerdicts:
+    """Judge as-built parts by their exact centres; a plugged sleeve counts as not measured."""
+    rules = load_profile(profile)
+    sleeves = tuple(p for p, s in zip(truth_of(foot), foot.sleeves, strict=True) if s.plugged_at is None)
+    groups = {Kind.SLEEVE: _exact(Kind.SLEEVE, sleeves)}
+    if bars is not None:
+        groups[Kind.REBAR] = _exact(Kind.REBAR, truth_of(bars))
+    matches = {
+        kind: match_extraction(design.points(kind), found, up=90.0, image_up_scan=np.array([0.0, 1.0, 0.0]))
+        for kind, found in groups.items()
+    }
+    verdicts = [
+        inspect_group(design.points(kind), groups[kind], matches[kind], rules, decision="simple").verdict
+        for kind in groups
+    ]
+    if bars is None:
+        return TrueVerdicts(worst(verdicts), Verdict.NOT_ASSESSED, None, None)
+    trial = try_scans(
+        design,
+        (groups[Kind.SLEEVE], matches[Kind.SLEEVE]),
+        (groups[Kind.REBAR], matches[Kind.REBAR]),
+        rules,
+        np.random.default_rng(0),
+        decision="simple",
+    )
+    verdicts.append(trial.verdict)
+    return TrueVerdicts(worst(verdicts), trial.verdict, _said(trial, trial.least_squares), _said(trial, trial.minimax))
+
+
+def _exact(kind: Kind, points: tuple[AssemblyPoint, ...]) -> Extraction:
+    return Extraction(kind, "truth", points, None, _UP, "truth")
+
+
+def _said(trial: TrialReport, pose: TrialPose | None) -> dict[str, object] | None:
+    """The largest distance in a pose, and what it alone would come to."""
+    if pose is None:
+        return None
+    fails = any(pair.verdict is Verdict.FAIL for pair in pose.pairs)
+    verdict = Verdict.FAIL if fails else Verdict.NOT_MEASURED if trial.missing else Verdict.PASS
+    return {"max_mm": round(pose.max_mm, 4), "verdict": verdict.value}
