@@ -1,0 +1,1 @@
+"""From a scan to assembly points, in the scan frame. Pure: no files, no clock, no printing."""

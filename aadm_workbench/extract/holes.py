@@ -1,0 +1,97 @@
+"""Round holes in a plane, found on a coarse raster of the points that lie on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from aadm_workbench.model import Array
+
+_EMPTY_DISC = 0.75  # of the radius: this part of a hole holds no face points
+_RING = (1.15, 1.6)  # of the radius: this part around a hole holds face points
+_DISC_FILL_MAX = 0.45
+_RING_FILL_MIN = 0.55
+
+
+@dataclass(frozen=True, eq=False)
+class Raster:
+    """Which cells of a plane hold points: ``filled`` (rows, columns) float32, 0 or 1.
+
+    Cell (i, j) covers x from ``origin[0] + j * cell_mm`` and y from ``origin[1] + i * cell_mm``.
+    """
+
+    filled: npt.NDArray[np.float32]
+    origin: Array
+    cell_mm: float
+
+    def centre_of(self, rows: npt.NDArray[np.int64], columns: npt.NDArray[np.int64]) -> Array:
+        """Middle (k, 2) mm of some cells."""
+        return np.asarray(self.origin + (np.column_stack([columns, rows]) + 0.5) * self.cell_mm)
+
+
+def rastered(xy: Array, cell_mm: float, margin_mm: float, cells_max: int = 4_000_000) -> Raster:
+    """Raster of the cells that hold any of the points (n, 2) mm, with an empty margin around them."""
+    low = np.percentile(xy, 0.05, axis=0) - margin_mm
+    high = np.percentile(xy, 99.95, axis=0) + margin_mm
+    cell_mm = max(cell_mm, float(np.sqrt(np.prod(high - low) / cells_max)))
+    columns, rows = (np.ceil((high - low) / cell_mm)).astype(int) + 1
+    place = np.floor((xy - low) / cell_mm).astype(np.int64)
+    inside = ((place >= 0) & (place < (columns, rows))).all(axis=1)
+    filled = np.zeros((rows, columns), np.float32)
+    filled[place[inside, 1], place[inside, 0]] = 1.0
+    return Raster(filled, low, cell_mm)
+
+
+def find_discs(raster: Raster, radius_mm: float, *, holes: bool) -> tuple[Array, Array]:
+    """Places where a disc of empty cells lies in filled ones (``holes``), or the reverse.
+
+    Returns centres (k, 2) mm, to about half a cell, and scores (k,) in 0..1, best first.
+    """
+    filled = raster.filled if holes else 1.0 - raster.filled
+    border = 0.0 if holes else 1.0
+    disc = _fill(filled, raster.cell_mm, 0.0, _EMPTY_DISC * radius_mm, border)
+    ring = _fill(filled, raster.cell_mm, _RING[0] * radius_mm, _RING[1] * radius_mm, border)
+    score = ring - disc
+    score[(disc > _DISC_FILL_MAX) | (ring < _RING_FILL_MIN)] = 0.0
+    reach = 2 * int(np.ceil(0.9 * radius_mm / raster.cell_mm)) + 1
+    highest = cv2.dilate(score, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
+    rows, columns = np.nonzero((score >= highest) & (score > 0.2))
+    return _merged(raster, score, rows, columns, radius_mm)
+
+
+def _fill(
+    filled: npt.NDArray[np.float32], cell_mm: float, inner_mm: float, outer_mm: float, border: float
+) -> npt.NDArray[np.float32]:
+    half = int(np.ceil(outer_mm / cell_mm))
+    offsets = np.arange(-half, half + 1) * cell_mm
+    distance = np.hypot(offsets[:, None], offsets[None, :])
+    kernel = ((distance <= outer_mm) & (distance >= inner_mm)).astype(np.float32)
+    kernel /= kernel.sum()
+    padded = cv2.copyMakeBorder(filled, half, half, half, half, cv2.BORDER_CONSTANT, value=border)
+    answer = cv2.filter2D(padded, cv2.CV_32F, kernel)[half:-half, half:-half]
+    return np.ascontiguousarray(answer)
+
+
+def _merged(
+    raster: Raster,
+    score: npt.NDArray[np.float32],
+    rows: npt.NDArray[np.int64],
+    columns: npt.NDArray[np.int64],
+    radius_mm: float,
+) -> tuple[Array, Array]:
+    """One centre for each plateau of equally good cells: their mean, weighted by score."""
+    order = np.argsort(-score[rows, columns], kind="stable")
+    centres = raster.centre_of(rows[order], columns[order])
+    scores = score[rows, columns][order].astype(np.float64)
+    found: list[Array] = []
+    kept: list[float] = []
+    for centre, value in zip(centres, scores, strict=True):
+        if any(np.hypot(*(centre - other)) < 1.2 * radius_mm for other in found):
+            continue
+        alike = (np.hypot(*(centres - centre).T) < 0.8 * radius_mm) & (scores > value - 0.03)
+        found.append(np.average(centres[alike], axis=0, weights=scores[alike]))
+        kept.append(value)
+    return np.array(found).reshape(-1, 2), np.array(kept)

@@ -1,0 +1,255 @@
+"""One fit for all features of a type: their centres and leans, with one radius pooled over them.
+
+Three witnesses are weighed against each other. *Brackets*: outline points held from both sides
+(:mod:`~aadm_workbench.extract.bracket`). *Rims*: outline points, each somewhere between the true
+edge and a pixel or two away from it, always on the same side, more or less far as the camera drops
+pixels at depth steps. Their law (:mod:`~aadm_workbench.extract.edge_law`) does not depend on how many are lost.
+*Walls*: points on the bore of a sleeve or the side of a bar. They carry no such one-sided error, but light
+that bounces inside a sleeve can push them along the ray; that push is an unknown with a prior, pooled over
+the features and free by a little for each of them.
+
+A feature with index k has a centre c, a lean l (offset per mm of depth), a push e and its own share r of the
+radius. Wall: ``|p - c - l*depth - (b + e)*t| = R + r``. Edge: ``|p - c| = E + r``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
+from aadm_workbench.model import Array, IntArray
+
+_OWN = 6  # unknowns of a feature: centre x, y; lean x, y; push; radius
+_POOLED = 4  # unknowns that all features share: radius of walls, of brackets, of rims; push
+_WALL, _BRACKET, _RIM, _PUSH = range(_POOLED)
+_WALL_CORRELATION = 3.0  # neighbouring wall points share their errors: standard errors are this much larger
+_TUKEY = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Brackets:
+    """Edge points held from both sides: ``xy`` (n, 2) mm, ``owner`` (n,), ``side`` as for :class:`Rims`."""
+
+    xy: Array
+    owner: IntArray
+    side: float
+    law: BracketLaw
+
+
+@dataclass(frozen=True, eq=False)
+class Rims:
+    """Outline points known from one side only: ``xy`` (n, 2) mm and the index ``owner`` (n,) of their feature.
+
+    ``side`` is +1 where points lie outside of the true edge (holes), -1 where inside (discs).
+    """
+
+    xy: Array
+    owner: IntArray
+    side: float
+    law: RimLaw
+
+
+@dataclass(frozen=True, eq=False)
+class Walls:
+    """Points of a bore or a bar's side: ``xy`` (n, 2) mm, ``depth`` (n,) mm along the axis from the centre.
+
+    ``slope`` (n, 2): how far the line of sight moves in the plan per mm of depth. ``law``: how the points of
+    a bar's side scatter, of which many lie on ribs; None for a bore, whose scatter is symmetric.
+    """
+
+    xy: Array
+    depth: Array
+    slope: Array
+    owner: IntArray
+    law: BracketLaw | None = None
+
+
+@dataclass(frozen=True)
+class Priors:
+    """What is believed before any point is seen, as standard deviations (mm; lean: mm per mm)."""
+
+    lean: float = 0.010
+    own_radius: float = 0.05
+    own_push: float = 0.1
+    push: float = 0.4
+    radius: float = 0.5
+    wall_to_edge: float = 0.03
+
+
+@dataclass(frozen=True, eq=False)
+class PooledFit:
+    """Result for k features: ``centre`` (k, 2) and ``lean`` (k, 2), their ``covariance`` (k, 2, 2) mm².
+
+    ``radius`` (k,) mm of the wall, ``outline_radius`` (k,) mm of the edge. ``wall_count``, ``edge_count`` (k,) are the
+    points with weight. ``wall_mm`` and ``edge_mm`` are robust standard deviations of the residuals.
+    """
+
+    centre: Array
+    lean: Array
+    radius: Array
+    covariance: Array
+    outline_radius: Array
+    push_mm: float
+    wall_mm: float
+    edge_mm: float
+    wall_count: IntArray
+    edge_count: IntArray
+
+
+def fit_pooled(
+    brackets: Brackets, rims: Rims, walls: Walls, start: Array, radius_mm: float, priors: Priors, rounds: int = 30
+) -> PooledFit:
+    """Fit all features (start centres (k, 2) mm, nominal radius mm) to their edges and walls together."""
+    state = _State(start.copy(), radius_mm)
+    for number in range(rounds):
+        terms = _Terms(brackets, rims, walls, state)
+        step = state.move(terms.system(state, priors, radius_mm, knowledge=False))
+        if step < 2e-4 and number > 4:
+            break
+    terms = _Terms(brackets, rims, walls, state)
+    return _result(state, terms, terms.system(state, priors, radius_mm, knowledge=True))
+
+
+class _Terms:
+    """Residuals of all witnesses at a state, with their Jacobians and weights."""
+
+    def __init__(self, brackets: Brackets, rims: Rims, walls: Walls, state: _State) -> None:
+        self.brackets, self.rims, self.walls = brackets, rims, walls
+        self.wall, self.wall_jacobian = _wall_terms(walls, state)
+        self.wall_mm = max(_spread(self.wall), 0.02)
+        self.wall_weight = _tukey(self.wall / self.wall_mm) / (_WALL_CORRELATION * self.wall_mm) ** 2
+        self.edge, self.edge_jacobian = _edge_terms(brackets.xy, brackets.owner, state, _BRACKET)
+        self.edge_slope = brackets.side * brackets.law.slope(brackets.side * self.edge)
+        self.rim, self.rim_jacobian = _edge_terms(rims.xy, rims.owner, state, _RIM)
+        self.rim_slope = rims.side * rims.law.slope(rims.side * self.rim)
+
+    def system(self, state: _State, priors: Priors, radius_mm: float, *, knowledge: bool) -> _System:
+        """Normal equations for a step, or, with ``knowledge``, of what the witnesses tell (for the covariance)."""
+        system = _System(len(state.own))
+        if self.walls.law is None:
+            system.add(self.wall_jacobian, self.wall_weight * self.wall, self.wall_weight, self.walls.owner)
+        else:
+            slope = -self.walls.law.slope(-self.wall) / _WALL_CORRELATION**2
+            bend = np.abs(slope) / np.maximum(np.abs(self.wall), self.walls.law.softness_mm)
+            system.add(self.wall_jacobian, slope, slope**2 * _WALL_CORRELATION**2 if knowledge else bend, self.walls.owner)
+        for points, residual, jacobian, slope in (
+            (self.brackets, self.edge, self.edge_jacobian, self.edge_slope),
+            (self.rims, self.rim, self.rim_jacobian, self.rim_slope),
+        ):
+            bend = np.abs(slope) / np.maximum(np.abs(residual), points.law.softness_mm)
+            system.add(jacobian, slope, slope**2 if knowledge else bend, points.owner)
+        system.add_priors(state, priors, radius_mm)
+        return system
+
+
+class _State:
+    """The unknowns, as arrays by feature and as pooled scalars."""
+
+    def __init__(self, centre: Array, radius_mm: float) -> None:
+        self.own = np.zeros((len(centre), _OWN))
+        self.own[:, :2] = centre
+        self.pooled = np.array([radius_mm, radius_mm, radius_mm, 0.0])
+
+    def move(self, system: _System) -> float:
+        step = np.clip(-np.linalg.solve(system.normal, system.gradient), -2.0, 2.0)
+        count = self.own.size
+        self.own += step[:count].reshape(self.own.shape)
+        self.pooled += step[count:]
+        return float(np.abs(step).max())
+
+
+class _System:
+    """Normal equations of all features, own unknowns first, pooled ones last."""
+
+    def __init__(self, features: int) -> None:
+        self.features = features
+        size = features * _OWN + _POOLED
+        self.normal = np.zeros((size, size))
+        self.gradient = np.zeros(size)
+
+    def add(self, jacobian: Array, slope: Array, bend: Array, owner: IntArray) -> None:
+        """Add terms, sorted by owner: jacobian (n, own + pooled) of the residuals, slope and bend (n,) of their costs."""
+        begin = np.searchsorted(owner, np.arange(self.features + 1))
+        for k in range(self.features):
+            rows = slice(begin[k], begin[k + 1])
+            if rows.start == rows.stop:
+                continue
+            weighted = jacobian[rows] * bend[rows, None]
+            place = np.concatenate([np.arange(k * _OWN, (k + 1) * _OWN), np.arange(-_POOLED, 0)])
+            self.normal[np.ix_(place, place)] += weighted.T @ jacobian[rows]
+            self.gradient[place] += jacobian[rows].T @ slope[rows]
+
+    def add_priors(self, state: _State, priors: Priors, radius_mm: float) -> None:
+        deviations = np.array([np.inf, np.inf, priors.lean, priors.lean, priors.own_push, priors.own_radius])
+        own = np.tile(deviations**-2.0, self.features)
+        pooled = np.array([priors.radius, priors.radius, 2 * priors.radius, priors.push]) ** -2.0
+        precision = np.concatenate([own, pooled])
+        offset = np.concatenate([state.own.ravel(), state.pooled - [radius_mm, radius_mm, radius_mm, 0.0]])
+        self.normal[np.diag_indices_from(self.normal)] += precision + 1e-9
+        self.gradient += precision * offset
+        self._tie(state, priors.wall_to_edge)
+
+    def _tie(self, state: _State, deviation_mm: float) -> None:
+        """A bore has one radius, be it seen as a wall or as an edge."""
+        difference = state.pooled[_WALL] - state.pooled[_BRACKET]
+        first, second = _WALL - _POOLED, _BRACKET - _POOLED
+        self.normal[np.ix_([first, second], [first, second])] += np.array([[1.0, -1.0], [-1.0, 1.0]]) / deviation_mm**2
+        self.gradient[[first, second]] += np.array([difference, -difference]) / deviation_mm**2
+
+
+def _wall_terms(walls: Walls, state: _State) -> tuple[Array, Array]:
+    own = state.own[walls.owner]
+    pushed = (state.pooled[_PUSH] + own[:, 4])[:, None] * walls.slope
+    about = walls.xy - own[:, :2] - own[:, 2:4] * walls.depth[:, None] - pushed
+    distance = np.maximum(np.hypot(about[:, 0], about[:, 1]), 1e-9)
+    outward = about / distance[:, None]
+    along_slope = -np.einsum("ij,ij->i", outward, walls.slope)
+    minus, none = -np.ones(len(distance)), np.zeros(len(distance))
+    jacobian = np.column_stack(
+        [-outward, -outward * walls.depth[:, None], along_slope, minus, minus, none, none, along_slope]
+    )
+    return distance - state.pooled[_WALL] - own[:, 5], jacobian
+
+
+def _edge_terms(xy: Array, owner: IntArray, state: _State, pooled: int) -> tuple[Array, Array]:
+    own = state.own[owner]
+    about = xy - own[:, :2]
+    distance = np.maximum(np.hypot(about[:, 0], about[:, 1]), 1e-9)
+    outward = about / distance[:, None]
+    minus, none = -np.ones(len(distance)), np.zeros(len(distance))
+    shared = [minus if place == pooled else none for place in range(_POOLED)]
+    jacobian = np.column_stack([-outward, none, none, none, minus, *shared])
+    return distance - state.pooled[pooled] - own[:, 5], jacobian
+
+
+def _spread(residual: Array) -> float:
+    if len(residual) < 5:
+        return 0.3
+    return 1.4826 * float(np.median(np.abs(residual - np.median(residual))))
+
+
+def _tukey(scaled: Array) -> Array:
+    inside = 1.0 - (scaled / _TUKEY) ** 2
+    return np.where(inside > 0, inside, 0.0) ** 2
+
+
+def _result(state: _State, terms: _Terms, knowledge: _System) -> PooledFit:
+    inverse = np.linalg.inv(knowledge.normal)
+    features = knowledge.features
+    starts = np.arange(features) * _OWN
+    covariance = np.array([inverse[s : s + 2, s : s + 2] for s in starts]).reshape(-1, 2, 2)
+    held = np.bincount(terms.brackets.owner, minlength=features)
+    return PooledFit(
+        centre=state.own[:, :2],
+        lean=state.own[:, 2:4],
+        radius=state.pooled[_WALL] + state.own[:, 5],
+        covariance=covariance,
+        outline_radius=state.pooled[_BRACKET] + state.own[:, 5],
+        push_mm=float(state.pooled[_PUSH]),
+        wall_mm=terms.wall_mm,
+        edge_mm=_spread(np.concatenate([terms.edge, terms.rim])),
+        wall_count=np.bincount(terms.walls.owner[terms.wall_weight > 0], minlength=features),
+        edge_count=held + np.bincount(terms.rims.owner, minlength=features),
+    )

@@ -1,0 +1,217 @@
+"""Centres of connecting rebars in a scan of their tops.
+
+The steps: find the floor and with it the bars' vertical, find upright discs of the expected size, fit a
+plane to each top (tops differ by centimetres: no common plane), and fit the outlines of all tops and the
+visible sides of all bars together.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.extract.around import Neighbourhood, points_around
+from aadm_workbench.extract.bracket import Outlines, bracketed, crossings
+from aadm_workbench.extract.circle import circle_through, outline
+from aadm_workbench.extract.edge_law import BracketLaw, RimLaw, best_circles
+from aadm_workbench.extract.plane import axes_on, from_plane, in_plane
+from aadm_workbench.extract.pooled import Brackets, PooledFit, Priors, Rims, Walls, fit_pooled
+from aadm_workbench.extract.sample import Thinned, thinned
+from aadm_workbench.extract.tops import Standing, find_standing, top_plane
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Kind, Plane, Scan
+
+_SAMPLE = 200_000
+_REACH_MM = 6.0
+_SIDE_DEPTH_MM = (0.8, 25.0)
+_SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
+_SIDE_POINTS_MAX = 600
+_RADIUS_MISFIT = 0.15
+_FOREIGN = 0.5  # share of outline points that are ribs
+_BAR_PRIORS = Priors(lean=0.01, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.03, wall_to_edge=0.02)
+
+
+@dataclass(frozen=True, eq=False)
+class Top:
+    """What one bar shows, in plan axes whose z is the bars' vertical, mm: outline of its top, and its side."""
+
+    centre: Array
+    plane: Plane
+    outlines: Outlines
+    side_xy: Array
+    side_depth: Array
+    coverage: float
+    pitch_mm: float
+
+
+def extract_rebars(
+    scan: Scan, diameter_mm: float, rng: np.random.Generator, places: Array | None = None
+) -> Extraction:
+    """Centres of the tops of all bars of one diameter.
+
+    Parameters
+    ----------
+    scan
+        Organised or not; points in mm, scan frame.
+    diameter_mm
+        Nominal diameter of the bars.
+    rng
+        Draws the thinned sample and the plane hypotheses.
+    places
+        (k, 3) mm, scan frame: where else to look for a bar that the search did not find.
+    """
+    sample = thinned(scan, _SAMPLE, rng)
+    standing = find_standing(sample, diameter_mm / 2, scan.viewpoint, rng)
+    if standing is None:
+        return _nothing(f"the scan shows no upright bar of {diameter_mm:g} mm")
+    level = Plane(standing.vertical, standing.level_mm)
+    centres = standing.centres
+    if places is not None and len(places):
+        centres = _with_places(centres, in_plane(places, level)[:, :2], diameter_mm)
+    tops = _tops(scan, sample, level, centres, diameter_mm, rng)
+    if not tops:
+        return _nothing(f"no bar of {diameter_mm:g} mm has a top that could be measured")
+    pitch_mm = float(np.median([top.pitch_mm for top in tops]))
+    laws = (
+        BracketLaw(max(0.35 * pitch_mm, 0.06), _FOREIGN),
+        RimLaw(pitch_mm, 1.2 * pitch_mm, _FOREIGN),
+        BracketLaw(0.08, 0.6),
+    )
+    start, radius_mm = best_circles(
+        [top.outlines for top in tops],
+        [top.side_xy[top.side_depth < 15.0] for top in tops],
+        np.array([top.centre for top in tops]),
+        diameter_mm / 2,
+        laws,
+        side=-1.0,
+    )
+    fit = fit_pooled(*_evidence(tops, *laws), start, radius_mm, _BAR_PRIORS)
+    return _extraction(tops, fit, standing, level, diameter_mm)
+
+
+def _nothing(reason: str) -> Extraction:
+    return Extraction(Kind.REBAR, "refined", (), None, None, reason=reason)
+
+
+def _with_places(centres: Array, places: Array, diameter_mm: float) -> Array:
+    distance = np.hypot(*(places[:, None] - centres[None]).transpose(2, 0, 1)).min(axis=1)
+    return np.vstack([centres, places[distance > diameter_mm / 2]])
+
+
+def _tops(
+    scan: Scan, sample: Thinned, level: Plane, centres: Array, diameter_mm: float, rng: np.random.Generator
+) -> list[Top]:
+    parts = points_around(scan, sample, level, centres, diameter_mm / 2 + _REACH_MM)
+    eye = None if scan.viewpoint is None else in_plane(scan.viewpoint[None], level)[0]
+    tops = [_top(part, centre, diameter_mm / 2, eye, rng) for part, centre in zip(parts, centres, strict=True)]
+    return [top for top in tops if top is not None]
+
+
+def _top(
+    around: Neighbourhood, centre: Array, radius_mm: float, eye: Array | None, rng: np.random.Generator
+) -> Top | None:
+    local, shift = around.points, np.array([*centre, 0.0])
+    plane = top_plane(local - shift, radius_mm, rng)
+    if plane is None:
+        return None
+    plane = Plane(plane.normal, plane.offset + float(plane.normal @ shift), plane.residual_mm)
+    height = plane.height(local)
+    band_mm = max(4.0 * plane.residual_mm, 0.3)
+    on_top = np.abs(height) < band_mm
+    xy = local[:, :2]
+    pitch_mm = float(np.sqrt(np.pi * radius_mm**2 / max(int(on_top.sum()), 1)))
+    bins = int(np.clip(2 * np.pi * radius_mm / pitch_mm, 24, 720))
+    centre = _settled(xy[on_top], centre, radius_mm, bins)
+    radius = np.hypot(*(xy - centre).T)
+    rim_xy = xy[on_top & (radius < radius_mm + 2.5)]
+    rim = outline(rim_xy, centre, bins, innermost=False)
+    if rim.coverage < 0.5:
+        return None
+    passed = np.empty((0, 2)) if eye is None else crossings(local[around.borne & (height < -band_mm)], eye, plane)[:, :2]
+    passed = passed[np.hypot(*(passed - centre).T) > 0.75 * radius_mm]
+    outlines = bracketed(rim_xy, passed, centre, np.ones(bins, bool), pitch_mm, hole=False)
+    in_band = (radius - radius_mm > _SIDE_BAND_MM[0]) & (radius - radius_mm < _SIDE_BAND_MM[1])
+    side = np.flatnonzero(in_band & (-height > _SIDE_DEPTH_MM[0]) & (-height < _SIDE_DEPTH_MM[1]))
+    side = side[:: max(1, len(side) // _SIDE_POINTS_MAX + 1)]
+    return Top(centre, plane, outlines, xy[side], -height[side], rim.coverage, pitch_mm)
+
+
+def _settled(top_xy: Array, centre: Array, radius_mm: float, bins: int) -> Array:
+    for _ in range(3):
+        candidates = top_xy[np.hypot(*(top_xy - centre).T) < radius_mm + 3.0]
+        if len(candidates) < 12:
+            return centre
+        ring = outline(candidates, centre, bins, innermost=False)
+        moved, _ = circle_through(candidates[ring.index], centre, radius_mm)
+        if np.hypot(*(moved - centre)) > radius_mm:
+            return centre
+        centre = moved
+    return centre
+
+
+def _evidence(tops: list[Top], bracket_law: BracketLaw, rim_law: RimLaw, side_law: BracketLaw) -> tuple[Brackets, Rims, Walls]:
+    rims = Rims(
+        np.concatenate([t.outlines.rim for t in tops]), _owners([len(t.outlines.rim) for t in tops]), -1.0, rim_law
+    )
+    brackets = Brackets(
+        np.concatenate([t.outlines.middle for t in tops]),
+        _owners([len(t.outlines.middle) for t in tops]),
+        -1.0,
+        bracket_law,
+    )
+    side_owner = _owners([len(t.side_xy) for t in tops])
+    side_xy = np.concatenate([t.side_xy for t in tops])
+    depth = np.concatenate([t.side_depth for t in tops])
+    walls = Walls(side_xy, depth, np.zeros_like(side_xy), side_owner, side_law)
+    return brackets, rims, walls
+
+
+def _owners(counts: list[int]) -> IntArray:
+    return np.repeat(np.arange(len(counts)), counts)
+
+
+def _extraction(tops: list[Top], fit: PooledFit, standing: Standing, level: Plane, diameter_mm: float) -> Extraction:
+    sound = np.flatnonzero(np.abs(2 * fit.outline_radius / diameter_mm - 1.0) < _RADIUS_MISFIT)
+    points = tuple(_point(tops[k], fit, k, level) for k in sound)
+    vertical, source = standing.vertical, "floor"
+    if standing.floor is None and points:
+        vertical, source = _mean_axis(points), "bar axes"
+    exposed = tuple(_exposed(point, standing.floor) for point in points)
+    tops_level = Plane(vertical, float(np.median([vertical @ point.centre for point in points]))) if points else None
+    quality = {
+        "point_pitch_mm": float(np.median([t.pitch_mm for t in tops])),
+        "plane_residual_mm": float(np.median([t.plane.residual_mm for t in tops])),
+        "edge_coverage": float(np.mean([t.coverage for t in tops])),
+        "edge_residual_mm": fit.edge_mm,
+        "wall_residual_mm": fit.wall_mm,
+        "wall_points": int(fit.wall_count.sum()),
+    }
+    return Extraction(Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality)
+
+
+def _point(top: Top, fit: PooledFit, k: int, level: Plane) -> AssemblyPoint:
+    x, y = fit.centre[k]
+    z = (top.plane.offset - top.plane.normal[0] * x - top.plane.normal[1] * y) / top.plane.normal[2]
+    axes = axes_on(level)
+    axis = axes.T @ np.array([-fit.lean[k, 0], -fit.lean[k, 1], 1.0])
+    flat = np.zeros((3, 3))
+    flat[:2, :2] = fit.covariance[k]
+    flat[2, 2] = max(top.plane.residual_mm, 0.02) ** 2
+    evidence = f"{fit.edge_count[k]} edge and {fit.wall_count[k]} side points"
+    centre = from_plane(np.array([x, y, z]), level)
+    return AssemblyPoint(
+        "", Kind.REBAR, centre, axis / np.linalg.norm(axis), 2 * float(fit.outline_radius[k]), axes.T @ flat @ axes, why=evidence
+    )
+
+
+def _mean_axis(points: tuple[AssemblyPoint, ...]) -> Array:
+    """Robust mean of the bar axes: their median, made a unit vector."""
+    middle = np.median([point.axis for point in points], axis=0)
+    return np.asarray(middle / np.linalg.norm(middle))
+
+
+def _exposed(point: AssemblyPoint, floor: Plane | None) -> float | None:
+    """Length of the bar from the floor to its top along its own axis."""
+    if floor is None:
+        return None
+    return float(floor.height(point.centre) / max(float(point.axis @ floor.normal), 0.5))

@@ -1,0 +1,249 @@
+"""Sleeve centres in the scan of a column foot.
+
+The steps: find the foot face, find round holes of the expected size in it, take all points around each
+hole, and fit bores and mouth edges of all sleeves together.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.extract.around import points_around
+from aadm_workbench.extract.bracket import Outlines, bracketed, crossings
+from aadm_workbench.extract.circle import Outline, bins_of, circle_through, outline
+from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
+from aadm_workbench.extract.holes import find_discs, rastered
+from aadm_workbench.extract.plane import axes_on, facing, find_planes, from_plane, in_plane, near, turned_over
+from aadm_workbench.extract.pooled import Brackets, PooledFit, Priors, Rims, Walls, fit_pooled
+from aadm_workbench.extract.sample import Thinned, point_pitch_mm, thinned
+from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, IntArray, Kind, Plane, Scan
+
+_SAMPLE = 120_000
+_FACE_BAND_MM = 1.5
+_REACH_MM = 4.0  # beyond the nominal radius: how far around a mouth points are taken
+_RIM_DEPTH_MM = 2.5  # a chamfer ends less far behind the face
+_WALL_DEPTH_MM = (2.0, 60.0)
+_WALL_BAND_MM = 2.0  # about the nominal radius
+_WALL_POINTS_MAX = 800
+_SECTORS, _OPEN_SECTORS, _CLOSED_SHARE = 12, 4, 0.15
+_FOREIGN = 0.05  # share of outline points that are flying pixels or dirt
+_RADIUS_MISFIT = 0.08  # relative: a hole this much larger or smaller than nominal is no sleeve
+
+
+@dataclass(frozen=True, eq=False)
+class Mouth:
+    """What one mouth shows, in the face's axes: rim edge points and wall points, all in mm."""
+
+    centre: Array
+    outlines: Outlines
+    wall_xy: Array
+    wall_depth: Array
+    wall_slope: Array
+    coverage: float
+
+
+def extract_sleeves(
+    scan: Scan, diameter_mm: float, rng: np.random.Generator, places: Array | None = None
+) -> Extraction:
+    """Centres of all sleeves of one diameter in the scan of a foot.
+
+    Parameters
+    ----------
+    scan
+        Organised or not; points in mm, scan frame.
+    diameter_mm
+        Nominal inner diameter at the mouth.
+    rng
+        Draws the thinned sample and the plane hypotheses.
+    places
+        (k, 3) mm, scan frame: where else to look for a sleeve that the search did not find.
+
+    Returns
+    -------
+    Extraction
+        With an empty ``points`` and a ``reason`` where no face or no hole was found.
+    """
+    sample = thinned(scan, _SAMPLE, rng)
+    found = _face_with_holes(scan, sample, diameter_mm / 2, rng)
+    if found is None:
+        return Extraction(Kind.SLEEVE, "refined", (), None, None, reason="no flat foot face was found in the scan")
+    face, centres, pitch_mm = found
+    if places is not None and len(places):
+        centres = _with_places(centres, in_plane(places, face)[:, :2], diameter_mm / 2)
+    if len(centres) == 0:
+        reason = f"the face shows no round hole of {diameter_mm:g} mm"
+        return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
+    around = points_around(scan, sample, face, centres, diameter_mm / 2 + _REACH_MM)
+    parts = [neighbourhood.points for neighbourhood in around]
+    if scan.viewpoint is None:
+        face, parts, centres = _facing_away_from_walls(face, parts, centres)
+    eye = None if scan.viewpoint is None else in_plane(scan.viewpoint[None], face)[0]
+    mouths = [_mouth(part, centre, diameter_mm / 2, pitch_mm, eye) for part, centre in zip(parts, centres, strict=True)]
+    kept = [mouth for mouth in mouths if mouth is not None]
+    return _measured(kept, face, diameter_mm, pitch_mm)
+
+
+def _face_with_holes(
+    scan: Scan, sample: Thinned, radius_mm: float, rng: np.random.Generator
+) -> tuple[Plane, Array, float] | None:
+    """The plane with most holes of the right size among the largest ones."""
+    best: tuple[Plane, Array, float] | None = None
+    for plane in find_planes(sample.points, rng, 3):
+        face = plane if scan.viewpoint is None else facing(plane, scan.viewpoint)
+        local = in_plane(sample.points[near(sample.points, face, _FACE_BAND_MM)], face)[:, :2]
+        pitch_mm = point_pitch_mm(sample, local)
+        spacing_mm = pitch_mm / np.sqrt(sample.share)
+        raster = rastered(local, max(radius_mm / 12, 1.3 * spacing_mm), 3 * radius_mm)
+        centres, _ = find_discs(raster, radius_mm, holes=True)
+        if best is None or len(centres) > len(best[1]):
+            best = (face, centres, pitch_mm)
+        if len(centres) >= 3:
+            break
+    return best
+
+
+def _with_places(centres: Array, places: Array, radius_mm: float) -> Array:
+    """The holes that were found, and the places that lie on none of them."""
+    if len(centres) == 0:
+        return places
+    distance = np.hypot(*(places[:, None] - centres[None]).transpose(2, 0, 1)).min(axis=1)
+    return np.vstack([centres, places[distance > radius_mm]])
+
+
+def _facing_away_from_walls(
+    face: Plane, parts: list[Array], centres: Array
+) -> tuple[Plane, list[Array], Array]:
+    """Without a viewpoint the side of the normal comes from the walls: they lie behind the face."""
+    heights = np.concatenate([part[:, 2] for part in parts])
+    before = int((heights > _WALL_DEPTH_MM[0]).sum())
+    behind = int((heights < -_WALL_DEPTH_MM[0]).sum())
+    if behind >= before:
+        return face, parts, centres
+    over = turned_over(face)
+    lifted = from_plane(np.column_stack([centres, np.zeros(len(centres))]), face)
+    turned = [in_plane(from_plane(part, face), over) for part in parts]
+    return over, turned, in_plane(lifted, over)[:, :2]
+
+
+def _mouth(local: Array, centre: Array, radius_mm: float, pitch_mm: float, eye: Array | None) -> Mouth | None:
+    """Split the points (n, 3) around a mouth (x, y, height) into its rim edge and its wall."""
+    xy, height = local[:, :2], local[:, 2]
+    bins = int(np.clip(2 * np.pi * radius_mm / pitch_mm, 24, 720))
+    rim = (height > -_RIM_DEPTH_MM) & (height < _FACE_BAND_MM)
+    if rim.sum() < 12:
+        return None
+    centre = _settled(xy[rim], centre, radius_mm, bins)
+    if _closed(xy[rim] - centre, radius_mm, pitch_mm):
+        return None
+    radius = np.hypot(*(xy - centre).T)
+    close = np.abs(radius - radius_mm) < _WALL_BAND_MM + 1.0
+    ring = outline(xy[rim & close], centre, bins, innermost=True)
+    if ring.coverage < 0.35:
+        return None
+    passed = np.empty((0, 2))
+    on_wall = np.abs(radius - radius_mm) < _WALL_BAND_MM
+    upper = on_wall & (height < -1.0) & (height > -12.0)
+    open_bins = ~_widened(np.isin(np.arange(bins), bins_of((xy - centre)[upper], bins)))
+    outlines = bracketed(xy[rim & close], passed, centre, open_bins, pitch_mm, hole=True)
+    wall = np.flatnonzero(on_wall & (height < -_WALL_DEPTH_MM[0]) & (height > -_WALL_DEPTH_MM[1]))
+    wall = wall[:: max(1, len(wall) // _WALL_POINTS_MAX + 1)]
+    slope = _slope(local[wall], eye)
+    return Mouth(centre, outlines, xy[wall], -height[wall], slope, ring.coverage)
+
+
+def _closed(rim_xy: Array, radius_mm: float, pitch_mm: float) -> bool:
+    """Whether the face goes on where the mouth should be: plugged, covered, or no sleeve at all.
+
+    A tape over half of a mouth leaves whole sectors of it open; a plug leaves none.
+    """
+    radius = np.hypot(*rim_xy.T)
+    inside = rim_xy[(radius > 0.2 * radius_mm) & (radius < 0.75 * radius_mm)]
+    expected = np.pi * (0.75**2 - 0.2**2) * (radius_mm / pitch_mm) ** 2 / _SECTORS
+    filled = np.bincount(bins_of(inside, _SECTORS), minlength=_SECTORS) > _CLOSED_SHARE * expected
+    return int(filled.sum()) > _SECTORS - _OPEN_SECTORS
+
+
+def _settled(rim_xy: Array, centre: Array, radius_mm: float, bins: int) -> Array:
+    for _ in range(3):
+        within = np.hypot(*(rim_xy - centre).T)
+        candidates = rim_xy[(within > 0.5 * radius_mm) & (within < radius_mm + _REACH_MM)]
+        if len(candidates) < 12:
+            return centre
+        ring = outline(candidates, centre, bins, innermost=True)
+        moved, _ = circle_through(candidates[ring.index], centre, radius_mm)
+        if np.hypot(*(moved - centre)) > radius_mm:
+            return centre
+        centre = moved
+    return centre
+
+
+def _widened(marked: BoolArray, reach: int = 2) -> BoolArray:
+    wide = marked.copy()
+    for shift in range(1, reach + 1):
+        wide |= np.roll(marked, shift) | np.roll(marked, -shift)
+    return wide
+
+
+def _slope(local: Array, eye: Array | None) -> Array:
+    """How far the line of sight moves in the plan per mm of depth (n, 2); zero where the viewpoint is unknown."""
+    if eye is None:
+        return np.zeros((len(local), 2))
+    ray = local - eye
+    return np.asarray(ray[:, :2] / np.abs(ray[:, 2:]))
+
+
+def _measured(mouths: list[Mouth], face: Plane, diameter_mm: float, pitch_mm: float) -> Extraction:
+    if not mouths:
+        reason = f"no hole of {diameter_mm:g} mm in the face could be measured"
+        return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
+    fit = fit_pooled(*_evidence(mouths, RimLaw(pitch_mm, 6.0 * pitch_mm, _FOREIGN)), np.array([m.centre for m in mouths]), diameter_mm / 2, Priors())
+    sound = np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT
+    points = tuple(_point(fit, k, face, pitch_mm) for k in np.flatnonzero(sound))
+    quality = {
+        "point_pitch_mm": pitch_mm,
+        "plane_residual_mm": face.residual_mm,
+        "edge_coverage": float(np.mean([m.coverage for m in mouths])),
+        "edge_residual_mm": fit.edge_mm,
+        "wall_residual_mm": fit.wall_mm,
+        "wall_points": int(fit.wall_count.sum()),
+    }
+    return Extraction(Kind.SLEEVE, "refined", points, face, -face.normal, "foot face", quality=quality)
+
+
+def _evidence(mouths: list[Mouth], law: RimLaw) -> tuple[Brackets, Rims, Walls]:
+    rims = Rims(
+        np.concatenate([m.outlines.rim for m in mouths]), _owners([len(m.outlines.rim) for m in mouths]), 1.0, law
+    )
+    brackets = Brackets(
+        np.concatenate([m.outlines.middle for m in mouths]),
+        _owners([len(m.outlines.middle) for m in mouths]),
+        1.0,
+        BracketLaw(law.pitch_mm, law.foreign),
+    )
+    walls = Walls(
+        np.concatenate([m.wall_xy for m in mouths]),
+        np.concatenate([m.wall_depth for m in mouths]),
+        np.concatenate([m.wall_slope for m in mouths]),
+        _owners([len(m.wall_xy) for m in mouths]),
+    )
+    return brackets, rims, walls
+
+
+def _owners(counts: list[int]) -> IntArray:
+    return np.repeat(np.arange(len(counts)), counts)
+
+
+def _point(fit: PooledFit, k: int, face: Plane, pitch_mm: float) -> AssemblyPoint:
+    axes = axes_on(face)
+    centre = from_plane(np.array([*fit.centre[k], 0.0]), face)
+    # depth runs against the normal: an axis that gains `lean` per mm of depth points into the column
+    axis = axes.T @ np.array([*fit.lean[k], -1.0])
+    flat = np.zeros((3, 3))
+    flat[:2, :2] = fit.covariance[k]
+    flat[2, 2] = max(face.residual_mm, 0.02) ** 2
+    evidence = f"{fit.wall_count[k]} wall and {fit.edge_count[k]} edge points at {pitch_mm:.2f} mm"
+    return AssemblyPoint(
+        "", Kind.SLEEVE, centre, axis / np.linalg.norm(axis), 2 * float(fit.radius[k]), axes.T @ flat @ axes, why=evidence
+    )
