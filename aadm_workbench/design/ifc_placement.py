@@ -1,0 +1,141 @@
+"""Where things stand: placements and frames of an IFC model as (4, 4) matrices in millimetres."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from aadm_workbench.model import Array
+
+
+class UnreadableGeometryError(ValueError):
+    """A piece of geometry that is broken, or of a kind that is not evaluated here."""
+
+
+@dataclass(frozen=True, eq=False)
+class Placements:
+    """Evaluates placements; ``mm`` is the length of one unit of the file.
+
+    Coordinates of 6,700 km keep a millionth of a millimetre in float64, so long as no large numbers are turned:
+    the chain is multiplied from the outside inwards, and each translation stays where it was written.
+    """
+
+    mm: float
+    _known: dict[int, Array] = field(default_factory=dict, repr=False)
+
+    def of_product(self, product: Any) -> Array:
+        """``T_model_product``: the product's own frame in the model, world coordinate system included."""
+        return self.world(product) @ self.of_placement(getattr(product, "ObjectPlacement", None))
+
+    def world(self, product: Any) -> Array:
+        """The world coordinate system of the context in which a product's shape is drawn.
+
+        It moves everything in that context; some exporters put the whole georeference there.
+        """
+        representation = getattr(product, "Representation", None)
+        drawn = representation.Representations if representation else ()
+        context = next((shape.ContextOfItems for shape in drawn if shape.ContextOfItems), None)
+        return self.of_context(context)
+
+    def of_context(self, context: Any) -> Array:
+        """World coordinate system of a representation context; the identity where it has none."""
+        while context is not None and context.is_a("IfcGeometricRepresentationSubContext"):
+            context = context.ParentContext
+        system = getattr(context, "WorldCoordinateSystem", None)
+        if system is None:
+            return np.eye(4)
+        if system.id() not in self._known:
+            self._known[system.id()] = self.of_axes(system)
+        return self._known[system.id()]
+
+    def of_placement(self, placement: Any) -> Array:
+        """An IfcLocalPlacement with all that it is relative to.
+
+        Raises
+        ------
+        UnreadableGeometryError
+            Where placements are relative to each other in a circle, or of a kind other than local.
+        """
+        chain: list[Any] = []
+        while placement is not None and placement.id() not in self._known:
+            if not placement.is_a("IfcLocalPlacement"):
+                raise UnreadableGeometryError(f"#{placement.id()} {placement.is_a()} is not evaluated")
+            if any(placement.id() == link.id() for link in chain):
+                raise UnreadableGeometryError(f"placement #{placement.id()} is relative to itself")
+            chain.append(placement)
+            placement = placement.PlacementRelTo
+        T = np.eye(4) if placement is None else self._known[placement.id()]
+        for link in reversed(chain):
+            T = T @ self.of_axes(link.RelativePlacement)
+            self._known[link.id()] = T
+        return T
+
+    def of_axes(self, axes: Any) -> Array:
+        """An IfcAxis2Placement3D or 2D, or an IfcAxis1Placement; None is the identity."""
+        if axes is None:
+            return np.eye(4)
+        if axes.is_a("IfcAxis2Placement2D"):
+            return frame(self.point(axes.Location), None, _direction(axes.RefDirection))
+        reference = getattr(axes, "RefDirection", None)
+        return frame(self.point(axes.Location), _direction(axes.Axis), _direction(reference))
+
+    def of_operator(self, operator: Any) -> Array:
+        """An IfcCartesianTransformationOperator: the target of a mapped item, which may mirror and scale."""
+        x = _direction(operator.Axis1)
+        y = _direction(operator.Axis2)
+        z = _direction(getattr(operator, "Axis3", None))
+        T = frame(self.point(operator.LocalOrigin), z, x)
+        if y is not None and float(T[:3, 1] @ y) < 0.0:
+            T[:3, 1] = -T[:3, 1]
+        scales = [operator.Scale, getattr(operator, "Scale2", None), getattr(operator, "Scale3", None)]
+        first = 1.0 if scales[0] is None else float(scales[0])
+        T[:3, :3] *= [first if scale is None else float(scale) for scale in scales]
+        return T
+
+    def point(self, point: Any) -> Array:
+        """An IfcCartesianPoint as (3,) mm; a point of the plane gets z = 0."""
+        return self.coordinates(point.Coordinates)
+
+    def coordinates(self, values: Any) -> Array:
+        """Two or three coordinates of the file as (3,) mm."""
+        xyz = np.zeros(3)
+        xyz[: len(values)] = values
+        return self.mm * xyz
+
+
+def frame(origin: Array, z: Array | None, x: Array | None) -> Array:
+    """A right-handed frame (4, 4) from its origin, its z axis and a hint at its x axis, as IFC defines it."""
+    up = np.array([0.0, 0.0, 1.0]) if z is None else z
+    if x is None:
+        x = np.array([0.0, 0.0, 1.0]) if abs(up[0]) > 1.0 - 1e-9 else np.array([1.0, 0.0, 0.0])
+    across = x - float(x @ up) * up
+    length = math.sqrt(float(across @ across))
+    if length < 1e-9:
+        raise UnreadableGeometryError("a placement's axes are parallel")
+    T = np.eye(4)
+    T[:3, 0] = across / length
+    T[:3, 2] = up
+    (a, b, c), (d, e, f) = up, T[:3, 0]
+    T[:3, 1] = b * f - c * e, c * d - a * f, a * e - b * d  # np.cross takes longer than all the rest
+    T[:3, 3] = origin
+    return T
+
+
+def _direction(direction: Any) -> Array | None:
+    """An IfcDirection as (3,) unit; None where it is left out."""
+    if direction is None:
+        return None
+    return unit(direction.DirectionRatios)
+
+
+def unit(values: Any) -> Array:
+    """Two or three components as a unit vector (3,)."""
+    vector = np.zeros(3)
+    vector[: len(values)] = values
+    length = math.sqrt(float(vector @ vector))
+    if length == 0.0:
+        raise UnreadableGeometryError("a direction has no length")
+    return vector / length

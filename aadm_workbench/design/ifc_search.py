@@ -1,0 +1,113 @@
+"""The search for the sleeves in a column's foot: by selector, class and name, else by geometry."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from aadm_workbench.design.ifc_columns import ColumnBody, Foot
+from aadm_workbench.design.ifc_file import OpenedIfc
+from aadm_workbench.design.ifc_shapes import Shapes
+from aadm_workbench.design.ifc_sleeves import (
+    SAME_MOUTH_MM,
+    Candidate,
+    Evidence,
+    Mouth,
+    alike,
+    mouths_on,
+    own_candidates,
+    unnamed_candidates,
+)
+from aadm_workbench.model import Array
+
+_BEHIND_MM = 5.0
+_NEAR_MM = 100.0
+
+
+@dataclass(frozen=True, eq=False)
+class FoundFoot:
+    """A column's foot face with the sleeves that open in it, in no order."""
+
+    foot: Foot
+    mouths: tuple[Mouth, ...]
+    refused: tuple[tuple[Candidate, str], ...]
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class SleeveSearch:
+    """Looks for sleeves column by column; ``selected`` where a selector named them, which is then the last word."""
+
+    opened: OpenedIfc
+    shapes: Shapes
+    named: Sequence[Candidate]
+    selected: bool
+
+    @cached_property
+    def unnamed(self) -> list[Candidate]:
+        """Round bodies and openings of the whole model; evaluated only where a column needs them."""
+        return unnamed_candidates(self.opened.file, self.shapes)
+
+    @cached_property
+    def _named_middles(self) -> Array:
+        return _middles(self.named)
+
+    @cached_property
+    def _unnamed_middles(self) -> Array:
+        return _middles(self.unnamed)
+
+    @staticmethod
+    def _near(foot: Foot, candidates: Sequence[Candidate], middles: Array) -> list[Candidate]:
+        """Candidates over whose middle the column stands: a floor has thousands, a column a dozen."""
+        across_mm = np.abs(foot.local(middles)[:, :2])
+        near = np.all(across_mm <= foot.half_size_mm + _NEAR_MM, axis=1)
+        return [candidate for candidate, is_near in zip(candidates, near, strict=True) if is_near]
+
+    def on(self, body: ColumnBody) -> FoundFoot:
+        """The foot face of a column with its sleeves: of a lying column's two ends, the one with more."""
+        return max((self._on_foot(body, foot) for foot in body.feet), key=lambda found: len(found.mouths))
+
+    def _on_foot(self, body: ColumnBody, foot: Foot) -> FoundFoot:
+        mouths, refused = mouths_on(foot, self._near(foot, self.named, self._named_middles))
+        if self.selected:
+            return FoundFoot(foot, tuple(mouths), tuple(refused), tuple(_warnings(mouths)))
+        own, _ = mouths_on(foot, own_candidates(body, self.shapes))
+        if mouths:
+            extra = [mouth for mouth in own if _apart(mouth, mouths)]
+            return FoundFoot(foot, tuple(mouths), tuple(refused), (*_warnings(mouths), *_extra(extra)))
+        mouths = alike(own)
+        if not mouths:
+            mouths = alike(mouths_on(foot, self._near(foot, self.unnamed, self._unnamed_middles))[0])
+        return FoundFoot(foot, tuple(mouths), tuple(refused), tuple(_warnings(mouths)))
+
+
+def _middles(candidates: Sequence[Candidate]) -> Array:
+    """(n, 3) mm, model frame."""
+    return np.array([(c.tube.start + c.tube.end) / 2.0 for c in candidates]).reshape(-1, 3)
+
+
+def _apart(mouth: Mouth, others: Sequence[Mouth]) -> bool:
+    return all(np.linalg.norm(mouth.centre - other.centre) >= SAME_MOUTH_MM for other in others)
+
+
+def _extra(mouths: Sequence[Mouth]) -> list[str]:
+    if not mouths:
+        return []
+    bores = ", ".join(f"{bore:g}" for bore in sorted({round(mouth.bore_mm, 1) for mouth in mouths}))
+    return [f"{len(mouths)} more round holes in its foot (Ø {bores} mm) have no name of a sleeve and were not taken"]
+
+
+def _warnings(mouths: Sequence[Mouth]) -> list[str]:
+    found = []
+    solid = sum(mouth.solid for mouth in mouths)
+    if solid:
+        found.append(f"{solid} sleeves are drawn without a bore: the diameter taken may be the outer one")
+    behind_mm = max((mouth.behind_mm for mouth in mouths if not mouth.candidate.is_opening), default=0.0)
+    if behind_mm > _BEHIND_MM:
+        found.append(f"sleeves begin up to {behind_mm:.0f} mm behind the foot face; their centres are on it")
+    if any(mouth.candidate.evidence is Evidence.GEOMETRY for mouth in mouths):
+        found.append("its sleeves have no telling name and were recognised by their shape alone")
+    return found

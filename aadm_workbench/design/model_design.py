@@ -1,0 +1,119 @@
+"""What a model gives: columns with their assembly points, what belongs to none, and what was not taken and why."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+import numpy as np
+
+from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
+
+_GLOBAL_ID_LENGTH = 22
+_SHOWN = 8
+"""Names in a message before it stops counting them up."""
+
+
+@dataclass(frozen=True, eq=False)
+class NotTaken:
+    """An element that was looked at and left out.
+
+    ``what`` is "column", "sleeve" or "rebar"; ``point`` (3,) mm, model frame, is its upper end (bars) or its mouth;
+    ``names`` is all that a job may call it by.
+    """
+
+    what: str
+    ifc_class: str
+    global_id: str
+    name: str
+    reason: str
+    point: Array | None = None
+    diameter_mm: float | None = None
+    length_mm: float | None = None
+    names: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class ModelDesign:
+    """The as-designed points of a model.
+
+    Parameters
+    ----------
+    source
+        The file as it was named.
+    sha256
+        Hash of the file's bytes.
+    schema
+        Of the model, such as IFC4.
+    columns
+        Columns with grouting sleeves in their foot, each in its column frame.
+    loose_sleeves, loose_rebars
+        Points that belong to none of these columns, in the model frame; without labels.
+    warnings
+        What a person should know; those about one column stand there.
+    not_taken
+        Elements that were looked at and left out, with the reason.
+    holdings
+        What the model holds, by class, in words.
+    T_model_file
+        (4, 4): the world coordinate system of the file, which moves its placements into the model frame.
+    seconds
+        What reading took; no part of any result.
+    """
+
+    source: str
+    sha256: str
+    schema: str
+    columns: tuple[ColumnDesign, ...] = ()
+    loose_sleeves: tuple[AssemblyPoint, ...] = ()
+    loose_rebars: tuple[AssemblyPoint, ...] = ()
+    warnings: tuple[str, ...] = ()
+    not_taken: tuple[NotTaken, ...] = ()
+    holdings: str = ""
+    T_model_file: Array = field(default_factory=lambda: np.eye(4))
+    seconds: float = 0.0
+
+    def column(self, key: str) -> ColumnDesign:
+        """The column of that Name, Tag, PieceMark or GlobalId.
+
+        Raises
+        ------
+        DesignError
+            Where none or more than one is called so; names those that come near, or all that share the name.
+        """
+        wanted = key.strip()
+        found = [column for column in self.columns if wanted in column.names]
+        if not found:
+            folded = wanted.casefold()
+            found = [column for column in self.columns if folded in (name.casefold() for name in column.names)]
+        if len(found) == 1:
+            return found[0]
+        if found:
+            ids = _listed([column.id for column in found])
+            raise DesignError(f"{key!r} names {len(found)} columns of {self.source}: {ids}. Use one of these.")
+        raise DesignError(self._missing(wanted))
+
+    def _missing(self, key: str) -> str:
+        without = next((left for left in self.not_taken if left.what == "column" and key in left.names), None)
+        if without is not None:
+            return f"Column {key!r} of {self.source} {without.reason}. {self._help()}"
+        if not self.columns:
+            return f"{self.source} has no column with grouting sleeves in its foot. {self._help()}"
+        names = sorted({name for column in self.columns for name in column.names if len(name) != _GLOBAL_ID_LENGTH})
+        holding = [name for name in names if key.casefold() in name.casefold()]
+        near = list(dict.fromkeys([*holding, *get_close_matches(key, names, n=_SHOWN, cutoff=0.5)]))
+        shown = f"Near to it: {_listed(near)}" if near else f"It has {_listed([column.id for column in self.columns])}"
+        return f"{self.source} has no column called {key!r}. {shown}."
+
+    def _help(self) -> str:
+        return (
+            f"The model holds {self.holdings}. Where sleeves are called something else, name them with "
+            'sleeves = "..." in [model], for instance sleeves = "IfcDiscreteAccessory, Name=/套筒/".'
+        )
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
+    return ", ".join(names[:_SHOWN]) + more
