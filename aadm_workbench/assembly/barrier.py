@@ -1,0 +1,104 @@
+"""One step of the interior-point method that finds the smallest common size of discs with a common point.
+
+Minimised is s under w_i·|p_i + τ·q_i + t|² ≤ s. The direction is the primal–dual Newton direction; its length is
+chosen on the barrier function s − μ·Σ log(s − value_i), in which the best level s is found for each point.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from aadm_workbench.model import Array, BoolArray
+
+_CENTRING = 0.08
+_STEP = 0.99
+_LEVEL_ROUNDS = 6
+_HALVINGS = 10
+_SMALLEST_AIM = 1e-12
+_SMALLEST_SLACK = 1e-15
+
+
+def vectors(p: Array, q: Array, z: Array) -> Array:
+    """Vectors p + τ·q + t, (k, n, 2), for z = (τ, t_x, t_y), (k, 3)."""
+    return p + z[:, None, :1] * q + z[:, None, 1:]
+
+
+def step(p: Array, q: Array, weights: Array, z: Array, level: Array, lam: Array, bound: Array) -> None:
+    """One primal–dual Newton step of k problems, in place on z (k, 3), the level s (k,) and the multipliers (k, n).
+
+    ``bound`` (k,) is the best lower bound known; the other arguments are those of
+    :func:`~aadm_workbench.assembly.discs.smallest_common_disc`.
+    """
+    e = vectors(p, q, z)
+    value = weights * (e**2).sum(axis=2)
+    # Rounding may leave nothing of a slack that is tiny by right.
+    slack = np.maximum(level[:, None] - value, _SMALLEST_SLACK * level[:, None])
+    # Aimed at what the bound leaves open, not at the products: a step may centre long before it is near.
+    mu = _CENTRING * np.maximum(level - bound, _SMALLEST_AIM * level) / lam.shape[1]
+    gradient = np.concatenate([(q * e).sum(axis=2, keepdims=True), e], axis=2) * (2.0 * weights[:, None])
+    move, raised = _direction(q, gradient, lam, slack, mu, weights)
+    along = np.einsum("kni,ki->kn", gradient, move)
+    change = mu[:, None] / slack - lam + lam / slack * (along - raised[:, None])
+    curved = weights * ((move[:, None, :1] * q + move[:, None, 1:]) ** 2).sum(axis=2)
+    longest = np.minimum(_STEP * _positive(lam, change), 1.0)
+    length, level[:], descends = _line_search(value, along, curved, level, mu, longest)
+    z += length[:, None] * move
+    # A direction that does not descend comes from stray multipliers: those of the barrier itself set it right.
+    ends = level[:, None] - value - length[:, None] * along - length[:, None] ** 2 * curved
+    lam[:] = np.where(descends[:, None], lam + length[:, None] * change, mu[:, None] / ends)
+
+
+def _direction(q: Array, gradient: Array, lam: Array, slack: Array, mu: Array, weights: Array) -> tuple[Array, Array]:
+    """Newton direction of z (k, 3) and of the level (k,)."""
+    stiffness = lam / slack
+    hessian = np.zeros((len(q), 4, 4))
+    hessian[:, :3, :3] = np.einsum("kn,kni,knj->kij", stiffness, gradient, gradient)
+    hessian[:, :3, 3] = hessian[:, 3, :3] = -np.einsum("kn,kni->ki", stiffness, gradient)
+    hessian[:, 3, 3] = stiffness.sum(axis=1)
+    _add_curvature(hessian, q, lam * weights)
+    push = mu[:, None] / slack
+    right = np.concatenate([-np.einsum("kn,kni->ki", push, gradient), push.sum(axis=1, keepdims=True) - 1.0], axis=1)
+    move = np.linalg.solve(hessian, right[:, :, None])[:, :, 0]
+    return move[:, :3], move[:, 3]
+
+
+def _line_search(
+    value: Array, along: Array, curved: Array, level: Array, mu: Array, length: Array
+) -> tuple[Array, Array, BoolArray]:
+    """Step lengths (k,) that do not raise the barrier function, the levels there, and whether there was one."""
+    before, _ = _barrier(value, mu)
+    for _ in range(_HALVINGS):
+        a = length[:, None]
+        after, level = _barrier(value + a * along + a**2 * curved, mu)
+        descends = after <= before + 1e-14 * np.abs(before)
+        if descends.all():
+            break
+        length = np.where(descends, length, 0.5 * length)
+    length = np.where(descends, length, 0.0)
+    a = length[:, None]
+    return length, _barrier(value + a * along + a**2 * curved, mu)[1] if not descends.all() else level, descends
+
+
+def _barrier(value: Array, mu: Array) -> tuple[Array, Array]:
+    """Smallest s − μ·Σ log(s − value_i) over s, (k,), and the level s (k,) at which Σ μ/(s − value_i) is one."""
+    level = value.max(axis=1) + mu
+    for _ in range(_LEVEL_ROUNDS):
+        inverse = mu[:, None] / (level[:, None] - value)
+        level = level + (inverse.sum(axis=1) - 1.0) * mu / (inverse**2).sum(axis=1)
+    return level - mu * np.log((level[:, None] - value) / mu[:, None]).sum(axis=1), level
+
+
+def _add_curvature(hessian: Array, q: Array, pull: Array) -> None:
+    """Add Σ λ_i·∇²f_i, the curvature of the squared lengths, to (k, 4, 4)."""
+    hessian[:, 0, 0] += 2.0 * (pull * (q**2).sum(axis=2)).sum(axis=1)
+    mixed = 2.0 * np.einsum("kn,knd->kd", pull, q)
+    hessian[:, 0, 1:3] += mixed
+    hessian[:, 1:3, 0] += mixed
+    total = 2.0 * pull.sum(axis=1)
+    hessian[:, 1, 1] += total
+    hessian[:, 2, 2] += total
+
+
+def _positive(lam: Array, change: Array) -> Array:
+    """Longest step (k,) that keeps the multipliers above zero."""
+    return np.asarray(np.where(change < 0.0, -lam / np.minimum(change, -1e-300), np.inf).min(axis=1))

@@ -1,0 +1,170 @@
+"""Extended orthogonal Procrustes analysis: the rigid pose that lays one set of points on another, in least squares.
+
+The model is Y = XR + jtᵀ + E with rows as points (Long et al., Eqs. 2 to 6). Two things are added to what is
+printed there: the determinant is kept at +1 (the centres of a foot face are coplanar, so the third singular value
+is zero and its vectors have arbitrary signs), and weights are allowed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from aadm_workbench.errors import AadmError
+from aadm_workbench.model import Array
+
+COLLINEAR_RATIO = 1e-6
+"""Points whose second extent is below this part of the first lie on a line, and leave a turn about it open."""
+
+ROBUST_ROUNDS = 50
+
+
+@dataclass(frozen=True)
+class NoFit:
+    """What an estimator returns that cannot fit: false, with the reason."""
+
+    reason: str
+
+    def __bool__(self) -> Literal[False]:
+        return False
+
+
+@dataclass(frozen=True, eq=False)
+class EopaFit:
+    """The rotation and translation of Y = XR + jtᵀ + E.
+
+    Parameters
+    ----------
+    R
+        (k, k) float64, acts on rows from the right; determinant +1.
+    t
+        (k,) float64, mm.
+    residuals
+        (n, k) float64, mm: E = Y − XR − jtᵀ, target minus aligned source.
+    weights
+        (n,) float64, those of the last round.
+    rms_mm
+        Root of the weighted mean of the squared lengths of the residuals.
+    scale
+        The factor that a fit with free scale would give X. Diagnostic: it is never applied.
+    """
+
+    R: Array
+    t: Array
+    residuals: Array
+    weights: Array
+    rms_mm: float
+    scale: float
+
+    @property
+    def T(self) -> Array:
+        """T_target_source (4, 4) for column vectors, so it holds Rᵀ; a planar fit leaves z alone."""
+        size = len(self.t)
+        transform = np.eye(4)
+        transform[:size, :size] = self.R.T
+        transform[:size, 3] = self.t
+        return transform
+
+    @property
+    def yaw(self) -> float:
+        """Turn in the x-y plane, radians, counter-clockwise seen from +z."""
+        return float(np.arctan2(self.R[0, 1], self.R[0, 0]))
+
+
+def fit_eopa(X: Array, Y: Array, weights: Array | None = None, huber_mm: float | None = None) -> EopaFit | NoFit:
+    """Rigid pose in space that maps points X onto points Y with the smallest (weighted) sum of squares.
+
+    Parameters
+    ----------
+    X, Y
+        (n, 3) float64, mm, in the source and in the target frame; row i of one belongs to row i of the other.
+    weights
+        (n,) float64, none negative; all equal by default.
+    huber_mm
+        With it, residuals longer than this count only linearly (iteratively reweighted).
+
+    Returns
+    -------
+    EopaFit, or NoFit for fewer than three points or points on one line.
+
+    Raises
+    ------
+    AadmError
+        If the shapes do not belong together.
+
+    Notes
+    -----
+    V D Wᵀ = Xᵀ(I − jjᵀ/p)Y;  R = V·diag(1, 1, det(VWᵀ))·Wᵀ;  t = (Y − XR)ᵀj/p.
+    """
+    _check_shapes(X, Y, 3)
+    if len(X) < 3:
+        return NoFit(f"{len(X)} points given, a pose in space needs 3")
+    return _fit(X, Y, weights, huber_mm, rank=2)
+
+
+def fit_eopa_planar(X: Array, Y: Array, weights: Array | None = None, huber_mm: float | None = None) -> EopaFit | NoFit:
+    """Shift and turn in the plane (dx, dy, yaw) that map points X onto points Y with the smallest sum of squares.
+
+    As :func:`fit_eopa`, for X and Y (n, 2) in mm whose frames share the z axis.
+
+    Returns
+    -------
+    EopaFit with R (2, 2) and t (2,), or NoFit for fewer than two distinct points.
+    """
+    _check_shapes(X, Y, 2)
+    if len(X) < 2:
+        return NoFit(f"{len(X)} points given, a pose in the plane needs 2")
+    return _fit(X, Y, weights, huber_mm, rank=1)
+
+
+def _check_shapes(X: Array, Y: Array, width: int) -> None:
+    if X.shape != Y.shape or X.ndim != 2 or X.shape[1] != width:
+        raise AadmError(f"EOPA needs two arrays of shape (n, {width}), row for row; got {X.shape} and {Y.shape}")
+
+
+def _fit(X: Array, Y: Array, weights: Array | None, huber_mm: float | None, rank: int) -> EopaFit | NoFit:
+    prior = np.ones(len(X)) if weights is None else np.asarray(weights, dtype=np.float64)
+    reason = _why_not(X, Y, prior, rank)
+    if reason:
+        return NoFit(reason)
+    fit = _weighted(X, Y, prior)
+    for _ in range(ROBUST_ROUNDS if huber_mm is not None else 0):
+        lengths = np.linalg.norm(fit.residuals, axis=1)
+        updated = prior * (huber_mm or 0.0) / np.maximum(lengths, huber_mm or 0.0)
+        if np.allclose(updated, fit.weights, rtol=1e-12, atol=0.0):
+            break
+        fit = _weighted(X, Y, updated)
+    return fit
+
+
+def _why_not(X: Array, Y: Array, weights: Array, rank: int) -> str:
+    if not (np.isfinite(X).all() and np.isfinite(Y).all()):
+        return "a coordinate is not finite"
+    if weights.shape != (len(X),) or not np.isfinite(weights).all() or (weights < 0).any():
+        return f"weights must be {len(X)} numbers, none negative"
+    used = weights > 0
+    for points, name in ((X[used], "source"), (Y[used], "target")):
+        if len(points) <= rank:
+            return f"only {len(points)} points have a weight"
+        extents = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+        if extents[rank - 1] <= COLLINEAR_RATIO * max(extents[0], 1e-9 * float(np.abs(points).max()) + 1e-12):
+            return f"the {name} points {'lie on one line' if rank == 2 and extents[0] > 0 else 'coincide'}"
+    return ""
+
+
+def _weighted(X: Array, Y: Array, weights: Array) -> EopaFit:
+    share = weights / weights.sum()
+    # Centred first: map coordinates of 10^9 mm would leave no digits for the deviations.
+    centre_x, centre_y = share @ X, share @ Y
+    centred_x, centred_y = X - centre_x, Y - centre_y
+    U = (centred_x * share[:, None]).T @ centred_y
+    V, _, Wt = np.linalg.svd(U)
+    signs = np.ones(X.shape[1])
+    signs[-1] = np.sign(np.linalg.det(V @ Wt))
+    R = (V * signs) @ Wt
+    residuals = centred_y - centred_x @ R
+    scale = float(np.trace(R.T @ U) / (share @ (centred_x**2).sum(axis=1)))
+    rms_mm = float(np.sqrt(share @ (residuals**2).sum(axis=1)))
+    return EopaFit(R, centre_y - centre_x @ R, residuals, weights, rms_mm, scale)

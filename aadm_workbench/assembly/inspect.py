@@ -1,0 +1,234 @@
+"""Inspection of one group, the sleeves or the rebars of a column, against design (paper, 2.1.2).
+
+Two different checks: the position of each centre after the fit, and the spacing of adjacent centres.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from aadm_workbench.assembly.agreement import agree_on_points, agree_on_spacing, agreed
+from aadm_workbench.assembly.decision import DecisionRule
+from aadm_workbench.assembly.exposed import inspect_exposed_length
+from aadm_workbench.assembly.match import Match, Placement
+from aadm_workbench.assembly.place import PlacedPoint, place_points
+from aadm_workbench.assembly.position import inspect_positions
+from aadm_workbench.assembly.rules import (
+    applicable_rules,
+    counted_verdict,
+    not_assessed,
+    position_result,
+    spacing_result,
+)
+from aadm_workbench.assembly.spacing import inspect_spacing
+from aadm_workbench.assembly.tolerances import rules_for
+from aadm_workbench.assembly.upright import wrap
+from aadm_workbench.model import (
+    AssemblyPoint,
+    Candidate,
+    Extraction,
+    Fit,
+    GroupReport,
+    PointResult,
+    Profile,
+    RuleResult,
+    SpacingResult,
+    Verdict,
+)
+
+NO_ABSOLUTE_POSITION = "absolute position not checked: the job gives no control points"
+
+
+@dataclass(frozen=True)
+class _Inspected:
+    """One placement, inspected."""
+
+    points: tuple[PointResult, ...]
+    spacing: tuple[SpacingResult, ...]
+    rules: tuple[RuleResult, ...]
+
+    @property
+    def verdict(self) -> Verdict:
+        return counted_verdict(self.rules)
+
+
+def inspect_group(
+    design: Sequence[AssemblyPoint],
+    extraction: Extraction,
+    match: Match,
+    profile: Profile,
+    *,
+    decision: DecisionRule = "guarded",
+    scale_error: float = 0.0,
+    design_exposed_mm: float | None = None,
+    source: str = "",
+    sha256: str = "",
+) -> GroupReport:
+    """Position and spacing of the sleeves or the rebars of one column.
+
+    Parameters
+    ----------
+    design
+        The design points of that kind, labelled, in the column frame.
+    extraction
+        What was found in the scan.
+    match
+        How it lies on the design; an ambiguous match is inspected in all its placements, and only what they
+        agree on stands.
+    profile
+        The limits. Rules for which there is no input are listed as not assessed.
+    scale_error
+        Relative standard uncertainty (k = 1) of the camera's lengths, where the covariances do not hold it.
+    design_exposed_mm
+        Exposed length of the rebars by design, where it is known.
+    source, sha256
+        Of the scan, for the report.
+    """
+    if not match:
+        return _not_matched(design, extraction, match, profile, source, sha256)
+    inspected = [
+        _inspect(
+            design, place_points(extraction, placement), extraction, profile, decision, scale_error, design_exposed_mm
+        )
+        for placement in match.evaluated
+    ]
+    verdict = agreed(result.verdict for result in inspected)
+    return GroupReport(
+        kind=extraction.kind,
+        source=source,
+        sha256=sha256,
+        method=extraction.method,
+        expected=len(design),
+        found=match.placements[0].found,
+        verdict=verdict,
+        points=agree_on_points([result.points for result in inspected]),
+        spacing=agree_on_spacing([result.spacing for result in inspected]),
+        fit=_fit(match, [result.verdict for result in inspected]),
+        rules=_agreed_rules(inspected),
+        reasons=_reasons(match, inspected[0], verdict),
+        notes=_notes(extraction, match),
+        quality=extraction.quality,
+    )
+
+
+def _inspect(
+    design: Sequence[AssemblyPoint],
+    placed: Sequence[PlacedPoint | None],
+    extraction: Extraction,
+    profile: Profile,
+    decision: DecisionRule,
+    scale_error: float,
+    design_exposed_mm: float | None,
+) -> _Inspected:
+    kind = extraction.kind.value
+    missing = extraction.reason or "not found in the scan"
+    position_rules, skipped = applicable_rules(profile, f"{kind}_position")
+    spacing_rules, more_skipped = applicable_rules(profile, f"{kind}_spacing")
+    by_position = [
+        inspect_positions(design, placed, rule, decision=decision, scale_error=scale_error, missing=missing)
+        for rule in position_rules or (None,)
+    ]
+    by_spacing = [
+        inspect_spacing(design, placed, rule, decision=decision, scale_error=scale_error)
+        for rule in spacing_rules or (None,)
+    ]
+    rules = [position_result(rule, points) for rule, points in zip(position_rules, by_position, strict=False)]
+    rules += [spacing_result(rule, spacing) for rule, spacing in zip(spacing_rules, by_spacing, strict=False)]
+    for rule in rules_for(profile, f"{kind}_exposed_length"):
+        rules.append(inspect_exposed_length(design, placed, rule, design_exposed_mm))
+    rules += [not_assessed(rule, NO_ABSOLUTE_POSITION) for rule in (*skipped, *more_skipped)]
+    rules += [not_assessed(rule, NO_ABSOLUTE_POSITION) for rule in rules_for(profile, "group_position")]
+    return _Inspected(by_position[0], by_spacing[0], tuple(rules))
+
+
+def _agreed_rules(inspected: Sequence[_Inspected]) -> tuple[RuleResult, ...]:
+    results = []
+    for first, same in zip(inspected[0].rules, zip(*(result.rules for result in inspected), strict=True), strict=True):
+        verdict = agreed(result.verdict for result in same)
+        results.append(
+            RuleResult(first.rule, first.clause, first.source, verdict, first.counted, first.reason, first.worst_mm)
+        )
+    return tuple(results)
+
+
+def _fit(match: Match, verdicts: Sequence[Verdict]) -> Fit:
+    chosen = match.placements[0]
+    candidates = tuple(
+        _candidate(placement, chosen, verdicts[index] if index < len(verdicts) else None)
+        for index, placement in enumerate(match.placements)
+    )
+    return Fit(chosen.T_design_scan, chosen.rms_mm, chosen.max_mm, match.orientation, candidates, chosen.scale)
+
+
+def _candidate(placement: Placement, chosen: Placement, verdict: Verdict | None) -> Candidate:
+    return Candidate(
+        yaw_deg=math.degrees(wrap(placement.yaw - chosen.yaw)),
+        rms_mm=placement.rms_mm,
+        max_mm=placement.max_mm,
+        matched=placement.found,
+        up_deg=None if placement.up is None else math.degrees(placement.up),
+        verdict=verdict,
+    )
+
+
+def _reasons(match: Match, first: _Inspected, verdict: Verdict) -> tuple[str, ...]:
+    texts: list[PointResult | SpacingResult] = [*first.points, *first.spacing]
+    order = (Verdict.FAIL, Verdict.NOT_MEASURED, Verdict.INCONCLUSIVE)
+    reasons = [text.reason for kind in order for text in texts if text.verdict is kind and text.reason]
+    reasons += [
+        rule.reason
+        for rule in first.rules
+        if rule.rule.endswith("exposed_length") and rule.verdict is Verdict.FAIL and rule.counted
+    ]
+    if match.orientation != "ambiguous":
+        return tuple(reasons)
+    if verdict is Verdict.PASS:
+        return ()
+    return (describe_ambiguity(match), *(f"in the first of these turns: {reason}" for reason in reasons))
+
+
+def describe_ambiguity(match: Match) -> str:
+    """In how many turns the pattern fits, and what to declare."""
+    ups = [placement.up for placement in match.placements]
+    turns = ", ".join(f"{round(math.degrees(up)) % 360}°" for up in ups if up is not None)
+    shown = f" (top of the image at {turns})" if turns else ""
+    return f"the pattern fits in {len(ups)} turns{shown}: declare up to settle which"
+
+
+def _notes(extraction: Extraction, match: Match) -> tuple[str, ...]:
+    notes = [NO_ABSOLUTE_POSITION]
+    if match.orientation == "ambiguous":
+        notes.append(describe_ambiguity(match))
+    if match.extra:
+        one = len(match.extra) == 1
+        notes.append(
+            f"{len(match.extra)} further {extraction.kind.value if one else extraction.kind.plural} found that "
+            f"{'belongs' if one else 'belong'} to no design point"
+        )
+    return tuple(notes)
+
+
+def _not_matched(
+    design: Sequence[AssemblyPoint], extraction: Extraction, match: Match, profile: Profile, source: str, sha256: str
+) -> GroupReport:
+    nothing = (None,) * len(design)
+    kind = extraction.kind.value
+    position = next(iter(applicable_rules(profile, f"{kind}_position")[0]), None)
+    spacing = next(iter(applicable_rules(profile, f"{kind}_spacing")[0]), None)
+    return GroupReport(
+        kind=extraction.kind,
+        source=source,
+        sha256=sha256,
+        method=extraction.method,
+        expected=len(design),
+        found=0,
+        verdict=Verdict.NOT_MEASURED,
+        points=inspect_positions(design, nothing, position, decision="simple", missing=match.reason),
+        spacing=inspect_spacing(design, nothing, spacing, decision="simple"),
+        fit=None,
+        reasons=(f"{extraction.kind.plural}: {match.reason}",),
+        notes=(NO_ABSOLUTE_POSITION,),
+        quality=extraction.quality,
+    )

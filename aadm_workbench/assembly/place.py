@@ -1,0 +1,53 @@
+"""Measured points brought into the column frame, in the order of the design points they belong to."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from aadm_workbench.assembly.match import Placement
+from aadm_workbench.model import Array, AssemblyPoint, Extraction
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedPoint:
+    """A measured point: ``point`` in the column frame, ``scan_mm`` (3,) where it is in the scan frame."""
+
+    point: AssemblyPoint
+    scan_mm: Array
+    exposed_length_mm: float | None = None
+
+
+def place_points(extraction: Extraction, placement: Placement) -> tuple[PlacedPoint | None, ...]:
+    """For each design point the measured one that lies there, in the column frame; None where none does.
+
+    Axes are turned to point up along the column; covariances are turned with the points.
+    """
+    exposed = extraction.exposed_length_mm or (None,) * len(extraction.points)
+    return tuple(
+        None
+        if index < 0
+        else PlacedPoint(
+            _placed(extraction.points[index], placement.T_design_scan), extraction.points[index].centre, exposed[index]
+        )
+        for index in placement.matched.tolist()
+    )
+
+
+def _placed(point: AssemblyPoint, T_design_scan: Array) -> AssemblyPoint:
+    rotation = T_design_scan[:3, :3]
+    axis = rotation @ point.axis
+    return replace(
+        point,
+        centre=rotation @ point.centre + T_design_scan[:3, 3],
+        axis=-axis if axis[2] < 0.0 else axis,
+        covariance=None if point.covariance is None else rotation @ point.covariance @ rotation.T,
+    )
+
+
+def flat_covariance(point: AssemblyPoint) -> Array | None:
+    """Covariance (2, 2), mm², of the centre in the plane of the column frame; None where it is not known."""
+    if point.covariance is None or not np.isfinite(point.covariance).all():
+        return None
+    return point.covariance[:2, :2]

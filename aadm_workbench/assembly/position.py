@@ -1,0 +1,163 @@
+"""Position of each centre against design, after the fit of its group: radial, in the plane (paper, 2.1.2).
+
+What is judged is the residual of the fit, so its covariance is that of a residual: with H the projection of all
+coordinates on the three parameters of the pose, C' = (I − H)·C·(I − H)ᵀ. The fit hides a group that stands off the
+grid as a whole: the absolute position is another check.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from aadm_workbench.assembly.decision import (
+    Decision,
+    DecisionRule,
+    decide_per_axis,
+    decide_radial,
+    standard_uncertainty,
+)
+from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
+from aadm_workbench.assembly.tolerances import describe_clause
+from aadm_workbench.model import Array, AssemblyPoint, PointResult, Rule, Vector3, Verdict
+
+
+def inspect_positions(
+    design: Sequence[AssemblyPoint],
+    placed: Sequence[PlacedPoint | None],
+    rule: Rule | None,
+    *,
+    decision: DecisionRule,
+    scale_error: float = 0.0,
+    missing: str = "not found in the scan",
+) -> tuple[PointResult, ...]:
+    """Offset of every measured centre from its design point, and the verdict on it.
+
+    Parameters
+    ----------
+    design
+        Design points in the column frame.
+    placed
+        What was measured of each, in the column frame, after the least-squares fit of the group.
+    rule
+        The limit; None reports deviations without a verdict.
+    scale_error
+        Relative standard uncertainty (k = 1) of the camera's lengths, where the covariances do not hold it.
+    missing
+        The reason given for points that were not measured.
+
+    Returns
+    -------
+    One result for each design point, in their order, also for those not measured.
+    """
+    found = [index for index, point in enumerate(placed) if point is not None]
+    points = [point.point for point in placed if point is not None]
+    flat = np.array([design[index].centre[:2] for index in found]).reshape(-1, 2)
+    covariances = residual_covariances(flat, [flat_covariance(point) for point in points], scale_error)
+    known = dict(zip(found, covariances, strict=True))
+    return tuple(
+        _unmeasured(target, rule, missing) if point is None else _measured(target, point, known[index], rule, decision)
+        for index, (target, point) in enumerate(zip(design, placed, strict=True))
+    )
+
+
+def residual_covariances(
+    points: Array, covariances: Sequence[Array | None], scale_error: float = 0.0
+) -> list[Array | None]:
+    """Covariance (2, 2), mm², of each residual of an unweighted rigid fit in the plane.
+
+    Parameters
+    ----------
+    points
+        (n, 2) float64, mm.
+    covariances
+        Of the measured points, (2, 2) each. Where one is None so is its result, and for the fit's part of the
+        others it is taken to be the mean of those known.
+    scale_error
+        Relative standard uncertainty of all lengths together: it moves every point along its distance from the
+        centroid, which no rigid pose can take up.
+    """
+    known = [covariance for covariance in covariances if covariance is not None]
+    if not known:
+        return [None] * len(covariances)
+    mean = np.mean(known, axis=0)
+    count = len(points)
+    full = np.zeros((2 * count, 2 * count))
+    for index, covariance in enumerate(covariances):
+        full[2 * index : 2 * index + 2, 2 * index : 2 * index + 2] = mean if covariance is None else covariance
+    spoke = points - points.mean(axis=0)
+    parameters = np.zeros((2 * count, 3))
+    parameters[0::2, 0] = parameters[1::2, 1] = 1.0
+    parameters[0::2, 2], parameters[1::2, 2] = -spoke[:, 1], spoke[:, 0]
+    residual = np.eye(2 * count) - parameters @ np.linalg.pinv(parameters)
+    stretch = scale_error * spoke.reshape(-1)
+    full = residual @ full @ residual.T + np.outer(stretch, stretch)
+    blocks = [full[2 * index : 2 * index + 2, 2 * index : 2 * index + 2] for index in range(count)]
+    return [None if covariances[index] is None else block for index, block in enumerate(blocks)]
+
+
+def _unmeasured(target: AssemblyPoint, rule: Rule | None, missing: str) -> PointResult:
+    return PointResult(
+        label=target.label,
+        global_id=target.global_id,
+        design_mm=as_vector(target.centre),
+        scan_mm=None,
+        aligned_mm=None,
+        diameter_mm=None,
+        axis_tilt_deg=None,
+        offset_mm=None,
+        deviation_mm=None,
+        u_mm=None,
+        limit_mm=None if rule is None else rule.upper,
+        verdict=Verdict.NOT_MEASURED,
+        reason=f"{target.label}: {missing}",
+    )
+
+
+def _measured(
+    target: AssemblyPoint, measured: PlacedPoint, covariance: Array | None, rule: Rule | None, decision: DecisionRule
+) -> PointResult:
+    offset = measured.point.centre[:2] - target.centre[:2]
+    deviation_mm = math.hypot(float(offset[0]), float(offset[1]))
+    u_mm = standard_uncertainty(covariance)
+    decided = Decision(Verdict.NOT_ASSESSED, None)
+    if rule is not None:
+        decide = decide_per_axis if rule.kind == "per_axis" else decide_radial
+        decided = decide(offset, covariance, rule.upper, decision)
+    return PointResult(
+        label=target.label,
+        global_id=target.global_id,
+        design_mm=as_vector(target.centre),
+        scan_mm=as_vector(measured.scan_mm),
+        aligned_mm=as_vector(measured.point.centre),
+        diameter_mm=measured.point.diameter_mm,
+        axis_tilt_deg=math.degrees(math.acos(min(1.0, float(measured.point.axis[2])))),
+        offset_mm=(float(offset[0]), float(offset[1])),
+        deviation_mm=deviation_mm,
+        u_mm=u_mm,
+        limit_mm=None if rule is None else rule.upper,
+        verdict=decided.verdict,
+        reason=_reason(target.label, deviation_mm, u_mm, rule, decided.verdict),
+        probability=decided.probability,
+        exposed_length_mm=measured.exposed_length_mm,
+    )
+
+
+def _reason(label: str, deviation_mm: float, u_mm: float | None, rule: Rule | None, verdict: Verdict) -> str:
+    if rule is None or verdict not in (Verdict.FAIL, Verdict.INCONCLUSIVE):
+        return ""
+    limit = f"limit {rule.upper:g} mm ({describe_clause(rule)})"
+    if verdict is Verdict.FAIL:
+        return f"{label} is {deviation_mm:.2f} mm from design, {limit}"
+    return (
+        f"{label} is {deviation_mm:.2f} mm from design, {limit}: "
+        f"too close to it for an uncertainty of {u_mm or 0.0:.2f} mm, rescan closer"
+    )
+
+
+def as_vector(values: Array) -> Vector3:
+    """The three numbers of a (3,) array, as reports hold them."""
+    x, y, z = (float(value) for value in values)
+    return x, y, z

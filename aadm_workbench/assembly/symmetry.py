@@ -1,0 +1,62 @@
+"""The turns about the column's axis that map a pattern of sleeves onto itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.assembly.eopa import NoFit, fit_eopa_planar
+from aadm_workbench.assembly.upright import turn, wrap
+from aadm_workbench.model import Array, IntArray
+
+SYMMETRIC_WITHIN_MM = 0.5
+
+
+@dataclass(frozen=True, eq=False)
+class SymmetricTurn:
+    """A turn of the pattern onto itself: turned by ``angle``, point k comes to where point ``onto[k]`` was."""
+
+    angle: float
+    onto: IntArray
+
+
+def symmetric_turns(centres: Array) -> tuple[SymmetricTurn, ...]:
+    """All turns of the pattern onto itself, the identity first, then by growing size.
+
+    Parameters
+    ----------
+    centres
+        (n, 2) or (n, 3) float64, mm, column frame; the pattern is turned about its centroid.
+    """
+    points = np.asarray(centres, dtype=np.float64)[:, :2]
+    centred = points - points.mean(axis=0)
+    radius = np.hypot(*centred.T)
+    reference = int(np.argmax(radius))
+    identity = SymmetricTurn(0.0, np.arange(len(points)))
+    if radius[reference] <= SYMMETRIC_WITHIN_MM:
+        return (identity,)
+    turns = [identity]
+    for index in np.flatnonzero(np.abs(radius - radius[reference]) <= 2.0 * SYMMETRIC_WITHIN_MM):
+        if index == reference:
+            continue
+        a, b = centred[reference], centred[index]
+        found = _turn_by(centred, float(np.arctan2(b[1], b[0]) - np.arctan2(a[1], a[0])))
+        if found is not None:
+            turns.append(found)
+    return tuple(sorted(turns, key=lambda found: (round(abs(found.angle), 9), -found.angle)))
+
+
+def _turn_by(centred: Array, about: float) -> SymmetricTurn | None:
+    """The turn near an angle that two corresponding points suggest, None where it is no turn onto itself."""
+    nearest = _distances(centred @ turn(about).T, centred).argmin(axis=1)
+    if len(set(nearest.tolist())) < len(nearest):
+        return None
+    fit = fit_eopa_planar(centred, centred[nearest])
+    if isinstance(fit, NoFit) or float(np.hypot(*fit.residuals.T).max()) > SYMMETRIC_WITHIN_MM:
+        return None
+    return SymmetricTurn(wrap(fit.yaw), nearest)
+
+
+def _distances(a: Array, b: Array) -> Array:
+    return np.asarray(np.hypot(*(a[:, None] - b[None]).transpose(2, 0, 1)))

@@ -1,0 +1,202 @@
+"""Tolerance profiles: named sets of limits, each with its clause and how far it was verified.
+
+A profile is a TOML file, one of this package's or the user's own::
+
+    schema = 1
+    title = "Our yard"
+
+    [[rules]]
+    name = "sleeve_position"        # unique within the profile
+    limits = "sleeve_position"      # what it limits, one of QUANTITIES
+    upper_mm = 2.0
+    clause = "T/CCES 30-2022, 4.3.3"
+    edition = "2022"
+    severity = "shall"              # or "should"
+    source = "verified"             # or "unverified": recalled, nobody has opened the text
+
+and, where they differ from the default: ``lower_mm`` (signed limits), ``kind`` (``radial``, ``per_axis`` or
+``signed``), ``level`` (``bar_in_group``, ``group_to_datum`` or ``component``), ``advisory`` (reported, not
+counted), ``note``.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from aadm_workbench.errors import JobError
+from aadm_workbench.model import Profile, Rule
+
+QUANTITIES = {
+    "sleeve_position": "radial",
+    "rebar_position": "radial",
+    "sleeve_spacing": "signed",
+    "rebar_spacing": "signed",
+    "sleeve_rebar_distance": "radial",
+    "rebar_exposed_length": "signed",
+    "rebar_adjustment": "radial",
+    "group_position": "radial",
+    "column_axis": "radial",
+    "elevation": "signed",
+    "verticality": "signed",
+}
+"""What a rule can limit, and how its deviation is taken unless the rule says otherwise."""
+
+_KINDS = ("radial", "per_axis", "signed")
+_LEVELS = ("bar_in_group", "group_to_datum", "component")
+_SEVERITIES = ("shall", "should")
+_SOURCES = ("verified", "unverified")
+_TYPES: dict[str, tuple[type, ...]] = {
+    "name": (str,),
+    "limits": (str,),
+    "upper_mm": (int, float),
+    "lower_mm": (int, float),
+    "clause": (str,),
+    "edition": (str,),
+    "severity": (str,),
+    "source": (str,),
+    "kind": (str,),
+    "level": (str,),
+    "advisory": (bool,),
+    "note": (str,),
+}
+_TYPE_NAMES = {str: "text", float: "a number", bool: "true or false"}
+_REQUIRED = ("name", "limits", "upper_mm", "clause", "severity", "source")
+
+_Table: TypeAlias = dict[str, Any]
+
+
+def profile_names() -> tuple[str, ...]:
+    """Names of the built-in profiles, sorted."""
+    return tuple(sorted(path.stem for path in _folder().glob("*.toml")))
+
+
+def load_profile(name: str, beside: Path | None = None) -> Profile:
+    """Read a built-in profile by its name, or a profile file by its path.
+
+    Parameters
+    ----------
+    name
+        Name of a built-in profile, or a path that ends in ``.toml``.
+    beside
+        Folder that a relative path starts from: the folder of the job.
+
+    Raises
+    ------
+    JobError
+        If there is no such profile (the message lists those there are) or its text is wrong.
+    """
+    if not name.endswith(".toml"):
+        path = _folder() / f"{name}.toml"
+        if name not in profile_names():
+            known = ", ".join(profile_names())
+            raise JobError(f"Unknown tolerance profile {name!r}. Built in: {known}; or give the path of a .toml file.")
+    else:
+        path = (beside or Path()) / name
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise JobError(f"Tolerance profile {path} cannot be read: {error}") from error
+    return parse_profile(text, path.stem, str(path))
+
+
+def parse_profile(text: str, name: str, source: str) -> Profile:
+    """Read the text of a profile; ``source`` is the file that errors name.
+
+    Raises
+    ------
+    JobError
+        With the file and the key, or the line, that is wrong.
+    """
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise JobError(f"{source}: not TOML: {error}") from error
+    if table.get("schema") != 1:
+        raise JobError(f"{source}: schema must be 1, it is {table.get('schema')!r}")
+    unknown = sorted(set(table) - {"schema", "name", "title", "rules"})
+    if unknown:
+        raise JobError(f"{source}: unknown key {unknown[0]!r}; known are name, rules, schema, title")
+    for key in ("name", "title"):
+        if not isinstance(table.get(key, ""), str):
+            raise JobError(f"{source}: {key} must be text")
+    entries = table.get("rules", [])
+    if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
+        raise JobError(f"{source}: rules: a profile needs at least one [[rules]] table")
+    rules = tuple(_rule(entry, f"{source}: rules[{number}]") for number, entry in enumerate(entries, start=1))
+    names = [rule.name for rule in rules]
+    for rule_name in names:
+        if names.count(rule_name) > 1:
+            raise JobError(f"{source}: two rules have the name {rule_name!r}")
+    adjustment = next((rule.upper for rule in rules if rule.limits == "rebar_adjustment"), None)
+    return Profile(table.get("name", name), table.get("title", name), rules, adjustment)
+
+
+def rules_for(profile: Profile, quantity: str) -> tuple[Rule, ...]:
+    """The rules that limit one quantity, the governing one first: counted before advisory, then the tightest."""
+    found = [rule for rule in profile.rules if rule.limits == quantity]
+    return tuple(sorted(found, key=lambda rule: (rule.advisory, rule.upper)))
+
+
+def describe_clause(rule: Rule) -> str:
+    """The clause as messages print it, with the mark of a limit that nobody has verified."""
+    return rule.clause if rule.source == "verified" else f"{rule.clause}, unverified"
+
+
+def _folder() -> Path:
+    return Path(__file__).resolve().parents[1] / "resources" / "tolerances"
+
+
+def _rule(entry: _Table, where: str) -> Rule:
+    where = f"{where} ({entry['name']})" if isinstance(entry.get("name"), str) else where
+    for key, value in entry.items():
+        if key not in _TYPES:
+            raise JobError(f"{where}: unknown key {key!r}; known are {', '.join(sorted(_TYPES))}")
+        if not isinstance(value, _TYPES[key]) or (isinstance(value, bool) and key != "advisory"):
+            raise JobError(f"{where}: {key} must be {_TYPE_NAMES[_TYPES[key][-1]]}, it is {value!r}")
+    for key in _REQUIRED:
+        if key not in entry:
+            raise JobError(f"{where}: the key {key!r} is missing")
+    _one_of(entry["limits"], tuple(QUANTITIES), f"{where}: limits")
+    kind = entry.get("kind", QUANTITIES[entry["limits"]])
+    _one_of(kind, _KINDS, f"{where}: kind")
+    if (kind == "signed") != (QUANTITIES[entry["limits"]] == "signed"):
+        raise JobError(f"{where}: kind: {entry['limits']} cannot be {kind}")
+    _one_of(entry["severity"], _SEVERITIES, f"{where}: severity")
+    _one_of(entry["source"], _SOURCES, f"{where}: source")
+    _one_of(entry.get("level", "bar_in_group"), _LEVELS, f"{where}: level")
+    _check_limits(entry, kind, where)
+    return Rule(
+        name=entry["name"],
+        limits=entry["limits"],
+        upper=float(entry["upper_mm"]),
+        lower=float(entry["lower_mm"]) if "lower_mm" in entry else None,
+        clause=entry["clause"],
+        severity=entry["severity"],
+        source=entry["source"],
+        advisory=entry.get("advisory", False),
+        edition=entry.get("edition", ""),
+        note=entry.get("note", ""),
+        kind=kind,
+        level=entry.get("level", "bar_in_group"),
+    )
+
+
+def _one_of(value: str, known: tuple[str, ...], where: str) -> None:
+    if value not in known:
+        raise JobError(f"{where} must be one of {', '.join(known)}; it is {value!r}")
+
+
+def _check_limits(entry: _Table, kind: str, where: str) -> None:
+    upper, lower = float(entry["upper_mm"]), float(entry.get("lower_mm", -math.inf))
+    if not math.isfinite(upper) or ("lower_mm" in entry and not math.isfinite(lower)):
+        raise JobError(f"{where}: upper_mm and lower_mm must be finite")
+    if kind == "signed":
+        if lower >= upper:
+            raise JobError(f"{where}: lower_mm {lower} must be below upper_mm {upper}")
+    elif "lower_mm" in entry:
+        raise JobError(f"{where}: lower_mm: a {kind} limit has no lower end")
+    elif upper <= 0.0:
+        raise JobError(f"{where}: upper_mm must be above zero, it is {upper}")
