@@ -7,10 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
-from scipy.spatial.distance import cdist
 
-from aadm_workbench.design.rings import are_closed, ring_edges, rings
+from aadm_workbench.design.rings import are_closed, distances_mm, ring_edges, rings
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, IntArray, Kind
 
@@ -61,7 +59,9 @@ def pair(sleeves: Array, rebars: Array, within_mm: float = math.inf) -> IntArray
     partner = np.full(len(sleeves), -1, dtype=np.int64)
     if not len(sleeves) or not len(rebars):
         return partner
-    distance_mm = cdist(sleeves, rebars)
+    from scipy.optimize import linear_sum_assignment  # slow to import, and only models need it
+
+    distance_mm = distances_mm(sleeves, rebars)
     # What is out of reach costs more than any set of pairs within it, and is dropped afterwards.
     out_of_reach = distance_mm > within_mm
     reachable_mm = float(distance_mm[~out_of_reach].sum()) if not out_of_reach.all() else 0.0
@@ -100,7 +100,7 @@ def adjacent(xy: Array) -> list[tuple[int, int]]:
 def _nearest_pairs(xy: Array, members: Sequence[int]) -> list[tuple[int, int]]:
     if len(xy) < 2:
         return []
-    distance_mm = cdist(xy, xy)
+    distance_mm = distances_mm(xy, xy)
     np.fill_diagonal(distance_mm, np.inf)
     pairs: list[tuple[int, int]] = []
     for index in members:
@@ -178,7 +178,7 @@ def _centres(column: str, written: Any) -> Array:
         if not _is_list(centre) or len(centre) != 2 or not all(_is_number(value) for value in centre):
             raise DesignError(f"Centre {number} of column {column} is {centre!r}: it must be two numbers [x, y] in mm.")
     xy = np.array(written, dtype=np.float64)
-    gap_mm = cdist(xy, xy) + np.where(np.eye(len(xy), dtype=bool), np.inf, 0.0)
+    gap_mm = distances_mm(xy, xy) + np.where(np.eye(len(xy), dtype=bool), np.inf, 0.0)
     if gap_mm.min() < _SAME_POINT_MM:
         first, second = (int(index) + 1 for index in np.unravel_index(int(gap_mm.argmin()), gap_mm.shape))
         raise DesignError(f"Centres {first} and {second} of column {column} are the same point: remove one.")

@@ -5,8 +5,6 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from scipy.spatial import ConvexHull
-from scipy.spatial.distance import cdist
 
 from aadm_workbench.model import Array, BoolArray, IntArray
 
@@ -21,6 +19,7 @@ _SAME_CENTRE_RATIO = 0.25
 _BETWEEN_RATIO = 0.99
 """Part of the circle over two neighbours' connecting line in which a third point stands between them."""
 
+_ROUNDING_MM = 1e-6
 _TIE_MM = 0.01
 """Points whose distances from the corner differ by less are equally near."""
 
@@ -52,11 +51,17 @@ def rings(xy: Array) -> list[IntArray]:
     return found
 
 
+def distances_mm(first: Array, second: Array) -> Array:
+    """Distances (n, m) between points (n, 2) and (m, 2)."""
+    offset = first[:, None, :] - second[None, :, :]
+    return np.asarray(np.hypot(offset[..., 0], offset[..., 1]))
+
+
 def smallest_spacing(xy: Array) -> float:
     """Distance of the two nearest points, mm; 0 for fewer than two points."""
     if len(xy) < 2:
         return 0.0
-    distance_mm = cdist(xy, xy)
+    distance_mm = distances_mm(xy, xy)
     np.fill_diagonal(distance_mm, np.inf)
     return float(distance_mm.min())
 
@@ -100,11 +105,22 @@ def _on_outline(xy: Array, reach_mm: float) -> BoolArray:
     """Which points lie on the convex outline or within ``reach_mm`` of it."""
     if len(xy) < 3 or _lies_on_a_line(xy, reach_mm):
         return np.ones(len(xy), dtype=np.bool_)
-    # Each row of the equations is an outward unit normal and an offset: the height above an edge is <= 0 inside.
-    equations = ConvexHull(xy).equations
-    height_mm = xy @ equations[:, :2].T + equations[:, 2]
-    on_outline: BoolArray = height_mm.max(axis=1) >= -reach_mm
+    on_outline: BoolArray = _heights_over_edges(xy).max(axis=1) >= -reach_mm
     return on_outline
+
+
+def _heights_over_edges(xy: Array) -> Array:
+    """Height (n, e) mm of each point above each edge of the convex outline; none lies above an edge.
+
+    An edge joins two points with no third above their line. Patterns are small, so all pairs are tried: the hull
+    of scipy.spatial would double the time that a check takes to start.
+    """
+    first, second = np.nonzero(distances_mm(xy, xy) > _TIE_MM)
+    along = xy[second] - xy[first]
+    outward = np.column_stack([along[:, 1], -along[:, 0]]) / np.hypot(along[:, 0], along[:, 1])[:, None]
+    height_mm = xy @ outward.T - np.einsum("ij,ij->i", xy[first], outward)
+    edges: Array = height_mm[:, height_mm.max(axis=0) <= _ROUNDING_MM]
+    return edges
 
 
 def _lies_on_a_line(xy: Array, reach_mm: float) -> bool:
