@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from aadm_workbench.assembly.column import rules_of_the_erected_column, sum_up
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.inspect import inspect_group
 from aadm_workbench.assembly.match import Match, match_extraction
@@ -20,6 +21,7 @@ from aadm_workbench.extract.method import extract
 from aadm_workbench.extract.missing import explain_missing
 from aadm_workbench.model import (
     Array,
+    AssemblyPoint,
     ColumnDesign,
     ColumnReport,
     Extraction,
@@ -30,7 +32,6 @@ from aadm_workbench.model import (
     Scan,
     TrialReport,
     Verdict,
-    worst,
 )
 
 IMAGE_UP_SCAN = np.array([0.0, -1.0, 0.0])
@@ -55,8 +56,11 @@ class CheckSettings:
 
 @dataclass(frozen=True)
 class ColumnScans:
-    """The scans of one column. ``..._up_deg``: column-frame direction at the top of the image, in degrees
-    from +x, counter-clockwise seen from above; None where nobody declared it."""
+    """The scans of one column.
+
+    ``..._up_deg``: column-frame direction at the top of the image, in degrees from +x, counter-clockwise seen from
+    above; None where nobody declared it.
+    """
 
     sleeves: tuple[Scan, ...] = ()
     rebars: tuple[Scan, ...] = ()
@@ -64,9 +68,11 @@ class ColumnScans:
     rebars_up_deg: float | None = None
 
     def of(self, kind: Kind) -> tuple[Scan, ...]:
+        """The views of one kind."""
         return self.sleeves if kind is Kind.SLEEVE else self.rebars
 
     def up_deg(self, kind: Kind) -> float | None:
+        """The declared direction of the views of one kind."""
         return self.sleeves_up_deg if kind is Kind.SLEEVE else self.rebars_up_deg
 
 
@@ -107,7 +113,7 @@ def check_column(
     if "trial" in checks:
         with stage("assembly"):
             trial = _try(design, measured[Kind.SLEEVE], measured[Kind.REBAR], settings)
-    return _report(design, measured, trial, checks)
+    return _report(design, measured, trial, checks, settings.profile)
 
 
 def _wanted(design: ColumnDesign, scans: ColumnScans, settings: CheckSettings) -> tuple[str, ...]:
@@ -123,7 +129,12 @@ def _wanted(design: ColumnDesign, scans: ColumnScans, settings: CheckSettings) -
 
 
 def _measure(
-    design: ColumnDesign, scans: tuple[Scan, ...], up_deg: float | None, kind: Kind, settings: CheckSettings, stage: Stage
+    design: ColumnDesign,
+    scans: tuple[Scan, ...],
+    up_deg: float | None,
+    kind: Kind,
+    settings: CheckSettings,
+    stage: Stage,
 ) -> Measured:
     """Extract, match and inspect one group of points."""
     if len(scans) > 1:
@@ -156,15 +167,15 @@ def _measure(
     return Measured(extraction, match, _with_reasons(report, reasons))
 
 
-def _missing_places(points: tuple[object, ...], match: Match) -> dict[int, Array]:
+def _missing_places(points: tuple[AssemblyPoint, ...], match: Match) -> dict[int, Array]:
     """Where in the scan (3,) mm the design points should be that were not found, by their index."""
     if not match:
         return {}
     placement = match.placements[0]
     T_scan_design = np.linalg.inv(placement.T_design_scan)
     return {
-        k: T_scan_design[:3, :3] @ points[k].centre + T_scan_design[:3, 3]  # type: ignore[attr-defined]
-        for k in np.flatnonzero(placement.matched < 0)
+        k: T_scan_design[:3, :3] @ points[k].centre + T_scan_design[:3, 3]
+        for k in np.flatnonzero(placement.matched < 0).tolist()
     }
 
 
@@ -206,19 +217,20 @@ def _try(design: ColumnDesign, sleeves: Measured, rebars: Measured, settings: Ch
 
 
 def _report(
-    design: ColumnDesign, measured: Mapping[Kind, Measured], trial: TrialReport | None, checks: tuple[str, ...]
+    design: ColumnDesign,
+    measured: Mapping[Kind, Measured],
+    trial: TrialReport | None,
+    checks: tuple[str, ...],
+    profile: Profile,
 ) -> ColumnReport:
     groups = {kind.plural: measured[kind].report for kind in measured}
-    counted = {name: groups[name].verdict for name in checks if name in groups}
-    reasons = [text for name in checks if name in groups for text in groups[name].reasons]
-    if trial is not None:
-        counted["trial"] = trial.verdict
-        reasons += trial.reasons
+    asked = {name: report for name, report in groups.items() if name in checks}
+    verdict, goes_on, reasons = sum_up(asked.get(Kind.SLEEVE.plural), asked.get(Kind.REBAR.plural), trial)
     return ColumnReport(
         id=design.id,
-        verdict=worst(counted.values()),
-        goes_on=trial.verdict if trial is not None else Verdict.NOT_ASSESSED,
-        reasons=tuple(reasons),
+        verdict=verdict,
+        goes_on=goes_on,
+        reasons=reasons,
         sleeves=groups.get(Kind.SLEEVE.plural),
         rebars=groups.get(Kind.REBAR.plural),
         trial_assembly=trial,
@@ -228,5 +240,6 @@ def _report(
         grid=design.grid,
         size_mm=design.size_mm,
         T_model_column=design.T_model_column,
+        rules=rules_of_the_erected_column(profile),
         notes=design.warnings,
     )

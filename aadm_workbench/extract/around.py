@@ -29,7 +29,7 @@ class Neighbourhood:
 
 
 def points_around(
-    scan: Scan, sample: Thinned, plane: Plane, centres: Array, reach_mm: float
+    scan: Scan, sample: Thinned, plane: Plane, centres: Array, reach_mm: float, *, find_borne: bool = False
 ) -> list[Neighbourhood]:
     """Points of the full scan that are seen around some places of a plane.
 
@@ -40,15 +40,17 @@ def points_around(
     ----------
     centres
         (k, 2) mm, in the plane's axes.
+    find_borne
+        Whether to tell the points that hang in the air from the others; without it all count as borne.
 
     Returns
     -------
     list of :class:`Neighbourhood`.
     """
     if sample.pixels is not None:
-        seen = seen_at(sample.points, plane, scan.viewpoint)
-        return [_window(scan.points, sample, seen, plane, centre, reach_mm) for centre in centres]
-    return _gathered(scan, plane, centres, reach_mm)
+        seen = seen_at(sample.points, plane, scan.viewpoint).astype(np.float32)
+        return [_window(scan.points, sample, seen, plane, centre, reach_mm, find_borne) for centre in centres]
+    return _gathered(scan, plane, centres, reach_mm, find_borne)
 
 
 def seen_at(points: Array, plane: Plane, viewpoint: Array | None) -> Array:
@@ -62,17 +64,26 @@ def seen_at(points: Array, plane: Plane, viewpoint: Array | None) -> Array:
 
 
 def _window(
-    points: FloatArray, sample: Thinned, seen: Array, plane: Plane, centre: Array, reach_mm: float
+    points: FloatArray,
+    sample: Thinned,
+    seen: FloatArray,
+    plane: Plane,
+    centre: Array,
+    reach_mm: float,
+    find_borne: bool,
 ) -> Neighbourhood:
     assert sample.pixels is not None
-    close = np.abs(seen - centre).max(axis=1) < reach_mm
-    if not close.any():
+    about = np.abs(seen - centre.astype(np.float32))
+    close = np.flatnonzero((about[:, 0] < reach_mm) & (about[:, 1] < reach_mm))
+    if len(close) == 0:
         return Neighbourhood(np.empty((0, 3)), np.empty(0, bool))
     low = np.maximum(sample.pixels[close].min(axis=0) - sample.stride, 0)
     high = sample.pixels[close].max(axis=0) + sample.stride + 1
     window = points[low[0] : high[0], low[1] : high[1]]
     returned = np.isfinite(window[..., 2])
     local = in_plane(window[returned].astype(np.float64), plane)
+    if not find_borne:
+        return Neighbourhood(local, np.ones(len(local), bool))
     height = np.full(returned.shape, np.nan)
     height[returned] = local[:, 2]
     return Neighbourhood(local, _borne(height)[returned])
@@ -91,7 +102,7 @@ def _borne(height: Array) -> BoolArray:
     return np.asarray(count >= _BORNE_BY)
 
 
-def _gathered(scan: Scan, plane: Plane, centres: Array, reach_mm: float) -> list[Neighbourhood]:
+def _gathered(scan: Scan, plane: Plane, centres: Array, reach_mm: float, find_borne: bool) -> list[Neighbourhood]:
     if len(centres) == 0:
         return []
     low = centres.min(axis=0) - reach_mm - 2 * _LABEL_CELL_MM
@@ -107,7 +118,21 @@ def _gathered(scan: Scan, plane: Plane, centres: Array, reach_mm: float) -> list
         kept_labels.append(label[label >= 0])
     gathered, owner = np.concatenate(kept_points), np.concatenate(kept_labels)
     parts = [gathered[owner == k] for k in range(len(centres))]
-    return [Neighbourhood(part, np.ones(len(part), bool)) for part in parts]
+    eye = None if scan.viewpoint is None or not find_borne else in_plane(scan.viewpoint[None], plane)[0]
+    return [Neighbourhood(part, _borne_in_cloud(part, eye, reach_mm)) for part in parts]
+
+
+def _borne_in_cloud(local: Array, eye: Array | None, reach_mm: float) -> BoolArray:
+    """The like of :func:`_borne` for points (n, 3) without pixels: neighbours by where they are seen."""
+    if eye is None or len(local) < 10:
+        return np.ones(len(local), bool)
+    from scipy.spatial import cKDTree
+
+    seen = eye[:2] + (local[:, :2] - eye[:2]) * (eye[2] / np.maximum(eye[2] - local[:, 2], 1e-6))[:, None]
+    pitch_mm = reach_mm * np.sqrt(np.pi / len(local))
+    scaled = np.column_stack([seen / (1.8 * pitch_mm), local[:, 2] / _BORNE_WITHIN_MM])
+    near = cKDTree(scaled).query_ball_point(scaled, 1.0, p=np.inf, return_length=True)
+    return np.asarray(near > _BORNE_BY)
 
 
 def _painted(centres: Array, reach_mm: float, shape: Array) -> FloatArray:

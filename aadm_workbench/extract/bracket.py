@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.extract.circle import bins_of
-from aadm_workbench.model import Array, BoolArray, Plane
+from aadm_workbench.model import Array, BoolArray, IntArray, Plane
 
 _WIDEST_PITCHES = 4.0
 _OVERLAP_PITCHES = 0.7
@@ -69,7 +69,7 @@ def bracketed(
     )
 
 
-def _extreme(xy: Array, centre: Array, bins: int, sign: float) -> tuple[Array, Array]:
+def _extreme(xy: Array, centre: Array, bins: int, sign: float) -> tuple[Array, IntArray]:
     """Per bin the smallest (sign +1) or largest (-1) radius, infinite where there is none, and its index."""
     about = xy - centre
     radius = np.hypot(about[:, 0], about[:, 1])
@@ -85,7 +85,7 @@ def _extreme(xy: Array, centre: Array, bins: int, sign: float) -> tuple[Array, A
     return extreme, index
 
 
-def _directions(xy: Array, index: Array, centre: Array, wanted: BoolArray) -> Array:
+def _directions(xy: Array, index: IntArray, centre: Array, wanted: BoolArray) -> Array:
     about = xy[index[wanted]] - centre if wanted.any() else np.empty((0, 2))
     length = np.maximum(np.hypot(about[:, 0], about[:, 1]), 1e-9)
     return np.asarray(about / length[:, None])

@@ -49,8 +49,8 @@ def outline(xy: Array, centre: Array, bins: int, *, innermost: bool) -> Outline:
 def circle_through(xy: Array, centre: Array, radius_mm: float) -> tuple[Array, float]:
     """Robust circle of free radius through points (n, 2) mm: centre (2,) and radius.
 
-    Gauss-Newton on the distances with Cauchy weights, so that a chip, a rib or a tape on less than half
-    of the outline does not pull it.
+    Gauss-Newton on the distances with Cauchy weights, so that a chip, a rib or a tape on a small part of
+    the outline hardly pulls it.
     """
     if len(xy) < 5:
         return centre, radius_mm

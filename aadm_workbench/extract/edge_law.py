@@ -8,6 +8,7 @@ lost moves only their tails.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,7 @@ from aadm_workbench.model import Array
 
 _STRAY_SHARE = 0.01  # of points that follow no law at all
 _STRAY_SPAN_MM = 4.0
+_COARSE_MM, _FINE_MM = (0.9, 0.15), (0.2, 0.05)  # reach and step of the grids of centres
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,7 @@ class RimLaw:
 
     @property
     def softness_mm(self) -> float:
+        """Half width of the flank."""
         return 0.08 * self.pitch_mm
 
     def cost(self, behind: Array) -> Array:
@@ -47,11 +50,11 @@ class RimLaw:
 
     def _own(self, behind: Array) -> Array:
         tail = np.exp(-np.maximum(behind, 0.0) / self.tail_mm) / self.tail_mm
-        return (1.0 - self.foreign) * _step(behind / self.softness_mm) * tail
+        return np.asarray((1.0 - self.foreign) * _step(behind / self.softness_mm) * tail)
 
     def _standing_out(self, behind: Array) -> Array:
         tail = np.exp(np.minimum(behind, 0.0) / self.stands_out_mm) / self.stands_out_mm
-        return self.foreign * _step(-behind / self.softness_mm) * tail
+        return np.asarray(self.foreign * _step(-behind / self.softness_mm) * tail)
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,7 @@ class BracketLaw:
 
     @property
     def softness_mm(self) -> float:
+        """Half width of the flank."""
         return self.width_mm
 
     def cost(self, behind: Array) -> Array:
@@ -78,8 +82,7 @@ class BracketLaw:
         return _derivative(self.cost, behind, 0.05 * self.width_mm)
 
 
-def _derivative(cost: object, at: Array, step_mm: float) -> Array:
-    assert callable(cost)
+def _derivative(cost: Callable[[Array], Array], at: Array, step_mm: float) -> Array:
     return np.asarray((cost(at + step_mm) - cost(at - step_mm)) / (2.0 * step_mm))
 
 
@@ -94,7 +97,6 @@ def best_circles(
     radius_mm: float,
     laws: tuple[BracketLaw, RimLaw, BracketLaw],
     side: float,
-    reach_mm: float = 0.9,
 ) -> tuple[Array, float]:
     """Circles of one pooled radius where robust fits mislead: ribs can stand out on half of an outline.
 
@@ -104,20 +106,19 @@ def best_circles(
     points (n, 2) of its side. Returns centres (k, 2) and the radius, mm, to about 0.05 mm.
     """
     evidence = [
-        [_thin(shape.middle), _thin(shape.rim), _thin(side_xy)]
-        for shape, side_xy in zip(outlines, sides, strict=True)
+        [_thin(shape.middle), _thin(shape.rim), _thin(side_xy)] for shape, side_xy in zip(outlines, sides, strict=True)
     ]
     radii = radius_mm + np.arange(-1.2, 1.21, 0.15)
-    coarse = [_grid(parts, centre, radii, laws, side, 0.9, 0.15) for parts, centre in zip(evidence, centres, strict=True)]
-    own = [
-        _grid(parts, centre, radius + np.arange(-0.15, 0.16, 0.05), laws, side, 0.2, 0.05)[1]
-        for parts, (centre, radius) in zip(evidence, coarse, strict=True)
-    ]
-    pooled = float(np.percentile(own, 25.0))
-    only = np.array([pooled])
-    found = [_grid(parts, centre, only, laws, side, 0.9, 0.15)[0] for parts, centre in zip(evidence, centres, strict=True)]
-    found = [_grid(parts, centre, only, laws, side, 0.2, 0.05)[0] for parts, centre in zip(evidence, found, strict=True)]
-    return np.array(found), pooled
+    own = []
+    for parts, centre in zip(evidence, centres, strict=True):
+        near, radius = _grid(parts, centre, radii, laws, side, *_COARSE_MM)
+        own.append(_grid(parts, near, radius + np.arange(-0.15, 0.16, 0.05), laws, side, *_FINE_MM)[1])
+    pooled = np.array([np.percentile(own, 25.0)])
+    found = []
+    for parts, centre in zip(evidence, centres, strict=True):
+        near, _ = _grid(parts, centre, pooled, laws, side, *_COARSE_MM)
+        found.append(_grid(parts, near, pooled, laws, side, *_FINE_MM)[0])
+    return np.array(found), float(pooled[0])
 
 
 def _grid(
@@ -133,11 +134,12 @@ def _grid(
     step = np.arange(-reach_mm, reach_mm + 1e-9, step_mm)
     shifts = np.stack(np.meshgrid(step, step), -1).reshape(-1, 2)
     distances = [_distances(points, centre, shifts) for points in evidence]
-    costs = [
-        np.asarray(sum(law.cost(side * (d - radius)).sum(axis=1) for law, d in zip(laws, distances, strict=True)))
-        for radius in radii
-    ]
-    which, where = np.unravel_index(int(np.argmin(costs)), (len(radii), len(shifts)))
+    costs = np.zeros((len(radii), len(shifts)))
+    for cost, radius in zip(costs, radii, strict=True):
+        cost += laws[0].cost(side * (distances[0] - radius)).sum(axis=1)
+        cost += laws[1].cost(side * (distances[1] - radius)).sum(axis=1)
+        cost += laws[2].cost(side * (distances[2] - radius)).sum(axis=1)
+    which, where = np.unravel_index(int(costs.argmin()), (len(radii), len(shifts)))
     return centre + shifts[where], float(radii[which])
 
 

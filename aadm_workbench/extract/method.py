@@ -15,7 +15,9 @@ class Extractor(Protocol):
 
     def __call__(
         self, scan: Scan, diameter_mm: float, rng: np.random.Generator, places: Array | None = None
-    ) -> Extraction: ...
+    ) -> Extraction:
+        """Find the points; see :func:`extract`."""
+        ...
 
 
 _PACKAGE = "aadm_workbench.extract"

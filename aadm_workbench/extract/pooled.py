@@ -133,7 +133,8 @@ class _Terms:
         else:
             slope = -self.walls.law.slope(-self.wall) / _WALL_CORRELATION**2
             bend = np.abs(slope) / np.maximum(np.abs(self.wall), self.walls.law.softness_mm)
-            system.add(self.wall_jacobian, slope, slope**2 * _WALL_CORRELATION**2 if knowledge else bend, self.walls.owner)
+            bend = slope**2 * _WALL_CORRELATION**2 if knowledge else bend
+            system.add(self.wall_jacobian, slope, bend, self.walls.owner)
         for points, residual, jacobian, slope in (
             (self.brackets, self.edge, self.edge_jacobian, self.edge_slope),
             (self.rims, self.rim, self.rim_jacobian, self.rim_slope),
@@ -170,7 +171,7 @@ class _System:
         self.gradient = np.zeros(size)
 
     def add(self, jacobian: Array, slope: Array, bend: Array, owner: IntArray) -> None:
-        """Add terms, sorted by owner: jacobian (n, own + pooled) of the residuals, slope and bend (n,) of their costs."""
+        """Add terms, sorted by owner: jacobian (n, own + pooled) of residuals, slope and bend (n,) of their costs."""
         begin = np.searchsorted(owner, np.arange(self.features + 1))
         for k in range(self.features):
             rows = slice(begin[k], begin[k + 1])

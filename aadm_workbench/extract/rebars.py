@@ -21,12 +21,14 @@ from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.extract.tops import Standing, find_standing, top_plane
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Kind, Plane, Scan
 
-_SAMPLE = 200_000
+_SAMPLE = 130_000
 _REACH_MM = 6.0
 _SIDE_DEPTH_MM = (0.8, 25.0)
 _SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
 _SIDE_POINTS_MAX = 600
 _RADIUS_MISFIT = 0.15
+_GOES_ON_SHARE = 0.3
+_SHAPE_U_MM = 0.065  # what ribs and burrs leave of the outline's departure from a circle, in simulated scans
 _FOREIGN = 0.5  # share of outline points that are ribs
 _BAR_PRIORS = Priors(lean=0.01, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.03, wall_to_edge=0.02)
 
@@ -44,9 +46,7 @@ class Top:
     pitch_mm: float
 
 
-def extract_rebars(
-    scan: Scan, diameter_mm: float, rng: np.random.Generator, places: Array | None = None
-) -> Extraction:
+def extract_rebars(scan: Scan, diameter_mm: float, rng: np.random.Generator, places: Array | None = None) -> Extraction:
     """Centres of the tops of all bars of one diameter.
 
     Parameters
@@ -101,7 +101,7 @@ def _with_places(centres: Array, places: Array, diameter_mm: float) -> Array:
 def _tops(
     scan: Scan, sample: Thinned, level: Plane, centres: Array, diameter_mm: float, rng: np.random.Generator
 ) -> list[Top]:
-    parts = points_around(scan, sample, level, centres, diameter_mm / 2 + _REACH_MM)
+    parts = points_around(scan, sample, level, centres, diameter_mm / 2 + _REACH_MM, find_borne=True)
     eye = None if scan.viewpoint is None else in_plane(scan.viewpoint[None], level)[0]
     tops = [_top(part, centre, diameter_mm / 2, eye, rng) for part, centre in zip(parts, centres, strict=True)]
     return [top for top in tops if top is not None]
@@ -115,7 +115,7 @@ def _top(
     if plane is None:
         return None
     plane = Plane(plane.normal, plane.offset + float(plane.normal @ shift), plane.residual_mm)
-    height = plane.height(local)
+    height = np.asarray(plane.height(local), np.float64)
     band_mm = max(4.0 * plane.residual_mm, 0.3)
     on_top = np.abs(height) < band_mm
     xy = local[:, :2]
@@ -123,17 +123,28 @@ def _top(
     bins = int(np.clip(2 * np.pi * radius_mm / pitch_mm, 24, 720))
     centre = _settled(xy[on_top], centre, radius_mm, bins)
     radius = np.hypot(*(xy - centre).T)
+    if _goes_on(radius[on_top], radius_mm):
+        return None
     rim_xy = xy[on_top & (radius < radius_mm + 2.5)]
     rim = outline(rim_xy, centre, bins, innermost=False)
     if rim.coverage < 0.5:
         return None
-    passed = np.empty((0, 2)) if eye is None else crossings(local[around.borne & (height < -band_mm)], eye, plane)[:, :2]
-    passed = passed[np.hypot(*(passed - centre).T) > 0.75 * radius_mm]
+    passed = np.empty((0, 2))
+    if eye is not None:
+        passed = crossings(local[around.borne & (height < -band_mm)], eye, plane)[:, :2]
+        passed = passed[np.hypot(*(passed - centre).T) > 0.75 * radius_mm]
     outlines = bracketed(rim_xy, passed, centre, np.ones(bins, bool), pitch_mm, hole=False)
     in_band = (radius - radius_mm > _SIDE_BAND_MM[0]) & (radius - radius_mm < _SIDE_BAND_MM[1])
     side = np.flatnonzero(in_band & (-height > _SIDE_DEPTH_MM[0]) & (-height < _SIDE_DEPTH_MM[1]))
     side = side[:: max(1, len(side) // _SIDE_POINTS_MAX + 1)]
     return Top(centre, plane, outlines, xy[side], -height[side], rim.coverage, pitch_mm)
+
+
+def _goes_on(radius: Array, radius_mm: float) -> bool:
+    """Whether the surface goes on around where a top should end: a floor or a plate, no bar."""
+    disc = (radius < 0.9 * radius_mm).sum() / 0.9**2
+    around = ((radius > 1.25 * radius_mm) & (radius < 1.5 * radius_mm)).sum() / (1.5**2 - 1.25**2)
+    return bool(around > _GOES_ON_SHARE * disc)
 
 
 def _settled(top_xy: Array, centre: Array, radius_mm: float, bins: int) -> Array:
@@ -149,7 +160,9 @@ def _settled(top_xy: Array, centre: Array, radius_mm: float, bins: int) -> Array
     return centre
 
 
-def _evidence(tops: list[Top], bracket_law: BracketLaw, rim_law: RimLaw, side_law: BracketLaw) -> tuple[Brackets, Rims, Walls]:
+def _evidence(
+    tops: list[Top], bracket_law: BracketLaw, rim_law: RimLaw, side_law: BracketLaw
+) -> tuple[Brackets, Rims, Walls]:
     rims = Rims(
         np.concatenate([t.outlines.rim for t in tops]), _owners([len(t.outlines.rim) for t in tops]), -1.0, rim_law
     )
@@ -172,7 +185,7 @@ def _owners(counts: list[int]) -> IntArray:
 
 def _extraction(tops: list[Top], fit: PooledFit, standing: Standing, level: Plane, diameter_mm: float) -> Extraction:
     sound = np.flatnonzero(np.abs(2 * fit.outline_radius / diameter_mm - 1.0) < _RADIUS_MISFIT)
-    points = tuple(_point(tops[k], fit, k, level) for k in sound)
+    points = tuple(_point(tops[k], fit, k, level) for k in sound.tolist())
     vertical, source = standing.vertical, "floor"
     if standing.floor is None and points:
         vertical, source = _mean_axis(points), "bar axes"
@@ -195,12 +208,18 @@ def _point(top: Top, fit: PooledFit, k: int, level: Plane) -> AssemblyPoint:
     axes = axes_on(level)
     axis = axes.T @ np.array([-fit.lean[k, 0], -fit.lean[k, 1], 1.0])
     flat = np.zeros((3, 3))
-    flat[:2, :2] = fit.covariance[k]
+    flat[:2, :2] = fit.covariance[k] + np.eye(2) * _SHAPE_U_MM**2
     flat[2, 2] = max(top.plane.residual_mm, 0.02) ** 2
     evidence = f"{fit.edge_count[k]} edge and {fit.wall_count[k]} side points"
     centre = from_plane(np.array([x, y, z]), level)
     return AssemblyPoint(
-        "", Kind.REBAR, centre, axis / np.linalg.norm(axis), 2 * float(fit.outline_radius[k]), axes.T @ flat @ axes, why=evidence
+        label="",
+        kind=Kind.REBAR,
+        centre=centre,
+        axis=axis / np.linalg.norm(axis),
+        diameter_mm=2 * float(fit.outline_radius[k]),
+        covariance=axes.T @ flat @ axes,
+        why=evidence,
     )
 
 

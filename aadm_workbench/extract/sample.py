@@ -46,9 +46,14 @@ def point_pitch_mm(sample: Thinned, on_plane: Array) -> float:
     if len(on_plane) < 50:
         return 1.0
     cell = 12.0
-    cells = np.unique(np.floor(on_plane / cell).astype(np.int64), axis=0, return_counts=True)[1]
-    filled = np.percentile(cells, 75)
+    filled = np.percentile(counts_in_cells(on_plane, cell), 75)
     return float(cell * np.sqrt(sample.share / max(filled, 1.0)))
+
+
+def counts_in_cells(xy: Array, cell_mm: float) -> IntArray:
+    """How many points (n, 2) mm each square cell holds, of the cells that hold any."""
+    cells = np.floor((xy - xy.min(axis=0)) / cell_mm).astype(np.int64)
+    return np.unique(cells[:, 0] * (int(cells[:, 1].max()) + 1) + cells[:, 1], return_counts=True)[1]
 
 
 def _finite(points: FloatArray) -> Array:

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.extract.around import points_around
-from aadm_workbench.extract.bracket import Outlines, bracketed, crossings
-from aadm_workbench.extract.circle import Outline, bins_of, circle_through, outline
+from aadm_workbench.extract.bracket import Outlines, bracketed
+from aadm_workbench.extract.circle import bins_of, circle_through, outline
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
 from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.plane import axes_on, facing, find_planes, from_plane, in_plane, near, turned_over
@@ -20,7 +20,7 @@ from aadm_workbench.extract.pooled import Brackets, PooledFit, Priors, Rims, Wal
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm, thinned
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, IntArray, Kind, Plane, Scan
 
-_SAMPLE = 120_000
+_SAMPLE = 90_000
 _FACE_BAND_MM = 1.5
 _REACH_MM = 4.0  # beyond the nominal radius: how far around a mouth points are taken
 _RIM_DEPTH_MM = 2.5  # a chamfer ends less far behind the face
@@ -28,6 +28,7 @@ _WALL_DEPTH_MM = (2.0, 60.0)
 _WALL_BAND_MM = 2.0  # about the nominal radius
 _WALL_POINTS_MAX = 800
 _SECTORS, _OPEN_SECTORS, _CLOSED_SHARE = 12, 4, 0.15
+_TAIL_PITCHES = 6.0
 _FOREIGN = 0.05  # share of outline points that are flying pixels or dirt
 _RADIUS_MISFIT = 0.08  # relative: a hole this much larger or smaller than nominal is no sleeve
 
@@ -112,9 +113,7 @@ def _with_places(centres: Array, places: Array, radius_mm: float) -> Array:
     return np.vstack([centres, places[distance > radius_mm]])
 
 
-def _facing_away_from_walls(
-    face: Plane, parts: list[Array], centres: Array
-) -> tuple[Plane, list[Array], Array]:
+def _facing_away_from_walls(face: Plane, parts: list[Array], centres: Array) -> tuple[Plane, list[Array], Array]:
     """Without a viewpoint the side of the normal comes from the walls: they lie behind the face."""
     heights = np.concatenate([part[:, 2] for part in parts])
     before = int((heights > _WALL_DEPTH_MM[0]).sum())
@@ -198,9 +197,11 @@ def _measured(mouths: list[Mouth], face: Plane, diameter_mm: float, pitch_mm: fl
     if not mouths:
         reason = f"no hole of {diameter_mm:g} mm in the face could be measured"
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
-    fit = fit_pooled(*_evidence(mouths, RimLaw(pitch_mm, 6.0 * pitch_mm, _FOREIGN)), np.array([m.centre for m in mouths]), diameter_mm / 2, Priors())
+    law = RimLaw(pitch_mm, _TAIL_PITCHES * pitch_mm, _FOREIGN)
+    start = np.array([mouth.centre for mouth in mouths])
+    fit = fit_pooled(*_evidence(mouths, law), start, diameter_mm / 2, Priors())
     sound = np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT
-    points = tuple(_point(fit, k, face, pitch_mm) for k in np.flatnonzero(sound))
+    points = tuple(_point(fit, k, face, pitch_mm) for k in np.flatnonzero(sound).tolist())
     quality = {
         "point_pitch_mm": pitch_mm,
         "plane_residual_mm": face.residual_mm,
@@ -245,5 +246,11 @@ def _point(fit: PooledFit, k: int, face: Plane, pitch_mm: float) -> AssemblyPoin
     flat[2, 2] = max(face.residual_mm, 0.02) ** 2
     evidence = f"{fit.wall_count[k]} wall and {fit.edge_count[k]} edge points at {pitch_mm:.2f} mm"
     return AssemblyPoint(
-        "", Kind.SLEEVE, centre, axis / np.linalg.norm(axis), 2 * float(fit.radius[k]), axes.T @ flat @ axes, why=evidence
+        label="",
+        kind=Kind.SLEEVE,
+        centre=centre,
+        axis=axis / np.linalg.norm(axis),
+        diameter_mm=2 * float(fit.radius[k]),
+        covariance=axes.T @ flat @ axes,
+        why=evidence,
     )

@@ -8,7 +8,7 @@ import numpy as np
 
 from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.plane import axes_on, find_plane, find_planes
-from aadm_workbench.extract.sample import Thinned
+from aadm_workbench.extract.sample import Thinned, counts_in_cells
 from aadm_workbench.model import Array, Plane
 
 _FLOOR_SHARE = 0.2  # of the points: less is no floor
@@ -93,8 +93,8 @@ def _discs(points: Array, vertical: Array, sample: Thinned, radius_mm: float) ->
 
 def _spacing(plan: Array, radius_mm: float) -> float:
     """Typical distance of neighbours in the plan where it is well filled."""
-    cells = np.unique(np.floor(plan / radius_mm).astype(np.int64), axis=0, return_counts=True)[1]
-    return float(radius_mm / np.sqrt(max(float(np.percentile(cells, 80)), 1.0)))
+    filled = float(np.percentile(counts_in_cells(plan, radius_mm), 80))
+    return float(radius_mm / np.sqrt(max(filled, 1.0)))
 
 
 def top_plane(local: Array, radius_mm: float, rng: np.random.Generator) -> Plane | None:

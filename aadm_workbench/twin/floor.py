@@ -14,16 +14,15 @@ from pathlib import Path
 import numpy as np
 
 from aadm_workbench.atomic import write_atomically
-from aadm_workbench.design.pattern import inline_design, label_order
 from aadm_workbench.errors import AadmError
-from aadm_workbench.model import Array, ColumnDesign, Verdict
+from aadm_workbench.model import Array, Verdict
 from aadm_workbench.scan.write import write_depth_tiff
 from aadm_workbench.twin.camera import PRO_M, facing
 from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.parts import BarGroup, Foot
-from aadm_workbench.twin.scene import TrueScan, scan_of
-from aadm_workbench.twin.truth import true_verdicts
+from aadm_workbench.twin.scene import scan_of
 from aadm_workbench.twin.scenes import FIELD, Setting, random_bars, random_foot
+from aadm_workbench.twin.truth import listed, sample_design, true_verdicts
 
 DEPTH_SCALE_MM = 0.03
 _BOUND_MM = 0.8
@@ -90,7 +89,7 @@ def _make_column(folder: Path, case: Case, rng: np.random.Generator) -> dict[str
     return {
         "story": case.story,
         **_verdicts(case, foot, bars),
-        **{name: _points(scan, foot) for name, scan in scans.items()},
+        **{name: listed(scan, foot) for name, scan in scans.items()},
     }
 
 
@@ -108,30 +107,6 @@ def _verdicts(case: Case, foot: Foot, bars: BarGroup) -> dict[str, object]:
     }
 
 
-def sample_design(setting: Setting) -> ColumnDesign:
-    """The design of a setting, as a job without a model would give it."""
-    table = {
-        "centres": setting.centres().tolist(),
-        "sleeve_diameter": setting.sleeve_diameter,
-        "rebar_diameter": setting.bar_diameter,
-        "size": [setting.size, setting.size],
-    }
-    return inline_design(setting.name, table)
-
-
-def _points(scan: TrueScan, foot: Foot) -> list[dict[str, object]]:
-    return [
-        {
-            "label": point.label,
-            "column_mm": np.round(point.centre, 4).tolist(),
-            "scan_mm": np.round(in_scan, 4).tolist(),
-            "diameter_mm": round(point.diameter_mm, 4),
-            "measurable": not (point.label.startswith("S") and foot.sleeves[k].plugged_at is not None),
-        }
-        for k, (point, in_scan) in enumerate(zip(scan.points, scan.points_scan(), strict=True))
-    ]
-
-
 def _pose(up: str, looking_up: bool, rng: np.random.Generator) -> Array:
     forward = np.array([0.0, 0.0, 1.0 if looking_up else -1.0])
     target = np.array([*rng.uniform(-12.0, 12.0, 2), 0.0])
@@ -141,28 +116,21 @@ def _pose(up: str, looking_up: bool, rng: np.random.Generator) -> Array:
 
 
 def _calm_foot(setting: Setting, rng: np.random.Generator) -> Foot:
-    """A foot whose sleeves stay within 0.8 mm of their places, labelled as designs are."""
+    """A foot whose sleeves stay within 0.8 mm of their places."""
     foot = random_foot(setting, rng, 0.35)
-    places = _labelled_places(setting)
-    order = [int(np.hypot(*(np.array([(s.x, s.y) for s in foot.sleeves]) - place).T).argmin()) for place in places]
-    sleeves = [foot.sleeves[k] for k in order]
-    calm = [replace(s, x=_near(s.x, p[0]), y=_near(s.y, p[1])) for s, p in zip(sleeves, places, strict=True)]
+    calm = [
+        replace(s, x=_near(s.x, p[0]), y=_near(s.y, p[1])) for s, p in zip(foot.sleeves, setting.centres(), strict=True)
+    ]
     return replace(foot, sleeves=tuple(calm))
 
 
 def _calm_bars(setting: Setting, rng: np.random.Generator) -> BarGroup:
+    """Bars that stay within 0.8 mm of their places."""
     group = random_bars(setting, rng, 0.35)
-    places = _labelled_places(setting)
-    order = [int(np.hypot(*(np.array([(b.x, b.y) for b in group.bars]) - place).T).argmin()) for place in places]
-    bars = [group.bars[k] for k in order]
-    calm = [replace(b, x=_near(b.x, p[0]), y=_near(b.y, p[1])) for b, p in zip(bars, places, strict=True)]
+    calm = [
+        replace(b, x=_near(b.x, p[0]), y=_near(b.y, p[1])) for b, p in zip(group.bars, setting.centres(), strict=True)
+    ]
     return replace(group, bars=tuple(calm))
-
-
-def _labelled_places(setting: Setting) -> Array:
-    """Design centres (n, 2) in the order of their labels."""
-    centres = setting.centres()
-    return np.asarray(centres[label_order(centres)])
 
 
 def _near(value: float, place: float) -> float:
@@ -170,7 +138,7 @@ def _near(value: float, place: float) -> float:
 
 
 def _moved_bar(bars: BarGroup, number: int, dx: float, dy: float) -> BarGroup:
-    place = _labelled_places(FIELD)[number - 1]
+    place = FIELD.centres()[number - 1]
     changed = [
         replace(bar, x=place[0] + dx, y=place[1] + dy) if k == number - 1 else bar for k, bar in enumerate(bars.bars)
     ]
@@ -183,7 +151,7 @@ def _bar_off(foot: Foot, bars: BarGroup) -> tuple[Foot, BarGroup]:
 
 def _only_minimax(foot: Foot, bars: BarGroup) -> tuple[Foot, BarGroup]:
     """S1 and R1 lie apart by 3.8 mm, each within its own 2 mm; the others hardly differ."""
-    places = _labelled_places(FIELD)
+    places = FIELD.centres()
     sleeves = [
         replace(s, x=p[0] + 0.25 * (s.x - p[0]), y=p[1] + 0.25 * (s.y - p[1]))
         for s, p in zip(foot.sleeves, places, strict=True)

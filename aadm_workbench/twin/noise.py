@@ -68,20 +68,16 @@ def captured(view: View, camera: Camera, noise: CameraNoise, rng: np.random.Gene
     return measured.astype(np.float32)
 
 
-def _lost(
-    view: View, step: BoolArray, wall: BoolArray, noise: CameraNoise, rng: np.random.Generator
-) -> BoolArray:
+def _lost(view: View, step: BoolArray, wall: BoolArray, noise: CameraNoise, rng: np.random.Generator) -> BoolArray:
     chance = np.full(view.depth.shape, noise.random_loss, np.float32)
     span = noise.grazing_full - noise.grazing_none
     chance = np.maximum(chance, np.clip((noise.grazing_full - view.cosine) / span, 0.0, 1.0))
     chance[wall] = 1.0 - (1.0 - chance[wall]) * (1.0 - noise.wall_loss)
     chance[step] = np.maximum(chance[step], noise.step_loss)
-    return ~view.lit | (rng.random(view.depth.shape) < chance)
+    return np.asarray(~view.lit | (rng.random(view.depth.shape) < chance))
 
 
-def _depth_error(
-    view: View, camera: Camera, noise: CameraNoise, rng: np.random.Generator
-) -> npt.NDArray[np.float32]:
+def _depth_error(view: View, camera: Camera, noise: CameraNoise, rng: np.random.Generator) -> npt.NDArray[np.float32]:
     shape = view.depth.shape
     white = rng.standard_normal(shape, dtype=np.float32)
     smooth = ndimage.gaussian_filter(rng.standard_normal(shape, dtype=np.float32), 1.2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from aadm_workbench.model import Array, AssemblyPoint, Camera, Kind, Scan
 from aadm_workbench.scan.camera import depth_to_points
@@ -22,7 +23,7 @@ class TrueScan:
     ``depth`` (h, w) float32, mm. ``T_column_scan`` (4, 4).
     """
 
-    depth: np.ndarray
+    depth: npt.NDArray[np.float32]
     camera: Camera
     points: tuple[AssemblyPoint, ...]
     T_column_scan: Array
@@ -58,7 +59,7 @@ def shot(
     camera: Camera = PRO_M,
 ) -> TrueScan:
     """Scan any surface, given in the column frame."""
-    view = look(moved(surface, np.linalg.inv(T_column_scan)), camera)
+    view = look(moved(surface, np.asarray(np.linalg.inv(T_column_scan), np.float64)), camera)
     return TrueScan(captured(view, camera, noise, rng), camera, truth, T_column_scan)
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from aadm_workbench.design.pattern import label_order
 from aadm_workbench.model import Array
 from aadm_workbench.twin.camera import facing
 from aadm_workbench.twin.noise import CameraNoise
@@ -34,12 +35,22 @@ class Setting:
     distance: float
 
     def centres(self) -> Array:
-        """Design centres (n, 2)."""
-        return ring(self.half_width, self.half_width, self.per_side)
+        """Design centres (n, 2), in the order of their labels."""
+        centres = ring(self.half_width, self.half_width, self.per_side)
+        return np.asarray(centres[label_order(centres)])
 
 
 LAB = Setting("lab", 250.0, 90.0, 4, 26.0, 18.0, 18.0, 120.0, 800.0)
 FIELD = Setting("field", 600.0, 240.0, 4, 36.0, 20.0, 19.3, 160.0, 1300.0)
+
+
+_NONE = np.zeros(2)
+
+
+def _off(value: Array, spread: float, rng: np.random.Generator) -> tuple[float, float]:
+    """Two numbers off their nominal values by a normal error."""
+    x, y = value + rng.normal(0.0, spread, 2)
+    return float(x), float(y)
 
 
 def random_foot(setting: Setting, rng: np.random.Generator, spread: float = 0.5) -> Foot:
@@ -48,9 +59,9 @@ def random_foot(setting: Setting, rng: np.random.Generator, spread: float = 0.5)
     chamfer, rib = rng.uniform(0.0, 1.0, 2)
     sleeves = tuple(
         SleeveAsBuilt(
-            *(centre + rng.normal(0.0, spread, 2)),
+            *_off(centre, spread, rng),
             diameter=setting.sleeve_diameter + rng.normal(0.0, 0.1),
-            lean=tuple(rng.normal(0.0, lean, 2)),
+            lean=_off(_NONE, lean, rng),
             chamfer=chamfer,
             rib_height=rib,
             rib_start=rng.uniform(15.0, 40.0),
@@ -66,14 +77,14 @@ def random_bars(setting: Setting, rng: np.random.Generator, spread: float = 0.5)
     ridge = float(rng.choice([0.0, 0.9]))
     bars = tuple(
         BarAsBuilt(
-            *(centre + rng.normal(0.0, spread, 2)),
+            *_off(centre, spread, rng),
             top=rng.uniform(-3.0, 3.0),
             core_diameter=setting.bar_core + rng.normal(0.0, 0.1),
-            lean=tuple(rng.normal(0.0, lean, 2)),
+            lean=_off(_NONE, lean, rng),
             rib_phase=rng.uniform(),
             rib_turn=rng.uniform(0.0, 2 * np.pi),
             longitudinal_rib=ridge,
-            slant=tuple(rng.normal(0.0, 0.01, 2)),
+            slant=_off(_NONE, 0.01, rng),
         )
         for centre in setting.centres()
     )

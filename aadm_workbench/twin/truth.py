@@ -10,9 +10,11 @@ from aadm_workbench.assembly.inspect import inspect_group
 from aadm_workbench.assembly.match import match_extraction
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.assembly.trial import try_scans
+from aadm_workbench.design.pattern import inline_design
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Kind, TrialPose, TrialReport, Verdict, worst
 from aadm_workbench.twin.parts import BarGroup, Foot
-from aadm_workbench.twin.scene import truth_of
+from aadm_workbench.twin.scene import TrueScan, truth_of
+from aadm_workbench.twin.scenes import Setting
 
 _UP = np.array([0.0, 0.0, 1.0])
 
@@ -67,3 +69,28 @@ def _said(trial: TrialReport, pose: TrialPose | None) -> dict[str, object] | Non
     fails = any(pair.verdict is Verdict.FAIL for pair in pose.pairs)
     verdict = Verdict.FAIL if fails else Verdict.NOT_MEASURED if trial.missing else Verdict.PASS
     return {"max_mm": round(pose.max_mm, 4), "verdict": verdict.value}
+
+
+def sample_design(setting: Setting) -> ColumnDesign:
+    """The design of a setting, as a job without a model would give it."""
+    table = {
+        "centres": setting.centres().tolist(),
+        "sleeve_diameter": setting.sleeve_diameter,
+        "rebar_diameter": setting.bar_diameter,
+        "size": [setting.size, setting.size],
+    }
+    return inline_design(setting.name, table)
+
+
+def listed(scan: TrueScan, foot: Foot) -> list[dict[str, object]]:
+    """The true points of a scan as ``truth.json`` lists them; a plugged sleeve is not measurable."""
+    return [
+        {
+            "label": point.label,
+            "column_mm": np.round(point.centre, 4).tolist(),
+            "scan_mm": np.round(in_scan, 4).tolist(),
+            "diameter_mm": round(point.diameter_mm, 4),
+            "measurable": not (point.label.startswith("S") and foot.sleeves[k].plugged_at is not None),
+        }
+        for k, (point, in_scan) in enumerate(zip(scan.points, scan.points_scan(), strict=True))
+    ]

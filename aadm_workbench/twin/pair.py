@@ -1,0 +1,175 @@
+"""A column foot and the bars that it comes down on: two scans, their truth, and a job that checks them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from aadm_workbench.atomic import write_atomically
+from aadm_workbench.design.pattern import inline_design, label_order
+from aadm_workbench.model import AssemblyPoint, ColumnDesign
+from aadm_workbench.scan.write import write_depth_tiff, write_pcd, write_ply
+from aadm_workbench.twin.camera import PRO_M
+from aadm_workbench.twin.noise import CameraNoise
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot
+from aadm_workbench.twin.scene import TrueScan, scan_of
+from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_foot, random_pose
+from aadm_workbench.twin.truth import true_verdicts
+
+DEPTH_SCALE_MM = 0.03
+"""Step of the depth maps: 65,535 of them reach 1.9 m, beyond the floor under the bars."""
+
+_DECIMALS = 4
+
+
+def _write_tiff(path: Path, scan: TrueScan) -> None:
+    write_depth_tiff(path, scan.depth, DEPTH_SCALE_MM)
+
+
+def _write_ply(path: Path, scan: TrueScan) -> None:
+    write_ply(path, scan.scan().points)
+
+
+def _write_pcd(path: Path, scan: TrueScan) -> None:
+    write_pcd(path, scan.scan().points, "binary")
+
+
+FORMATS: Mapping[str, Callable[[Path, TrueScan], None]] = MappingProxyType(
+    {"tiff": _write_tiff, "ply": _write_ply, "pcd": _write_pcd}
+)
+SETTINGS: Mapping[str, Setting] = MappingProxyType({setting.name: setting for setting in (LAB, FIELD)})
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """A foot and its bars as built, each with its scan; parts are in the order of the design's labels."""
+
+    setting: Setting
+    design: ColumnDesign
+    foot: Foot
+    bars: BarGroup
+    sleeves: TrueScan
+    rebars: TrueScan
+
+
+def make_pair(folder: Path, setting: Setting, seed: int, scan_format: str) -> Pair:
+    """Write ``foot`` and ``bars`` in a format, ``truth.json`` and ``job.toml`` into a folder that exists.
+
+    Parameters
+    ----------
+    seed
+        The same seed gives the same files.
+    scan_format
+        One of :data:`FORMATS`.
+
+    Raises
+    ------
+    MissingDependencyError
+        Where the ray caster is not installed.
+    """
+    pair = simulated_pair(setting, np.random.default_rng(seed))
+    write = FORMATS[scan_format]
+    write(folder / f"foot.{scan_format}", pair.sleeves)
+    write(folder / f"bars.{scan_format}", pair.rebars)
+    write_atomically(folder / "truth.json", (json.dumps(_truth(pair, seed), indent=1) + "\n").encode())
+    write_atomically(folder / "job.toml", _job_text(setting, seed, scan_format).encode())
+    return pair
+
+
+def simulated_pair(setting: Setting, rng: np.random.Generator) -> Pair:
+    """A random foot and random bars of a setting, seen by one camera, the image's top towards +y."""
+    order = label_order(setting.centres())
+    foot, bars = random_foot(setting, rng), random_bars(setting, rng)
+    foot = replace(foot, sleeves=tuple(foot.sleeves[k] for k in order))
+    bars = replace(bars, bars=tuple(bars.bars[k] for k in order))
+    noise = CameraNoise.drawn(rng)
+    sleeves = scan_of(foot, random_pose(setting, True, rng), noise, rng)
+    rebars = scan_of(bars, random_pose(setting, False, rng), noise, rng)
+    return Pair(setting, inline_design(_column_id(setting), _design_table(setting)), foot, bars, sleeves, rebars)
+
+
+def _column_id(setting: Setting) -> str:
+    return f"{setting.name}-1"
+
+
+def _design_table(setting: Setting) -> dict[str, Any]:
+    """What ``[columns.design]`` of the job says."""
+    return {
+        "sleeve_diameter": setting.sleeve_diameter,
+        "rebar_diameter": setting.bar_diameter,
+        "rebar_outer_diameter": round(setting.bar_core + 2.0 * BarAsBuilt.rib_height, _DECIMALS),
+        "embedded_length": setting.exposed,
+        "size": [setting.size, setting.size],
+        "centres": setting.centres().tolist(),
+    }
+
+
+def _truth(pair: Pair, seed: int) -> dict[str, Any]:
+    true = true_verdicts(pair.design, pair.foot, pair.bars)
+    column = {
+        "verdict": true.verdict.value,
+        "goes_on": true.goes_on.value,
+        "least_squares": true.least_squares,
+        "minimax": true.minimax,
+        "sleeves": _scan_truth(pair.sleeves, pair.design.sleeves),
+        "rebars": _scan_truth(pair.rebars, pair.design.rebars),
+    }
+    return {"synthetic": True, "seed": seed, "setting": pair.setting.name, "columns": {pair.design.id: column}}
+
+
+def _scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, Any]:
+    """True centres of one scan, mm, in the column frame that it was made in and in the scan frame."""
+    points = zip(scan.points, design, scan.points_scan(), strict=True)
+    return {
+        "T_column_scan": np.round(scan.T_column_scan, 9).tolist(),
+        "points": [
+            {
+                "label": point.label,
+                "design_mm": np.round(target.centre, _DECIMALS).tolist(),
+                "column_mm": np.round(point.centre, _DECIMALS).tolist(),
+                "scan_mm": np.round(in_scan, _DECIMALS).tolist(),
+                "axis": np.round(point.axis, 9).tolist(),
+                "diameter_mm": round(float(point.diameter_mm), _DECIMALS),
+            }
+            for point, target, in_scan in points
+        ],
+    }
+
+
+def _job_text(setting: Setting, seed: int, scan_format: str) -> str:
+    camera = PRO_M
+    design = "".join(f"{key} = {value}\n" for key, value in _design_table(setting).items())
+    return f"""# Synthetic scans of a virtual camera: aadm simulate pair --setting {setting.name} --seed {seed}
+schema = 1
+name = "Simulated pair, {setting.name} setting"
+units = "mm"
+tolerances = "cn"
+
+[camera]
+fx = {camera.fx}
+fy = {camera.fy}
+cx = {camera.cx}
+cy = {camera.cy}
+width = {camera.width}
+height = {camera.height}
+depth_scale_mm = {DEPTH_SCALE_MM}
+scale_error = {camera.scale_error}
+
+[capture]
+operator = "virtual camera"
+settings = "synthetic scans, no real camera was used"
+
+[[columns]]
+id = "{_column_id(setting)}"
+sleeves = "foot.{scan_format}"
+rebars = "bars.{scan_format}"
+up = "+y"
+
+[columns.design]
+{design}"""
