@@ -1,0 +1,164 @@
+"""What is designed and what is scanned: points, columns, cameras, scans and what was found in them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from aadm_workbench.model.arrays import Array, FloatArray
+from aadm_workbench.model.verdicts import Kind
+
+
+@dataclass(frozen=True, eq=False)
+class AssemblyPoint:
+    """A sleeve or a connecting rebar, reduced to what the assembly needs.
+
+    Parameters
+    ----------
+    label
+        ``S1``, ``R1``, ... in the column frame; empty while no label is known.
+    centre
+        (3,) float64, mm. Sleeve: where its axis meets the foot face. Bar: where the axis of its core meets its top.
+    axis
+        (3,) float64, unit vector; in the column frame it points up along the column.
+    diameter_mm
+        Sleeve: inner diameter at the mouth. Bar: nominal (design) or of the core outline (measured).
+    covariance
+        (3, 3) float64, mm², of the centre; None where it is not known.
+    global_id
+        GlobalId of the element in the IFC model.
+    why
+        Design: why this element was taken. Measured: the evidence that was used.
+    length_mm
+        Design only: length of the bar or of the sleeve, where the model gives it.
+    """
+
+    label: str
+    kind: Kind
+    centre: Array
+    axis: Array
+    diameter_mm: float
+    covariance: Array | None = None
+    global_id: str | None = None
+    why: str = ""
+    length_mm: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class ColumnDesign:
+    """One column as designed: sleeves and the rebars it comes down on, in the column frame.
+
+    ``rebars[k]`` belongs into ``sleeves[k]``. ``T_model_column`` (4, 4) places the column frame in the
+    model; None for a design without a model. ``names`` holds every name that a job may call it by
+    (Name, Tag, PieceMark, GlobalId).
+    """
+
+    id: str
+    sleeves: tuple[AssemblyPoint, ...]
+    rebars: tuple[AssemblyPoint, ...]
+    size_mm: tuple[float, float] | None = None
+    global_id: str | None = None
+    piece_mark: str | None = None
+    storey: str | None = None
+    grid: str | None = None
+    names: tuple[str, ...] = ()
+    T_model_column: Array | None = None
+    rebar_outer_diameter_mm: float | None = None
+    embedded_length_mm: float | None = None
+    warnings: tuple[str, ...] = ()
+
+    def points(self, kind: Kind) -> tuple[AssemblyPoint, ...]:
+        """The points of one kind, in the order of their labels."""
+        return self.sleeves if kind is Kind.SLEEVE else self.rebars
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Pinhole intrinsics of an undistorted structured-light camera, in pixels.
+
+    ``scale_error`` is the relative standard uncertainty (k = 1) of its lengths.
+    """
+
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    width: int
+    height: int
+    scale_error: float = 1e-4
+
+
+@dataclass(frozen=True, eq=False)
+class Scan:
+    """One as-built scan.
+
+    Parameters
+    ----------
+    points
+        (n, 3) or, organised, (h, w, 3) floating, mm, scan frame; NaN where the camera has no return.
+    source
+        The file as the job names it.
+    sha256
+        Hash of the file's bytes; empty for a scan that never was a file.
+    camera
+        Intrinsics where known; then the scan frame is the camera frame.
+    viewpoint
+        (3,) mm, where the camera stood, in the scan frame; None where unknown.
+    dropped
+        Points of the file that were no measurement (not finite, or marked invalid).
+    image
+        (h, w) uint8, optional grey picture of the same view.
+    """
+
+    points: FloatArray
+    source: str = ""
+    sha256: str = ""
+    camera: Camera | None = None
+    viewpoint: Array | None = None
+    dropped: int = 0
+    image: npt.NDArray[np.uint8] | None = None
+
+    @property
+    def organised(self) -> bool:
+        """Whether the points keep the rows and columns of the camera's image."""
+        return self.points.ndim == 3
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """All x with ``normal @ x == offset``: ``normal`` (3,) unit, ``offset`` in mm.
+
+    The normal of a foot face points out of the concrete, towards the camera.
+    ``residual_mm`` is the robust standard deviation of the points about it.
+    """
+
+    normal: Array
+    offset: float
+    residual_mm: float = 0.0
+
+    def height(self, points: FloatArray) -> FloatArray:
+        """Signed distance (...,) mm of points (..., 3) above the plane, along the normal."""
+        return points @ self.normal.astype(points.dtype) - points.dtype.type(self.offset)
+
+
+@dataclass(frozen=True, eq=False)
+class Extraction:
+    """The points found in one scan, in the scan frame.
+
+    ``plane`` is the foot face (sleeves) or the robust mean level of the bar tops (rebars);
+    ``vertical`` (3,) is the unit vector that is "up along the column", and ``vertical_from`` says what
+    gave it. ``quality`` holds plain numbers for the report.
+    """
+
+    kind: Kind
+    method: str
+    points: tuple[AssemblyPoint, ...]
+    plane: Plane | None
+    vertical: Array | None
+    vertical_from: str = ""
+    exposed_length_mm: tuple[float | None, ...] = ()
+    quality: dict[str, Any] = field(default_factory=dict)
+    reason: str = ""

@@ -1,0 +1,198 @@
+"""What was found of a column before hoisting: its points, their spacing, the trial assembly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from aadm_workbench.model.arrays import Array, Vector2, Vector3
+from aadm_workbench.model.verdicts import Kind, Verdict
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One way in which a measured pattern lies on its design.
+
+    ``yaw_deg`` is its turn against the first candidate, counter-clockwise from above. ``up_deg`` is the
+    column-frame direction of the image's top in this candidate (what ``up`` of a job would have to say to choose
+    it), None where the scan has no image direction.
+    """
+
+    yaw_deg: float
+    rms_mm: float
+    max_mm: float
+    matched: int
+    up_deg: float | None = None
+    verdict: Verdict | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """How a scan was laid on its design: ``T_design_scan`` (4, 4), in-plane least squares of all matched points.
+
+    ``orientation`` is ``declared``, ``resolved`` or ``ambiguous``; ``scale`` is the free scale of the same fit,
+    a diagnostic of the camera that is never applied.
+    """
+
+    T_design_scan: Array
+    rms_mm: float
+    max_mm: float
+    orientation: str
+    candidates: tuple[Candidate, ...] = ()
+    scale: float | None = None
+
+
+@dataclass(frozen=True)
+class PointResult:
+    """One design point and what was measured of it, mm: ``offset_mm`` is measured minus design, in the column frame.
+
+    ``u_mm`` is the standard uncertainty of the deviation per axis, with the fit's part; ``probability`` that
+    the true deviation is within the limit. What was not measured is None, and ``reason`` says why.
+    """
+
+    label: str
+    global_id: str | None
+    design_mm: Vector3
+    scan_mm: Vector3 | None
+    aligned_mm: Vector3 | None
+    diameter_mm: float | None
+    axis_tilt_deg: float | None
+    offset_mm: Vector2 | None
+    deviation_mm: float | None
+    u_mm: float | None
+    limit_mm: float | None
+    verdict: Verdict
+    reason: str = ""
+    probability: float | None = None
+    exposed_length_mm: float | None = None
+
+
+@dataclass(frozen=True)
+class SpacingResult:
+    """Distance in the plane between two adjacent centres, mm: ``deviation_mm`` is measured minus design, signed."""
+
+    between: tuple[str, str]
+    design_mm: float
+    measured_mm: float | None
+    deviation_mm: float | None
+    u_mm: float | None
+    limit_mm: tuple[float | None, float] | None
+    verdict: Verdict
+    reason: str = ""
+    probability: float | None = None
+
+
+@dataclass(frozen=True)
+class RuleResult:
+    """One rule of the profile and the worst it came to; ``counted`` is False for advisory rules."""
+
+    rule: str
+    clause: str
+    source: str
+    verdict: Verdict
+    counted: bool
+    reason: str = ""
+    worst_mm: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class GroupReport:
+    """The sleeves or the rebars of one column: every design point, the spacing of neighbours, the fit.
+
+    ``points`` and ``spacing`` are of the candidate that ``fit`` names; where the orientation is ambiguous,
+    their verdicts and ``verdict`` hold only what all candidates agree on.
+    """
+
+    kind: Kind
+    source: str
+    sha256: str
+    method: str
+    expected: int
+    found: int
+    verdict: Verdict
+    points: tuple[PointResult, ...]
+    spacing: tuple[SpacingResult, ...]
+    fit: Fit | None
+    rules: tuple[RuleResult, ...] = ()
+    reasons: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    quality: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class PairResult:
+    """A rebar against the sleeve it enters, mm: ``offset_mm`` is rebar minus sleeve, in the column frame.
+
+    ``clearance_mm`` is the room between the ribs and the sleeve's wall, less the larger of the offsets at the
+    mouth and at the bar's top; below zero they collide. None where a diameter is not known.
+    """
+
+    sleeve: str
+    rebar: str
+    offset_mm: Vector2
+    distance_mm: float
+    u_mm: float | None
+    limit_mm: float | None
+    clearance_mm: float | None
+    verdict: Verdict
+    reason: str = ""
+    probability: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class TrialPose:
+    """Bars brought onto sleeves in one way: ``T_sleeves_rebars`` (4, 4), both already in the column frame.
+
+    ``sd_mm`` is the population standard deviation of the distances (divided by n).
+    """
+
+    T_sleeves_rebars: Array
+    max_mm: float
+    mean_mm: float
+    sd_mm: float
+    pairs: tuple[PairResult, ...]
+
+
+@dataclass(frozen=True)
+class PoseWindow:
+    """How far the column can move from the minimax pose, one number at a time reaching its end, mm and degrees.
+
+    Displacement of the column: turned by yaw about the origin of the column frame, then moved by dx, dy.
+    """
+
+    dx_mm: Vector2
+    dy_mm: Vector2
+    yaw_deg: Vector2
+
+
+@dataclass(frozen=True)
+class TurnResult:
+    """The trial in one of the column's symmetric turns."""
+
+    turn_deg: float
+    max_mm: float | None
+    verdict: Verdict
+
+
+@dataclass(frozen=True, eq=False)
+class TrialReport:
+    """The virtual trial assembly of a column: does it go on these bars.
+
+    ``margin`` is 1 minus the smallest largest ratio of distance to limit (negative: no pose meets the limits),
+    ``probability`` that a pose exists, ``window`` the room about the minimax pose where there is any.
+    """
+
+    verdict: Verdict
+    least_squares: TrialPose | None = None
+    minimax: TrialPose | None = None
+    collisions: tuple[str, ...] = ()
+    missing: tuple[str, ...] = ()
+    reasons: tuple[str, ...] = ()
+    rules: tuple[RuleResult, ...] = ()
+    probability: float | None = None
+    margin: float | None = None
+    window: PoseWindow | None = None
+    turn_deg: float = 0.0
+    turns: tuple[TurnResult, ...] = ()
+    embedded_length_mm: float | None = None
+    notes: tuple[str, ...] = ()
