@@ -1,40 +1,49 @@
-"""The methods that find assembly points in a scan, behind one call."""
+"""The extraction methods by name: the default one and the baselines of the literature."""
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import Protocol, cast
+from collections.abc import Callable
+from typing import TypeAlias
 
 import numpy as np
 
 from aadm_workbench.model import Array, Extraction, Kind, Scan
 
-
-class Extractor(Protocol):
-    """What every method offers for one kind of point."""
-
-    def __call__(
-        self, scan: Scan, diameter_mm: float, rng: np.random.Generator, places: Array | None = None
-    ) -> Extraction:
-        """Find the points; see :func:`extract`."""
-        ...
+Recipe: TypeAlias = Callable[[Scan, float, np.random.Generator, Array | None], Extraction]
 
 
-_PACKAGE = "aadm_workbench.extract"
-METHODS: dict[str, dict[Kind, tuple[str, str]]] = {
-    "refined": {
-        Kind.SLEEVE: (f"{_PACKAGE}.sleeves", "extract_sleeves"),
-        Kind.REBAR: (f"{_PACKAGE}.rebars", "extract_rebars"),
-    },
-    **{
-        name: {
-            Kind.SLEEVE: (f"{_PACKAGE}.published.{name}", "extract_sleeves"),
-            Kind.REBAR: (f"{_PACKAGE}.published.{name}", "extract_rebars"),
-        }
-        for name in ("fusion", "pointcloud", "image")
-    },
+def _refined(kind: Kind) -> Recipe:
+    from aadm_workbench.extract.rebars import extract_rebars
+    from aadm_workbench.extract.sleeves import extract_sleeves
+
+    return extract_sleeves if kind is Kind.SLEEVE else extract_rebars
+
+
+def _fusion(kind: Kind) -> Recipe:
+    from aadm_workbench.extract.published import fusion
+
+    return fusion.extract_sleeves if kind is Kind.SLEEVE else fusion.extract_rebars
+
+
+def _pointcloud(kind: Kind) -> Recipe:
+    from aadm_workbench.extract.published import pointcloud
+
+    return pointcloud.extract_sleeves if kind is Kind.SLEEVE else pointcloud.extract_rebars
+
+
+def _image(kind: Kind) -> Recipe:
+    from aadm_workbench.extract.published import image
+
+    return image.extract_sleeves if kind is Kind.SLEEVE else image.extract_rebars
+
+
+METHODS: dict[str, Callable[[Kind], Recipe]] = {
+    "refined": _refined,
+    "fusion": _fusion,
+    "pointcloud": _pointcloud,
+    "image": _image,
 }
-"""Name of a method, and for each kind the module and function that does it; imported only when called."""
+"""What each method is called; the value imports it and gives its recipe for one kind of point."""
 
 
 def extract(
@@ -45,28 +54,30 @@ def extract(
     rng: np.random.Generator,
     places: Array | None = None,
 ) -> Extraction:
-    """Find the sleeves or the rebars of one diameter in a scan.
+    """Find the sleeves, or the bars, of one diameter in a scan with the method of a name.
 
     Parameters
     ----------
+    scan
+        Points in mm, scan frame.
+    kind
+        What to look for.
     diameter_mm
-        Sleeves: inner, at the mouth. Rebars: nominal.
+        Nominal: of a sleeve inside at its mouth, of a bar.
     method
-        One of :data:`METHODS`.
+        One of ``METHODS``.
     rng
-        Every random draw comes from it.
+        All that is drawn comes from it: the same scan and seed give the same points.
     places
-        (k, 3) mm, scan frame: where else to look; methods of the literature do not use it.
+        (k, 3) mm, scan frame: where else to look for a point that the search did not find; ``refined`` alone does.
 
     Raises
     ------
     ValueError
-        For a method that does not exist.
+        For a method that is not in ``METHODS``; the message lists them.
     MissingDependencyError
-        Where the method needs a package that is not installed.
+        Where a method of the literature needs a package that is not installed.
     """
     if method not in METHODS:
-        raise ValueError(f"unknown method {method!r}: one of {', '.join(METHODS)}")
-    module, function = METHODS[method][kind]
-    extractor = cast(Extractor, getattr(import_module(module), function))
-    return extractor(scan, diameter_mm, rng, places)
+        raise ValueError(f"unknown method {method!r}; write one of: {', '.join(METHODS)}")
+    return METHODS[method](kind)(scan, diameter_mm, rng, places)

@@ -64,6 +64,7 @@ class Walls:
     slope: Array
     owner: IntArray
     law: BracketLaw | None = None
+    side: float = -1.0
 
 
 @dataclass(frozen=True)
@@ -131,7 +132,8 @@ class _Terms:
         if self.walls.law is None:
             system.add(self.wall_jacobian, self.wall_weight * self.wall, self.wall_weight, self.walls.owner)
         else:
-            slope = -self.walls.law.slope(-self.wall) / _WALL_CORRELATION**2
+            side = self.walls.side
+            slope = side * self.walls.law.slope(side * self.wall) / _WALL_CORRELATION**2
             bend = np.abs(slope) / np.maximum(np.abs(self.wall), self.walls.law.softness_mm)
             bend = slope**2 * _WALL_CORRELATION**2 if knowledge else bend
             system.add(self.wall_jacobian, slope, bend, self.walls.owner)

@@ -7,7 +7,7 @@ visible sides of all bars together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,19 +18,22 @@ from aadm_workbench.extract.edge_law import BracketLaw, RimLaw, best_circles
 from aadm_workbench.extract.plane import axes_on, from_plane, in_plane
 from aadm_workbench.extract.pooled import Brackets, PooledFit, Priors, Rims, Walls, fit_pooled
 from aadm_workbench.extract.sample import Thinned, thinned
-from aadm_workbench.extract.tops import Standing, find_standing, top_plane
+from aadm_workbench.extract.tops import Standing, find_standing, standing_along, top_plane
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Kind, Plane, Scan
 
 _SAMPLE = 130_000
-_REACH_MM = 6.0
-_SIDE_DEPTH_MM = (0.8, 25.0)
+_REACH_MM = 14.0
+_SIDE_DEPTH_MM = (0.8, 60.0)
+_START_DEPTH_MM = 15.0
 _SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
 _SIDE_POINTS_MAX = 600
 _RADIUS_MISFIT = 0.15
 _GOES_ON_SHARE = 0.3
 _SHAPE_U_MM = 0.065  # what ribs and burrs leave of the outline's departure from a circle, in simulated scans
 _FOREIGN = 0.5  # share of outline points that are ribs
-_BAR_PRIORS = Priors(lean=0.01, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.03, wall_to_edge=0.02)
+_BAR_PRIORS = Priors(lean=0.005, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.03, wall_to_edge=0.02)
+_TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)
+_TURNS = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,15 +65,51 @@ def extract_rebars(scan: Scan, diameter_mm: float, rng: np.random.Generator, pla
     """
     sample = thinned(scan, _SAMPLE, rng)
     standing = find_standing(sample, diameter_mm / 2, scan.viewpoint, rng)
+    if standing is not None and standing.floor is None:
+        standing = _turned_to_the_bars(scan, sample, standing, diameter_mm, rng)
     if standing is None:
         return _nothing(f"the scan shows no upright bar of {diameter_mm:g} mm")
+    level = Plane(standing.vertical, standing.level_mm)
+    tops, fit = _fitted(scan, sample, standing, places, diameter_mm, _BAR_PRIORS, rng)
+    if fit is None:
+        return _nothing(f"no bar of {diameter_mm:g} mm has a top that could be measured")
+    return _extraction(tops, fit, standing, level, diameter_mm)
+
+
+def _turned_to_the_bars(
+    scan: Scan, sample: Thinned, standing: Standing, diameter_mm: float, rng: np.random.Generator
+) -> Standing | None:
+    """Without a floor the vertical is the bars' own: seen along a first guess, it comes from their sides."""
+    for _ in range(_TURNS):
+        tops, fit = _fitted(scan, sample, standing, None, diameter_mm, _TURNING_PRIORS, rng)
+        if fit is None:
+            return standing
+        level = Plane(standing.vertical, standing.level_mm)
+        vertical = _mean_axis(tuple(_point(top, fit, k, level) for k, top in enumerate(tops)))
+        turned = standing_along(sample, vertical, diameter_mm / 2)
+        if turned is None:
+            return standing
+        standing = turned
+    return standing
+
+
+def _fitted(
+    scan: Scan,
+    sample: Thinned,
+    standing: Standing,
+    places: Array | None,
+    diameter_mm: float,
+    priors: Priors,
+    rng: np.random.Generator,
+) -> tuple[list[Top], PooledFit | None]:
+    """What the bars show along one vertical, and the fit to it; no fit where no top was found."""
     level = Plane(standing.vertical, standing.level_mm)
     centres = standing.centres
     if places is not None and len(places):
         centres = _with_places(centres, in_plane(places, level)[:, :2], diameter_mm)
     tops = _tops(scan, sample, level, centres, diameter_mm, rng)
     if not tops:
-        return _nothing(f"no bar of {diameter_mm:g} mm has a top that could be measured")
+        return [], None
     pitch_mm = float(np.median([top.pitch_mm for top in tops]))
     laws = (
         BracketLaw(max(0.35 * pitch_mm, 0.06), _FOREIGN),
@@ -79,14 +118,13 @@ def extract_rebars(scan: Scan, diameter_mm: float, rng: np.random.Generator, pla
     )
     start, radius_mm = best_circles(
         [top.outlines for top in tops],
-        [top.side_xy[top.side_depth < 15.0] for top in tops],
+        [top.side_xy[top.side_depth < _START_DEPTH_MM] for top in tops],
         np.array([top.centre for top in tops]),
         diameter_mm / 2,
         laws,
         side=-1.0,
     )
-    fit = fit_pooled(*_evidence(tops, *laws), start, radius_mm, _BAR_PRIORS)
-    return _extraction(tops, fit, standing, level, diameter_mm)
+    return tops, fit_pooled(*_evidence(tops, *laws), start, radius_mm, priors)
 
 
 def _nothing(reason: str) -> Extraction:

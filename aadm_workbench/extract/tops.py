@@ -44,7 +44,11 @@ def find_standing(
             best = Standing(floor.normal, floor, centres, _level(above, floor.normal, centres, radius_mm))
     if best is not None:
         return best
-    vertical = _towards(sample, viewpoint)
+    return standing_along(sample, _towards(sample, viewpoint), radius_mm)
+
+
+def standing_along(sample: Thinned, vertical: Array, radius_mm: float) -> Standing | None:
+    """Find upright discs of a radius along a given vertical (3,), without a floor."""
     centres = _discs(sample.points, vertical, sample, radius_mm)
     if len(centres) == 0:
         return None

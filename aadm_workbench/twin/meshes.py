@@ -40,7 +40,7 @@ def foot_surface(foot: Foot) -> Surface:
     cutters += [_chip(sleeve) for sleeve in foot.sleeves if sleeve.chip > 0]
     solid = manifold3d.Manifold.batch_boolean([block, *cutters], manifold3d.OpType.Subtract)
     owner_of = {bore.original_id(): number for number, bore in enumerate(bores)}
-    surfaces = [_labelled(solid, owner_of)]
+    surfaces = [_labelled(solid, owner_of, [sleeve.chamfer for sleeve in foot.sleeves])]
     surfaces += [_tape(sleeve, number) for number, sleeve in enumerate(foot.sleeves) if sleeve.taped > 0]
     return joined(surfaces)
 
@@ -109,17 +109,20 @@ def _chip(sleeve: SleeveAsBuilt) -> Any:
     return manifold3d.Manifold.sphere(1.0, 64).scale([sleeve.chip * 0.6, sleeve.chip, 4.0]).translate([x, y, 0.0])
 
 
-def _labelled(solid: Any, owner_of: dict[int, int]) -> Surface:
+def _labelled(solid: Any, owner_of: dict[int, int], chamfers: list[float]) -> Surface:
+    """Name every triangle: the bores are metal, the chamfers at their mouths are concrete as the face is."""
     mesh = solid.to_mesh64()
     vertices = np.asarray(mesh.vert_properties, np.float64)[:, :3]
     triangles = np.asarray(mesh.tri_verts, np.int64)
     kind = np.full(len(triangles), CONCRETE, np.int64)
     owner = np.full(len(triangles), -1, np.int64)
     bounds = np.asarray(mesh.run_index, np.int64) // 3
+    depth = vertices[triangles, 2].mean(axis=1)
     for original, begin, end in zip(mesh.run_original_id, bounds[:-1], bounds[1:], strict=True):
         if int(original) in owner_of:
-            kind[begin:end] = SLEEVE_WALL
             owner[begin:end] = owner_of[int(original)]
+            chamfer = chamfers[owner_of[int(original)]]
+            kind[begin:end] = np.where(depth[begin:end] > chamfer, SLEEVE_WALL, CONCRETE)
     return Surface(vertices, triangles, kind, owner)
 
 
