@@ -1,0 +1,1 @@
+"""FreeCAD documents without a screen: what a check creates in them. Imports FreeCAD, never its windows."""

@@ -1,0 +1,41 @@
+#!/bin/sh
+# All checks: sh tests/run.sh [pytest's options, e.g. -k plane]
+#
+# Lint, format, types, tests. Needs FreeCAD, Xvfb and the graphics libraries that open3d loads; root, or sudo without a
+# password, installs them. AADM_SKIP_FREECAD=1 leaves out the tests that need FreeCAD. Writes into this tree, the folder
+# for temporary files and the caches of pip and apt alone.
+set -eu
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P)
+. "$root/batch/setup.sh"
+make_environment test
+
+has_library() { "$venv/bin/python" -c 'import ctypes, sys; ctypes.CDLL(sys.argv[1])' "$1" 2>/dev/null; }
+has_command() { command -v "$1" >/dev/null; }
+
+missing=''
+# What open3d loads when it is imported.
+has_library libEGL.so.1 || missing="$missing libegl1"
+has_library libGL.so.1 || missing="$missing libgl1"
+has_library libusb-1.0.so.0 || missing="$missing libusb-1.0-0"
+has_library libX11.so.6 || missing="$missing libx11-6"
+if [ "${AADM_SKIP_FREECAD:-0}" != 1 ]; then
+    has_command freecadcmd || has_command FreeCADCmd || missing="$missing freecad"
+    has_command Xvfb || missing="$missing xvfb"
+fi
+# shellcheck disable=SC2086  # names of packages hold no spaces
+install_packages $missing
+
+# Matplotlib, Dask, FreeCAD and others keep their settings at home, and read them there.
+unset XDG_CACHE_HOME XDG_CONFIG_HOME XDG_DATA_HOME XDG_STATE_HOME
+HOME="$root/build/home"
+export HOME
+mkdir -p "$HOME"
+
+cd "$root"
+say "ruff: lint and format"
+"$venv/bin/python" -m ruff check --quiet
+"$venv/bin/python" -m ruff format --quiet --check
+say "mypy: types"
+"$venv/bin/python" -m mypy
+say "pytest"
+exec "$venv/bin/python" -m pytest -n 2 "$@"
