@@ -1,0 +1,1 @@
+"""Verdicts to people and to models: one module a format."""

@@ -1,0 +1,156 @@
+"""One column of a job, from files to report: a pure function of its task, so that any process can do it.
+
+Whatever goes wrong with a column costs that column alone: its verdict is then ``error``, with the reason.
+"""
+
+from __future__ import annotations
+
+import traceback
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from aadm_workbench.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.errors import AadmError, DesignError
+from aadm_workbench.model import Camera, ColumnDesign, ColumnReport, Kind, Scan, Verdict
+from aadm_workbench.scan.plausible import check_plausible
+from aadm_workbench.scan.read import read_scan
+
+from .job import JobColumn
+from .stopwatch import Stopwatch
+
+
+@dataclass(frozen=True, eq=False)
+class ColumnTask:
+    """All that is needed to check one column.
+
+    ``folder`` is where relative paths start; ``design`` None means that the job's model gives none, for the reason
+    ``no_design``.
+    """
+
+    column: JobColumn
+    folder: Path
+    design: ColumnDesign | None
+    settings: CheckSettings
+    units: str = "mm"
+    camera: Camera | None = None
+    depth_scale_mm: float | None = None
+    no_design: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class ColumnOutcome:
+    """A column's report, the seconds that its stages took, and where an error that nobody foresaw came from."""
+
+    report: ColumnReport
+    seconds: dict[str, float] = field(default_factory=dict)
+    where: str = ""
+
+
+def check_task(task: ColumnTask) -> ColumnOutcome:
+    """Read a column's scans and check it; errors become its verdict."""
+    watch = Stopwatch()
+    where = ""
+    with watch.stage("total"):
+        try:
+            report = _checked(task, watch)
+        except MemoryError:
+            report = error_report(task, "there is not enough memory for its scans: check fewer columns at a time")
+        except (AadmError, OSError) as error:
+            report = error_report(task, _as_named(task, str(error) or type(error).__name__))
+        except Exception as error:  # noqa: BLE001 - a night's batch must not end at one column
+            report = error_report(task, f"internal error ({_as_named(task, _described(error))}); --debug shows where")
+            where = traceback.format_exc()
+    return ColumnOutcome(report, watch.seconds(), where)
+
+
+def error_report(task: ColumnTask, reason: str) -> ColumnReport:
+    """The report on a column that could not be checked."""
+    report = ColumnReport(task.column.id, Verdict.ERROR, Verdict.NOT_ASSESSED, (reason,))
+    return report if task.design is None else _identified(report, task.design)
+
+
+def _checked(task: ColumnTask, watch: Stopwatch) -> ColumnReport:
+    if task.design is None:
+        raise DesignError(task.no_design)
+    if not task.column.sleeves and not task.column.rebars:
+        reason = "the job names no scan of its sleeves or rebars"
+        report = ColumnReport(task.column.id, Verdict.NOT_MEASURED, Verdict.NOT_ASSESSED, (reason,))
+        return _identified(report, task.design)
+    with watch.stage("read"):
+        scans = _scans(task, task.design)
+    report = check_column(task.design, scans, task.settings, watch.stage)
+    return replace(report, id=task.column.id, notes=(*report.notes, *_not_done(task.column)))
+
+
+def _not_done(column: JobColumn) -> tuple[str, ...]:
+    """What the job gives and this version does not use: silence would pass for a check."""
+    return ("hoisting frames are not measured by this version",) if column.hoisting else ()
+
+
+def _identified(report: ColumnReport, design: ColumnDesign) -> ColumnReport:
+    return replace(
+        report,
+        global_id=design.global_id,
+        piece_mark=design.piece_mark,
+        storey=design.storey,
+        grid=design.grid,
+        size_mm=design.size_mm,
+        T_model_column=design.T_model_column,
+        notes=design.warnings,
+    )
+
+
+def _scans(task: ColumnTask, design: ColumnDesign) -> ColumnScans:
+    column = task.column
+    return ColumnScans(
+        sleeves=_group(task, design, Kind.SLEEVE, column.sleeves, column.sleeves_image),
+        rebars=_group(task, design, Kind.REBAR, column.rebars, column.rebars_image),
+        sleeves_up_deg=column.sleeves_up_deg,
+        rebars_up_deg=column.rebars_up_deg,
+    )
+
+
+def _group(
+    task: ColumnTask, design: ColumnDesign, kind: Kind, names: tuple[str, ...], image: str | None
+) -> tuple[Scan, ...]:
+    """The scans of one kind of point; a grey picture belongs to the first view."""
+    if not names:
+        return ()
+    if not design.points(kind):
+        raise DesignError(f"the design has no {kind.plural}, but the job names a scan of them ({names[0]})")
+    extent_mm = _extent_mm(design, kind)
+    scans = []
+    for number, name in enumerate(names):
+        scan = read_scan(
+            task.folder / name,
+            units=task.units,
+            camera=task.camera,
+            depth_scale_mm=task.depth_scale_mm,
+            source=name,
+            image=task.folder / image if image is not None and number == 0 else None,
+        )
+        check_plausible(scan, extent_mm)
+        scans.append(scan)
+    return tuple(scans)
+
+
+def _extent_mm(design: ColumnDesign, kind: Kind) -> float:
+    """Longest side of the pattern, over the outsides of its sleeves or bars."""
+    points = design.points(kind)
+    centres = np.array([point.centre[:2] for point in points])
+    return float(np.ptp(centres, axis=0).max()) + max(point.diameter_mm for point in points)
+
+
+def _as_named(task: ColumnTask, message: str) -> str:
+    """A message with files called as the job calls them: where a job lies must not show in its report."""
+    column = task.column
+    for name in (*column.sleeves, *column.rebars, column.sleeves_image, column.rebars_image):
+        if name is not None:
+            message = message.replace(str(task.folder / name), name)
+    return message
+
+
+def _described(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}" if str(error) else type(error).__name__

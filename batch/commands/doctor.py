@@ -1,0 +1,165 @@
+"""Say what is installed, what is missing, and the command that installs it.
+
+Exits with 0 where everything is there that a check needs, else with 12.
+"""
+
+from __future__ import annotations
+
+import argparse
+import platform
+import shutil
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING
+
+from ..exit_codes import ALL_PASS, ERRORS
+from ..switches import add_switches
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+SUMMARY = "say what is installed and what is missing"
+EXAMPLE = """\
+examples:
+  aadm doctor
+  aadm doctor --json"""
+_FREECAD = ("freecadcmd", "FreeCADCmd", "freecad", "FreeCAD")
+
+
+@dataclass(frozen=True)
+class Package:
+    """A package by the name it is imported by; ``needed_for`` what; ``install`` is what pip calls it.
+
+    ``distributions`` are all names that it may be installed under.
+    """
+
+    module: str
+    needed_for: str
+    install: str
+    distributions: tuple[str, ...]
+    core: bool = False
+
+
+PACKAGES = (
+    Package("numpy", "all arithmetic", "numpy", ("numpy",), core=True),
+    Package("scipy", "robust fits", "scipy", ("scipy",), core=True),
+    Package(
+        "cv2",
+        "circles, depth maps",
+        "opencv-python-headless",
+        (
+            "opencv-python-headless",
+            "opencv-python",
+            "opencv-contrib-python-headless",
+            "opencv-contrib-python",
+            "opencv",
+        ),
+        core=True,
+    ),
+    Package("ifcopenshell", "IFC models", "ifcopenshell", ("ifcopenshell",), core=True),
+    Package("rich", "tables in the terminal", "rich", ("rich",), core=True),
+    Package("distributed", "check --jobs N", "aadm-workbench[batch]", ("distributed",)),
+    Package("open3d", "virtual camera, methods of the literature", "aadm-workbench[twin]", ("open3d-cpu", "open3d")),
+    Package("manifold3d", "virtual camera", "aadm-workbench[twin]", ("manifold3d",)),
+    Package("trimesh", "virtual camera", "aadm-workbench[twin]", ("trimesh",)),
+    Package("matplotlib", "plots of studies", "aadm-workbench[twin]", ("matplotlib",)),
+)
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What was found of one package; ``problem`` is empty where it can be imported."""
+
+    package: str
+    version: str | None
+    needed_for: str
+    core: bool
+    problem: str
+    remedy: str
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    add_switches(parser, prints_json="the findings")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print what is installed; 12 where something is missing that every check needs."""
+    findings = [_examined(package) for package in PACKAGES]
+    freecad = next((path for name in _FREECAD if (path := shutil.which(name))), None)
+    if options.json:
+        _print_json(findings, freecad)
+    elif not options.quiet:
+        _print(findings, freecad)
+    return ERRORS if any(finding.core and finding.problem for finding in findings) else ALL_PASS
+
+
+def _examined(package: Package) -> Finding:
+    problem = ""
+    try:
+        # Installed is not enough: a missing system library shows only here.
+        import_module(package.module)
+    except ModuleNotFoundError as error:
+        problem = "not installed" if error.name == package.module else f"cannot be loaded: {error}"
+    except (ImportError, OSError) as error:
+        problem = f"cannot be loaded: {error}"
+    found = next((known for name in package.distributions if (known := _version(name))), None)
+    remedy = f"pip install '{package.install}'" if problem == "not installed" else ""
+    return Finding(package.module, found, package.needed_for, package.core, problem, remedy)
+
+
+def _version(distribution: str) -> str | None:
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return None
+
+
+def _print_json(findings: Sequence[Finding], freecad: str | None) -> None:
+    import json
+
+    from aadm_workbench import __version__
+
+    document = {
+        "aadm": __version__,
+        "python": platform.python_version(),
+        "executable": sys.executable,
+        "platform": platform.platform(),
+        "packages": [asdict(finding) for finding in findings],
+        "freecad": freecad,
+    }
+    sys.stdout.write(json.dumps(document, indent=1) + "\n")
+
+
+def _print(findings: Sequence[Finding], freecad: str | None) -> None:
+    """Without rich itself where that is what is missing."""
+    from aadm_workbench import __version__
+
+    lines = [f"aadm {__version__}, Python {platform.python_version()} ({sys.executable}), {platform.platform()}"]
+    found = f"FreeCAD: {freecad}" if freecad else "FreeCAD: not found; the command does not need it, the workbench does"
+    missing_core = [finding.package for finding in findings if finding.core and finding.problem]
+    if "rich" in missing_core:
+        rows = [f"{one.package}: {one.problem or one.version or 'installed'} {one.remedy}" for one in findings]
+        sys.stdout.write("\n".join([*lines, "", *rows, "", found, _conclusion(missing_core)]) + "\n")
+        return
+    from ..terminal import show
+
+    show(*lines, "", _table(findings), "", found, _conclusion(missing_core))
+
+
+def _conclusion(missing_core: Sequence[str]) -> str:
+    return f"Missing for every check: {', '.join(missing_core)}" if missing_core else "Ready to check columns"
+
+
+def _table(findings: Sequence[Finding]) -> Table:
+    from ..terminal import new_table
+
+    table = new_table("Package", "Version", "Needed for", "", "Install it with")
+    for finding in findings:
+        state = finding.problem or "✓"
+        table.add_row(finding.package, finding.version or "", finding.needed_for, state, finding.remedy)
+    return table

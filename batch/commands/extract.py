@@ -1,0 +1,148 @@
+"""Find the sleeves or the rebars in one scan, without a design and without a verdict.
+
+Centres are in the frame of the scan, in mm; u is their standard uncertainty per axis in the plane (k = 1).
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..exit_codes import ALL_PASS, UNDECIDED
+from ..one_thread import calculate_in_one_thread
+from ..switches import add_switches, length, whole_number
+from .check import METHODS
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from aadm_workbench.model import Array, AssemblyPoint, Extraction, Scan
+
+SUMMARY = "find the points in one scan"
+EXAMPLE = """\
+examples:
+  aadm extract C-301-foot.ply --kind sleeve --diameter 36 --expected 12
+  aadm extract C-301-bars.tiff --kind rebar --diameter 20 --camera camera.toml --depth-scale-mm 0.02"""
+
+_PATTERN_DIAMETERS = 5.0
+"""What a pattern spans at least, in diameters of its sleeves or bars: enough to notice a wrong unit."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("scan", type=Path, metavar="SCAN", help="depth map or point cloud")
+    parser.add_argument("--kind", choices=("sleeve", "rebar"), required=True, help="what the scan shows")
+    parser.add_argument(
+        "--diameter",
+        type=length,
+        required=True,
+        metavar="D",
+        help="mm: inner (sleeve, at its mouth) or nominal (rebar)",
+    )
+    parser.add_argument(
+        "--camera", type=Path, metavar="FILE", help="intrinsics (TOML, JSON or text); depth maps need them"
+    )
+    parser.add_argument("--depth-scale-mm", type=length, metavar="S", help="step of an integer depth map")
+    parser.add_argument("--units", choices=("mm", "m"), default="mm", help="unit of the scan (default: mm)")
+    parser.add_argument("--expected", type=whole_number, metavar="N", help="exit with 11 where fewer are found")
+    parser.add_argument("--method", choices=METHODS, default="refined", help="how (default: refined)")
+    add_switches(parser, prints_json="the points")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print the points of a scan; 11 where fewer are found than expected, or none."""
+    calculate_in_one_thread()
+    import numpy as np
+
+    from aadm_workbench.extract.method import extract
+    from aadm_workbench.model import Kind
+    from aadm_workbench.report.json import encode
+
+    from ..terminal import say, show, show_json
+
+    scan = _read(options)
+    extraction = extract(scan, Kind(options.kind), options.diameter, options.method, np.random.default_rng(0))
+    if options.json:
+        show_json(encode(_document(scan, extraction, options.expected)))
+    elif not options.quiet:
+        show(_table(extraction), "", _summary(scan, extraction, options.expected))
+    found = len(extraction.points)
+    if extraction.reason and not options.quiet:
+        say(f"aadm: {scan.source}: {extraction.reason}")
+    return ALL_PASS if found >= (options.expected or 1) else UNDECIDED
+
+
+def _read(options: argparse.Namespace) -> Scan:
+    from aadm_workbench.scan.camera import read_camera
+    from aadm_workbench.scan.plausible import check_plausible
+    from aadm_workbench.scan.read import read_scan
+
+    camera = None if options.camera is None else read_camera(options.camera)
+    scan = read_scan(options.scan, units=options.units, camera=camera, depth_scale_mm=options.depth_scale_mm)
+    check_plausible(scan, _PATTERN_DIAMETERS * options.diameter)
+    return scan
+
+
+def _document(scan: Scan, extraction: Extraction, expected: int | None) -> dict[str, Any]:
+    plane = extraction.plane
+    return {
+        "source": scan.source,
+        "sha256": scan.sha256,
+        "kind": extraction.kind.value,
+        "method": extraction.method,
+        "expected": expected,
+        "found": len(extraction.points),
+        "reason": extraction.reason,
+        "plane": None
+        if plane is None
+        else {"normal": plane.normal, "offset_mm": plane.offset, "residual_mm": plane.residual_mm},
+        "vertical": extraction.vertical,
+        "vertical_from": extraction.vertical_from,
+        "points": [_entry(point, extraction.vertical) for point in extraction.points],
+        "quality": extraction.quality,
+    }
+
+
+def _entry(point: AssemblyPoint, vertical: Array | None) -> dict[str, Any]:
+    return {
+        "centre_mm": point.centre,
+        "axis": point.axis,
+        "diameter_mm": point.diameter_mm,
+        "u_mm": _uncertainty_mm(point, vertical),
+        "evidence": point.why,
+    }
+
+
+def _uncertainty_mm(point: AssemblyPoint, vertical: Array | None) -> float | None:
+    """Root mean square, over the directions across the vertical, of the centre's standard deviation."""
+    import numpy as np
+
+    if point.covariance is None:
+        return None
+    along = point.axis if vertical is None else vertical
+    across = float(np.trace(point.covariance) - along @ point.covariance @ along)
+    return float(np.sqrt(max(across, 0.0) / 2.0))
+
+
+def _table(extraction: Extraction) -> Table:
+    from ..terminal import new_table
+
+    numbers = ("", "x mm", "y mm", "z mm", "Diameter mm", "u mm")
+    table = new_table(*numbers, "Evidence", numbers=numbers)
+    for number, point in enumerate(extraction.points, start=1):
+        u_mm = _uncertainty_mm(point, extraction.vertical)
+        table.add_row(
+            str(number),
+            *(f"{value:.3f}" for value in point.centre),
+            f"{point.diameter_mm:.3f}",
+            "" if u_mm is None else f"{u_mm:.3f}",
+            point.why,
+        )
+    return table
+
+
+def _summary(scan: Scan, extraction: Extraction, expected: int | None) -> str:
+    of = "" if expected is None else f" of {expected} expected"
+    return f"{len(extraction.points)} {extraction.kind.plural}{of} in {scan.source}, method {extraction.method}"

@@ -1,0 +1,69 @@
+"""Make scans with a virtual camera, with their exact truth beside them."""
+
+from __future__ import annotations
+
+import argparse
+from importlib.util import find_spec
+from pathlib import Path
+
+from ..exit_codes import ALL_PASS
+from ..switches import add_switches
+
+SUMMARY = "make synthetic scans with known truth"
+EXAMPLE = """\
+example:
+  aadm simulate pair --setting field --out pair --seed 7"""
+_PAIR = "a column foot and the bars under it: two scans, truth.json and a job.toml that aadm check runs"
+_PAIR_EXAMPLE = """\
+example:
+  aadm simulate pair --setting lab --out pair --seed 7 --format ply
+  aadm check pair/job.toml"""
+_PACKAGES = ("manifold3d", "open3d")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    kinds = parser.add_subparsers(title="what to simulate", metavar="WHAT", required=True)
+    pair = kinds.add_parser(
+        "pair",
+        help=_PAIR,
+        description=f"Simulate {_PAIR}.",
+        epilog=_PAIR_EXAMPLE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    pair.add_argument(
+        "--setting", choices=("lab", "field"), required=True, help="250 mm model at 0.8 m, 600 mm at 1.3 m"
+    )
+    pair.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files")
+    pair.add_argument("--seed", type=int, default=0, metavar="N", help="another seed, other errors (default: 0)")
+    pair.add_argument("--format", choices=("tiff", "ply", "pcd"), default="tiff", help="of the scans (default: tiff)")
+    add_switches(pair, prints_json=None)
+    pair.set_defaults(run=_simulate_pair)
+
+
+def _simulate_pair(options: argparse.Namespace) -> int:
+    _require_virtual_camera()
+    from aadm_workbench.errors import AadmError
+    from aadm_workbench.twin.pair import SETTINGS, make_pair
+
+    from ..terminal import show
+
+    if options.seed < 0:
+        raise AadmError(f"--seed must not be below zero, it is {options.seed}")
+    try:
+        options.out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise AadmError(f"{options.out}: the folder cannot be made ({error.strerror})") from error
+    make_pair(options.out, SETTINGS[options.setting], options.seed, options.format)
+    if not options.quiet:
+        names = (f"foot.{options.format}", f"bars.{options.format}", "truth.json", "job.toml")
+        show(f"Wrote {', '.join(names)} to {options.out}", f"Check it: aadm check {options.out / 'job.toml'}")
+    return ALL_PASS
+
+
+def _require_virtual_camera() -> None:
+    from aadm_workbench.errors import MissingDependencyError
+
+    for package in _PACKAGES:
+        if find_spec(package) is None:
+            raise MissingDependencyError(package, "The virtual camera", "pip install 'aadm-workbench[twin]'")

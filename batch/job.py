@@ -1,0 +1,62 @@
+"""What a job says: which columns to check, from which scans, against which design and limits."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+from aadm_workbench.model import Camera, ColumnDesign, Profile
+
+
+@dataclass(frozen=True)
+class JobModel:
+    """The model that columns are looked up in, and selectors in IfcOpenShell's syntax."""
+
+    path: str
+    columns: str | None = None
+    sleeves: str | None = None
+    rebars: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class JobColumn:
+    """One column of a job: its scans as the job names them, how they lie, and its design where the job gives it.
+
+    ``..._up_deg``: column-frame direction at the top of the image, degrees from +x counter-clockwise from above.
+    ``near``: signs of x and y of the corner of the bars nearest to the hoisting camera.
+    """
+
+    id: str
+    sleeves: tuple[str, ...] = ()
+    rebars: tuple[str, ...] = ()
+    hoisting: tuple[str, ...] = ()
+    sleeves_image: str | None = None
+    rebars_image: str | None = None
+    sleeves_up_deg: float | None = None
+    rebars_up_deg: float | None = None
+    near: tuple[int, int] | None = None
+    design: ColumnDesign | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """A job, as its file says it; paths are relative to ``folder``.
+
+    ``checks`` None: what each column's scans allow. ``sha256`` is of the file's bytes.
+    """
+
+    source: str
+    folder: Path
+    sha256: str
+    name: str
+    units: str
+    profile: Profile
+    decision: Literal["guarded", "simple"]
+    checks: tuple[str, ...] | None
+    turns: bool
+    model: JobModel | None
+    camera: Camera | None
+    depth_scale_mm: float | None
+    columns: tuple[JobColumn, ...]
+    capture: dict[str, str] = field(default_factory=dict)

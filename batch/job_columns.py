@@ -1,0 +1,79 @@
+"""The ``[[columns]]`` of a job file, read."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from aadm_workbench.design.pattern import inline_design
+from aadm_workbench.errors import DesignError
+from aadm_workbench.model import ColumnDesign
+
+from .job import JobColumn
+from .job_direction import near_corner, up_deg
+from .job_table import JobTable
+
+_SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
+_COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "near", "design")
+_DESIGN = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter", "embedded_length", "size", "centres")
+
+
+def read_columns(top: JobTable, *, has_model: bool) -> tuple[JobColumn, ...]:
+    """The columns of a job, in its order.
+
+    Raises
+    ------
+    JobError
+        For what is wrong with their text, two columns with one id, and a column without any design.
+    """
+    tables = top.tables("columns", "[[columns]]")
+    if not tables:
+        raise top.wrong("columns", 'the job has no columns; add [[columns]] with id = "..." and its scans')
+    columns: list[JobColumn] = []
+    for table in tables:
+        column = _column(table, has_model=has_model)
+        for other, earlier in zip(columns, tables, strict=False):
+            if other.id == column.id:
+                line = earlier.lines.get((*earlier.at, "id"), 1)
+                raise table.wrong("id", f'two columns have the id "{column.id}": the other stands in line {line}')
+        columns.append(column)
+    return tuple(columns)
+
+
+def _column(table: JobTable, *, has_model: bool) -> JobColumn:
+    table.allow(_COLUMN)
+    table.require("id", 'id = "...", its Name, Tag, PieceMark or GlobalId in the model')
+    name = table.text("id") or ""
+    up = up_deg(table, "up")
+    sleeves_up, rebars_up = up_deg(table, "sleeves_up"), up_deg(table, "rebars_up")
+    design = _design(table, name)
+    if design is None and not has_model:
+        message = f"column {name} has no design: add [columns.design] to it, or [model] with a path to the job"
+        raise table.wrong(None, message)
+    return JobColumn(
+        id=name,
+        sleeves=table.texts("sleeves", or_one=True),
+        rebars=table.texts("rebars", or_one=True),
+        hoisting=table.texts("hoisting", or_one=True),
+        sleeves_image=table.text("sleeves_image"),
+        rebars_image=table.text("rebars_image"),
+        sleeves_up_deg=up if sleeves_up is None else sleeves_up,
+        rebars_up_deg=up if rebars_up is None else rebars_up,
+        near=near_corner(table),
+        design=design,
+    )
+
+
+def _design(column: JobTable, name: str) -> ColumnDesign | None:
+    table = column.table("design", "[columns.design]")
+    if table is None:
+        return None
+    table.allow(_DESIGN)
+    for key in _DESIGN[:4]:
+        table.length(key)
+    table.numbers("size", 2)
+    table.number_lists("centres", 2)
+    design: dict[str, Any] = dict(table.values)
+    try:
+        return inline_design(name, design)
+    except DesignError as error:
+        raise table.wrong(None, str(error)) from error

@@ -1,0 +1,156 @@
+"""The job file, read: everything that can be wrong with its text is found before any work starts.
+
+Each error names the file and the line.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import tomllib
+from pathlib import Path
+from typing import Literal, cast
+
+from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.errors import CameraError, JobError
+from aadm_workbench.model import Camera, Profile
+from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
+
+from .job import Job, JobModel
+from .job_columns import read_columns
+from .job_lines import lines_of
+from .job_table import JobTable
+
+CHECKS = ("sleeves", "rebars", "trial")
+_TOP = ("schema", "name", "units", "tolerances", "decision", "checks", "turns", "model", "camera", "capture", "columns")
+_MODEL = ("path", "columns", "sleeves", "rebars")
+_CAMERA = ("fx", "fy", "cx", "cy", "width", "height", "depth_scale_mm", "scale_error")
+_CAPTURE = ("date", "operator", "camera_serial", "calibration", "settings")
+
+
+def read_job(path: Path) -> Job:
+    """Read a job file.
+
+    Raises
+    ------
+    JobError
+        Naming the file and the line: text that is no TOML, unknown keys, wrong types and values, two columns with one
+        id, an unknown tolerance profile, a column without a design in a job without a model.
+    """
+    content = _content(path)
+    top = _parsed(content, str(path))
+    top.allow(_TOP)
+    _check_schema(top)
+    camera, depth_scale_mm = _camera(top)
+    model = _model(top)
+    return Job(
+        source=str(path),
+        folder=path.parent,
+        sha256=hashlib.sha256(content).hexdigest(),
+        name=top.text("name") or path.stem,
+        units=top.one_of("units", ("mm", "m"), "mm"),
+        profile=_profile(top, path.parent),
+        decision=cast(Literal["guarded", "simple"], top.one_of("decision", ("guarded", "simple"), "guarded")),
+        checks=_checks(top),
+        turns=top.flag("turns", False),
+        model=model,
+        camera=camera,
+        depth_scale_mm=depth_scale_mm,
+        columns=read_columns(top, has_model=model is not None),
+        capture=_capture(top),
+    )
+
+
+def _content(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except FileNotFoundError as error:
+        raise JobError(f"{path}: there is no such job file") from error
+    except OSError as error:
+        raise JobError(f"{path}: the job file cannot be read ({error.strerror})") from error
+
+
+def _parsed(content: bytes, source: str) -> JobTable:
+    try:
+        # Editors on Windows mark UTF-8 with three bytes; newlines are one sign wherever the file was written.
+        text = content.decode("utf-8-sig").replace("\r\n", "\n")
+    except UnicodeDecodeError as error:
+        line = content.count(b"\n", 0, error.start) + 1
+        raise JobError(f"{source}, line {line}: this is not UTF-8 text; save the job as UTF-8") from error
+    try:
+        values = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        place = re.search(r"\(at line (\d+), column \d+\)", str(error))
+        line = int(place[1]) if place else text.count("\n") + 1
+        what = re.sub(r"\s*\(at [^)]*\)$", "", str(error))
+        raise JobError(f"{source}, line {line}: this is no TOML: {what}") from error
+    return JobTable(values, (), "the job", source, lines_of(text))
+
+
+def _check_schema(top: JobTable) -> None:
+    top.require("schema", "schema = 1 as its first line")
+    schema = top.values["schema"]
+    if isinstance(schema, bool) or schema != 1:
+        raise top.wrong("schema", f"schema must be 1, it is {schema!r}; another one needs another version of aadm")
+
+
+def _profile(top: JobTable, folder: Path) -> Profile:
+    name = top.text("tolerances") or "cn"
+    try:
+        return load_profile(name, folder)
+    except JobError as error:
+        raise top.wrong("tolerances", str(error)) from error
+
+
+def _checks(top: JobTable) -> tuple[str, ...] | None:
+    checks = top.texts("checks")
+    for index, check in enumerate(checks):
+        if check not in CHECKS:
+            listed = ", ".join(f'"{known}"' for known in CHECKS)
+            raise top.wrong("checks", f'checks holds "{check}"; it may hold {listed}', index)
+        if check in checks[:index]:
+            raise top.wrong("checks", f'checks holds "{check}" twice', index)
+    return tuple(check for check in CHECKS if check in checks) or None
+
+
+def _model(top: JobTable) -> JobModel | None:
+    table = top.table("model", "[model]")
+    if table is None:
+        return None
+    table.allow(_MODEL)
+    table.require("path", 'path = "floor3.ifc", or remove the table where every column has a [columns.design]')
+    return JobModel(table.text("path") or "", *(table.text(key) for key in _MODEL[1:]))
+
+
+def _camera(top: JobTable) -> tuple[Camera | None, float | None]:
+    table = top.table("camera", "[camera]")
+    if table is None:
+        return None, None
+    table.allow(_CAMERA)
+    for key in _CAMERA[:6]:
+        table.require(key, f"{key} = ...; the six intrinsics belong together")
+    scale_error = table.number("scale_error")
+    if scale_error is not None and scale_error < 0.0:
+        raise table.wrong("scale_error", f"scale_error must not be below zero, it is {scale_error:g}")
+    fx, fy, cx, cy = (table.length(key) for key in _CAMERA[:4])
+    width, height = (table.count(key) for key in _CAMERA[4:6])
+    found = Intrinsics("", fx, fy, cx, cy, width, height, Camera.scale_error if scale_error is None else scale_error)
+    try:
+        return checked_camera(found), table.length("depth_scale_mm")
+    except CameraError as error:
+        raise table.wrong(None, f"[camera] {error}") from error
+
+
+def _capture(top: JobTable) -> dict[str, str]:
+    table = top.table("capture", "[capture]")
+    if table is None:
+        return {}
+    table.allow(_CAPTURE)
+    kept = {}
+    for key, value in table.values.items():
+        # A date may stand without quotes, and "" is a form that nobody has filled in.
+        is_text = isinstance(value, str) or (key == "date" and hasattr(value, "isoformat"))
+        if not is_text:
+            raise table.wrong(key, f"{key} must be text in quotes, it is {value!r}")
+        kept[key] = str(value)
+    return kept

@@ -1,0 +1,97 @@
+"""``aadm``: parses the command line and runs one command.
+
+Heavy packages are imported by the commands when they run, so that the command line itself answers at once.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from typing import Protocol
+
+from aadm_workbench import __version__
+from aadm_workbench.errors import AadmError
+
+from .commands import check, design, doctor, extract, profiles, simulate
+from .exit_codes import BAD_USAGE, INTERNAL, INTERRUPTED
+
+
+class Command(Protocol):
+    """What a module of ``commands/`` offers."""
+
+    __name__: str
+    SUMMARY: str
+    EXAMPLE: str
+
+    def add_arguments(self, parser: argparse.ArgumentParser) -> None:
+        """Declare arguments, and the function that runs the command as ``run``."""
+
+
+COMMANDS: tuple[Command, ...] = (check, design, extract, simulate, profiles, doctor)
+
+_EXIT_CODES = """\
+exit codes:
+  0 all pass   10 some column fails   11 some is inconclusive or not measured   12 some ended in an error
+  2 bad usage, job text or model: nothing was checked   70 internal error"""
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """The parser of the whole command line."""
+    parser = argparse.ArgumentParser(
+        prog="aadm",
+        description="Checks precast columns before they are hoisted: grouting sleeves against connecting rebars.",
+        epilog=f"example:\n  aadm check floor3.toml\n\n{_EXIT_CODES}",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--version", action="version", version=f"aadm {__version__}")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for command in COMMANDS:
+        command.add_arguments(
+            commands.add_parser(
+                command.__name__.rpartition(".")[2],
+                help=command.SUMMARY,
+                description=command.__doc__,
+                epilog=command.EXAMPLE,
+                formatter_class=argparse.RawDescriptionHelpFormatter,
+            )
+        )
+    return parser
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code; bad usage ends in ``SystemExit(2)``."""
+    _never_fail_on_a_sign()
+    options = build_parser().parse_args(arguments)
+    try:
+        code: int = options.run(options)
+    except AadmError as error:
+        _say(str(error))
+        return BAD_USAGE
+    except KeyboardInterrupt:
+        _say("interrupted")
+        return INTERRUPTED
+    except Exception as error:  # noqa: BLE001 - this is the outermost boundary
+        if options.debug:
+            import traceback
+
+            traceback.print_exc()
+        hint = "" if options.debug else "; repeat the command with --debug to see where it happened"
+        _say(f"internal error: {type(error).__name__}: {error}{hint}")
+        return INTERNAL
+    return code
+
+
+def _never_fail_on_a_sign() -> None:
+    """A terminal that lacks a sign shows a question mark instead."""
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+
+
+def _say(message: str) -> None:
+    sys.stderr.write(f"aadm: {message}\n")
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())

@@ -1,0 +1,34 @@
+"""Switches that the commands have in common, and types of arguments that check themselves."""
+
+from __future__ import annotations
+
+import argparse
+import math
+
+
+def add_switches(parser: argparse.ArgumentParser, *, prints_json: str | None) -> None:
+    """``--quiet``, ``--debug`` and, for a command that prints a table, ``--json``, which prints ``prints_json``."""
+    if prints_json is not None:
+        parser.add_argument("--json", action="store_true", help=f"print {prints_json} as JSON instead of a table")
+    parser.add_argument(
+        "--quiet", action="store_true", help="no progress and no table: errors and what --json asks for"
+    )
+    parser.add_argument("--debug", action="store_true", help="show where an internal error happened")
+
+
+def whole_number(text: str) -> int:
+    """A whole number above zero."""
+    if not text.isdecimal() or int(text) == 0:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number above zero")
+    return int(text)
+
+
+def length(text: str) -> float:
+    """A length above zero."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not (math.isfinite(value) and value > 0.0):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a length above zero")
+    return value

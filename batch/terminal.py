@@ -1,0 +1,91 @@
+"""What the command shows: tables on stdout, messages on stderr, colour only where a person looks at it.
+
+Every verdict is a word and a sign, so that nothing depends on colour. Where stdout is a file or a pipe each row is one
+line, as long as it needs to be.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from aadm_workbench.model import Verdict
+
+STYLE = {
+    Verdict.PASS: ("✓", "green"),
+    Verdict.FAIL: ("✗", "bold red"),
+    Verdict.INCONCLUSIVE: ("?", "yellow"),
+    Verdict.NOT_MEASURED: ("-", "yellow"),
+    Verdict.ERROR: ("!", "bold magenta"),
+    Verdict.NOT_ASSESSED: ("", "dim"),
+}
+"""Sign and colour of each verdict."""
+
+_UNBOUNDED = 100_000
+"""Width in characters of what is no terminal: no line is ever broken."""
+
+
+def verdict_text(verdict: Verdict) -> Text:
+    """A verdict as people read it: sign, word, colour."""
+    sign, style = STYLE[verdict]
+    return Text(f"{sign} {in_words(verdict)}".strip(), style=style)
+
+
+def in_words(verdict: Verdict) -> str:
+    """``not measured``."""
+    return verdict.value.replace("_", " ")
+
+
+def new_table(*headings: str, numbers: tuple[str, ...] = (), title: str | None = None) -> Table:
+    """An empty table; columns of ``numbers`` are set flush right."""
+    plain = not sys.stdout.isatty()
+    table = Table(
+        box=None if plain else SIMPLE_HEAD, title=title, title_justify="left", title_style="bold", pad_edge=False
+    )
+    for heading in headings:
+        table.add_column(heading, justify="right" if heading in numbers else "left", no_wrap=plain)
+    return table
+
+
+def show(*parts: Table | Text | str) -> None:
+    """Write tables and lines to stdout."""
+    console = _console(sys.stdout.isatty())
+    try:
+        with console.capture() as capture:
+            for part in parts:
+                console.print(Text(part) if isinstance(part, str) else part, soft_wrap=not isinstance(part, Table))
+        # What fills a row up to the width of its table is of no use to the next program.
+        sys.stdout.write("".join(f"{line.rstrip()}\n" for line in capture.get().splitlines()))
+        sys.stdout.flush()
+    except BrokenPipeError:
+        _give_up_stdout()
+
+
+def show_json(content: bytes) -> None:
+    """Write a JSON document to stdout, in UTF-8 whatever the terminal speaks."""
+    try:
+        sys.stdout.flush()
+        sys.stdout.buffer.write(content)
+        sys.stdout.buffer.flush()
+    except BrokenPipeError:
+        _give_up_stdout()
+
+
+def say(message: str) -> None:
+    """Write one message to stderr."""
+    sys.stderr.write(f"{message}\n")
+    sys.stderr.flush()
+
+
+def _console(is_terminal: bool) -> Console:
+    return Console(file=sys.stdout, width=None if is_terminal else _UNBOUNDED, highlight=False)
+
+
+def _give_up_stdout() -> None:
+    """Whoever read it has read enough (``aadm design ... | head``): what is still buffered goes nowhere."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

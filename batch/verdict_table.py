@@ -1,0 +1,54 @@
+"""The table that ends a check: one line a column, the worst first."""
+
+from __future__ import annotations
+
+from rich.table import Table
+from rich.text import Text
+
+from aadm_workbench.model import ColumnReport, JobReport, Verdict
+
+from .terminal import in_words, new_table, verdict_text
+from .worst_point import Comparison, worst_comparison
+
+_WORST_FIRST = (Verdict.ERROR, Verdict.FAIL, Verdict.NOT_MEASURED, Verdict.INCONCLUSIVE, Verdict.PASS)
+
+
+def verdict_table(report: JobReport) -> Table:
+    """Verdict, column, its worst point with deviation and limit, whether it goes on its bars, and why."""
+    table = new_table(
+        "Verdict", "Column", "Worst", "Deviation / limit", "Goes on", "Reason", numbers=("Deviation / limit",)
+    )
+    for column in worst_first(report.columns):
+        comparison = worst_comparison(column)
+        table.add_row(
+            verdict_text(column.verdict),
+            Text(column.id),
+            "" if comparison is None else comparison.point,
+            "" if comparison is None else comparison.in_words(),
+            verdict_text(column.goes_on),
+            Text(_reason(column, comparison)),
+        )
+    return table
+
+
+def worst_first(columns: tuple[ColumnReport, ...]) -> list[ColumnReport]:
+    """Columns by verdict, the worst first; those of one verdict in the order of the job."""
+    return sorted(columns, key=lambda column: _WORST_FIRST.index(column.verdict))
+
+
+def summary_line(report: JobReport) -> str:
+    """``8 columns: 5 pass, 2 fail, 1 error``."""
+    counted = [f"{number} {in_words(Verdict(name))}" for name, number in report.summary().items() if number]
+    total = len(report.columns)
+    return f"{total} column{'' if total == 1 else 's'}: {', '.join(counted)}"
+
+
+def _reason(column: ColumnReport, comparison: Comparison | None) -> str:
+    """Why a failing point fails; else the first of the column's reasons; and how many more the report holds."""
+    if not column.reasons:
+        return ""
+    reason = column.reasons[0]
+    if column.verdict is Verdict.FAIL and comparison is not None and comparison.reason in column.reasons:
+        reason = comparison.reason
+    more = len(column.reasons) - 1
+    return reason + (f" (+{more} more)" if more else "")

@@ -1,0 +1,232 @@
+"""design, extract, profiles, doctor and the virtual camera, each by what it prints and how it ends."""
+
+import json
+import sys
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import numpy as np
+import pytest
+
+from aadm_workbench.design import read
+from aadm_workbench.design.model_design import ModelDesign, NotTaken
+from aadm_workbench.design.pattern import inline_design
+from aadm_workbench.extract import method
+from aadm_workbench.model import AssemblyPoint, Extraction, Kind, Plane, Scan
+from aadm_workbench.report.json import report_schema
+from aadm_workbench.scan.write import write_ply
+from batch.commands.doctor import PACKAGES
+from batch.main import main
+
+Output = pytest.CaptureFixture[str]
+
+T_MODEL_COLUMN = np.array([[0.0, -1.0, 0.0, 1000.0], [1.0, 0.0, 0.0, 2000.0], [0.0, 0.0, 1.0, 7200.0], [0, 0, 0, 1.0]])
+
+
+def printed_json(capsys: Output) -> Any:
+    """What a command printed, and that it said nothing else there."""
+    return json.loads(capsys.readouterr().out)
+
+
+@pytest.fixture
+def model(monkeypatch: pytest.MonkeyPatch) -> list[dict[str, Any]]:
+    """Stands in for a model of one column turned by 90 degrees, and one sleeve that belongs to none."""
+    table = {"centres": [[-90, -90], [90, -90], [90, 90]], "sleeve_diameter": 26.0, "rebar_diameter": 18.0}
+    column = replace(
+        inline_design("C-301", table),
+        names=("C-301", "柱"),
+        T_model_column=T_MODEL_COLUMN,
+        storey="3F",
+        warnings=("w1",),
+    )
+    up = np.array([0.0, 0.0, 1.0])
+    loose = AssemblyPoint("", Kind.SLEEVE, np.array([1.0, 2.0, 3.0]), up, 36.0, global_id="L" * 22, why="a name")
+    left = NotTaken("rebar", "IfcReinforcingBar", "N" * 22, "[bar]", "is a stirrup")
+    calls: list[dict[str, Any]] = []
+
+    def read_model(path: Path, **selectors: str | None) -> ModelDesign:
+        calls.append(selectors)
+        columns = () if selectors["columns"] == "IfcWall" else (column,)
+        return ModelDesign(str(path), "f" * 64, "IFC4", columns, (loose,), (), ("w0",), (left,), "3 IfcWall")
+
+    monkeypatch.setattr(read, "read_model", read_model)
+    return calls
+
+
+@pytest.mark.usefixtures("model")
+def test_design_in_the_frame_of_the_model(capsys: Output) -> None:
+    assert main(["design", "m.ifc", "--json"]) == 0
+    document = printed_json(capsys)
+    (column,) = document["columns"]
+    assert (column["id"], column["storey"], column["warnings"]) == ("C-301", "3F", ["w1"])
+    assert [point["label"] for point in column["sleeves"]] == ["S1", "S2", "S3"]
+    # The centroid of the centres is the origin: S1 stands at (-120, -60).
+    assert column["sleeves"][0] == {
+        "label": "S1",
+        "global_id": None,
+        "centre_mm": [1060.0, 1880.0, 7200.0],
+        "axis": [0.0, 0.0, 1.0],
+        "diameter_mm": 26.0,
+        "length_mm": None,
+    }
+    assert document["loose"]["sleeves"][0]["centre_mm"] == [1.0, 2.0, 3.0]
+    assert document["loose"]["rebars"] == []
+    assert "not_taken" not in document
+
+
+@pytest.mark.usefixtures("model")
+def test_design_says_why(capsys: Output) -> None:
+    assert main(["design", "m.ifc", "--json", "--why"]) == 0
+    document = printed_json(capsys)
+    assert document["loose"]["sleeves"][0]["why"] == "a name"
+    assert document["not_taken"][0]["reason"] == "is a stirrup"
+    assert main(["design", "m.ifc", "--why"]) == 0
+    captured = capsys.readouterr()
+    assert "[bar]  is a stirrup" in captured.out
+    assert "the job's text" in captured.out
+    assert captured.err.splitlines() == ["warning: w0", "warning: w1"]
+
+
+def test_design_of_one_column(model: list[dict[str, Any]], capsys: Output) -> None:
+    assert main(["design", "m.ifc", "--column", "柱"]) == 0
+    printed = capsys.readouterr().out
+    assert printed.startswith("C-301: 3F\nPoint ")
+    assert printed.endswith("1 column, 6 sleeves and rebars in m.ifc\n")
+    assert "Loose" not in printed
+    assert main(["design", "m.ifc", "--column", "C-302"]) == 2
+    assert "has no column called 'C-302'" in capsys.readouterr().err
+    assert main(["design", "m.ifc", "--column", "IfcWall", "--sleeves", "IfcPipe"]) == 11
+    assert model[-1] == {"columns": "IfcWall", "sleeves": "IfcPipe", "rebars": None}
+    assert "no column with grouting sleeves in its foot; it holds 3 IfcWall" in capsys.readouterr().err
+
+
+def test_design_of_no_model(tmp_path: Path, capsys: Output) -> None:
+    (tmp_path / "m.doc").touch()
+    assert main(["design", str(tmp_path / "m.doc")]) == 2
+    assert capsys.readouterr().err.startswith(
+        f"aadm: {tmp_path / 'm.doc'}: models of the format .doc are not supported"
+    )
+
+
+@pytest.fixture
+def scan(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """A cloud in which two sleeves are found."""
+    write_ply(tmp_path / "foot.ply", np.random.default_rng(1).uniform(-150.0, 150.0, (600, 3)))
+    up = np.array([0.0, 0.0, 1.0])
+
+    def extract(cloud: Scan, kind: Kind, diameter_mm: float, name: str, rng: np.random.Generator) -> Extraction:
+        points = tuple(
+            AssemblyPoint("", kind, np.array([x, 0.0, -0.0]), up, diameter_mm, covariance, why=name)
+            for x, covariance in ((1 / 3, np.diag([0.03**2, 0.04**2, 9.0])), (90.0, None))
+        )
+        return Extraction(kind, name, points, Plane(up, 0.0, 0.02), up, "foot face", quality={"nothing": np.nan})
+
+    monkeypatch.setattr(method, "extract", extract)
+    return str(tmp_path / "foot.ply")
+
+
+def test_extract(scan: str, capsys: Output) -> None:
+    words = ["extract", scan, "--kind", "sleeve", "--diameter", "26"]
+    assert main([*words, "--json", "--method", "fusion"]) == 0
+    document = printed_json(capsys)
+    assert (document["kind"], document["method"], document["found"], document["expected"]) == (
+        "sleeve",
+        "fusion",
+        2,
+        None,
+    )
+    first, second = document["points"]
+    assert first == {
+        "centre_mm": [0.3333, 0.0, 0.0],
+        "axis": [0.0, 0.0, 1.0],
+        "diameter_mm": 26.0,
+        # Only what lies across the vertical counts: the root of the mean of 0.03² and 0.04².
+        "u_mm": 0.0354,
+        "evidence": "fusion",
+    }
+    assert second["u_mm"] is None
+    assert document["plane"] == {"normal": [0.0, 0.0, 1.0], "offset_mm": 0.0, "residual_mm": 0.02}
+    assert main([*words, "--expected", "2"]) == 0
+    assert "2 sleeves of 2 expected in " in capsys.readouterr().out
+    assert main([*words, "--expected", "3", "--quiet"]) == 11
+    assert capsys.readouterr().out == ""
+
+
+def test_extract_from_no_scan(scan: str, tmp_path: Path, capsys: Output) -> None:
+    words = ["--kind", "rebar", "--diameter", "18"]
+    assert main(["extract", str(tmp_path / "nowhere.ply"), *words]) == 2
+    assert main(["extract", scan, *words, "--units", "m"]) == 2
+    assert 'write units = "mm"' in capsys.readouterr().err
+    assert main(["extract", scan, *words, "--camera", str(tmp_path / "nowhere.toml")]) == 2
+
+
+def test_profiles(capsys: Output) -> None:
+    assert main(["profiles", "--json"]) == 0
+    named = {profile["name"]: profile for profile in printed_json(capsys)["profiles"]}
+    assert {rule["upper_mm"] for rule in named["cn"]["rules"] if rule["limits"] == "sleeve_rebar_distance"} == {3.0}
+    assert main(["profiles"]) == 0
+    assert "cn-jgj1-2014" in capsys.readouterr().out
+    assert main(["profiles", "cn"]) == 0
+    printed = capsys.readouterr().out
+    assert "-2 … +2" in printed
+    assert "unverified" in printed
+    assert main(["profiles", "din"]) == 2
+    assert "Unknown tolerance profile 'din'" in capsys.readouterr().err
+
+
+def test_doctor(capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("batch.commands.doctor.PACKAGES", tuple(package for package in PACKAGES if package.core))
+    assert main(["doctor"]) == 0
+    assert "Ready to check columns" in capsys.readouterr().out
+    monkeypatch.setitem(sys.modules, "ifcopenshell", None)
+    assert main(["doctor", "--json"]) == 12
+    found = {finding["package"]: finding for finding in printed_json(capsys)["packages"]}
+    assert found["ifcopenshell"]["problem"] == "not installed"
+    assert found["ifcopenshell"]["remedy"] == "pip install 'ifcopenshell'"
+    assert found["numpy"]["version"] == np.__version__
+    monkeypatch.setitem(sys.modules, "rich", None)
+    assert main(["doctor"]) == 12
+    printed = capsys.readouterr().out
+    assert "Missing for every check: ifcopenshell, rich" in printed
+
+
+def test_doctor_knows_every_dependency(repository: Path) -> None:
+    project = tomllib.loads((repository / "pyproject.toml").read_text("utf-8"))["project"]
+    names = {name for package in PACKAGES for name in package.distributions}
+    wanted = project["dependencies"] + [
+        line for extra in ("batch", "twin", "published") for line in project["optional-dependencies"][extra]
+    ]
+    assert {line.replace(">", ";").split(";")[0].strip() for line in wanted} <= names
+    core = {package.install for package in PACKAGES if package.core}
+    assert core == {line.replace(">", ";").split(";")[0].strip() for line in project["dependencies"]}
+
+
+def test_simulate_without_the_ray_caster(tmp_path: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("batch.commands.simulate.find_spec", lambda name: None)
+    assert main(["simulate", "pair", "--setting", "lab", "--out", str(tmp_path / "pair")]) == 2
+    assert "pip install 'aadm-workbench[twin]'" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_simulated_pair_is_checked_and_agrees_with_its_truth(tmp_path: Path, capsys: Output) -> None:
+    pytest.importorskip("open3d")
+    pytest.importorskip("manifold3d")
+    folder = tmp_path / "pair"
+    assert main(["simulate", "pair", "--setting", "lab", "--out", str(folder), "--seed", "7"]) == 0
+    assert f"aadm check {folder / 'job.toml'}" in capsys.readouterr().out
+    main(["check", str(folder / "job.toml"), "--quiet"])
+    report = json.loads((folder / "job-report" / "report.json").read_text("utf-8"))
+    jsonschema.Draft202012Validator(report_schema()).validate(report)
+    (column,) = report["columns"]
+    true = json.loads((folder / "truth.json").read_text("utf-8"))["columns"][column["id"]]
+    for kind in ("sleeves", "rebars"):
+        assert column[kind]["found"] == 12
+        for found, expected in zip(column[kind]["points"], true[kind]["points"], strict=True):
+            assert found["label"] == expected["label"]
+            assert found["design_mm"][:2] == expected["design_mm"][:2]
+            # Ten times worse than the method is: this asks whether truth and report speak of the same point.
+            assert np.linalg.norm(np.subtract(found["scan_mm"], expected["scan_mm"])) < 0.6
+    assert column["trial_assembly"]["minimax"]["max_mm"] == pytest.approx(true["minimax"]["max_mm"], abs=0.3)

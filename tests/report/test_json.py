@@ -1,0 +1,310 @@
+"""report.json: the names of the contract, numbers that are numbers, the same bytes, and a schema that notices slips."""
+
+import copy
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import numpy as np
+import pytest
+
+from aadm_workbench.model import (
+    Candidate,
+    ColumnReport,
+    Correction,
+    Fit,
+    GroupReport,
+    HoistingPair,
+    HoistingReport,
+    JobReport,
+    Kind,
+    PairResult,
+    PointResult,
+    PoseWindow,
+    Profile,
+    Rule,
+    RuleResult,
+    SpacingResult,
+    TrialPose,
+    TrialReport,
+    TurnResult,
+    Verdict,
+)
+from aadm_workbench.report.json import encode, report_document, report_schema, write_report
+
+T = np.array([[0.0, -1.0, 0.0, 1e6 / 3], [1.0, 0.0, 0.0, -2.0], [0.0, 0.0, 1.0, 1.0 / 3], [0.0, 0.0, 0.0, 1.0]])
+RULE = Rule("sleeve_position", "sleeve_position", 2.0, None, "T/CCES 30-2022, 4.3.3", "should", "verified")
+RESULT = RuleResult("sleeve_position", "T/CCES 30-2022, 4.3.3", "verified", Verdict.FAIL, True, "S1", 2.4123456)
+
+
+def group(kind: Kind) -> GroupReport:
+    """Two points, one of them not measured."""
+    first, second = f"{kind.letter}1", f"{kind.letter}2"
+    measured = PointResult(
+        first,
+        "0" * 22,
+        (-90.0, -90.0, 0.0),
+        (1.0 / 3, 2.0, 800.0),
+        (-88.0, -90.0, -0.0),
+        26.0,
+        0.3,
+        (2.4, 0.0),
+        2.4123456789,
+        0.05,
+        2.0,
+        Verdict.FAIL,
+        f"{first} is 2.41 mm from design",
+        0.0001,
+        119.5,
+    )
+    lost = PointResult(
+        second, None, (90.0, -90.0, 0.0), None, None, None, None, None, None, None, 2.0, Verdict.NOT_MEASURED, "plugged"
+    )
+    spacing = SpacingResult((first, second), 180.0, None, None, None, (-2.0, 2.0), Verdict.NOT_MEASURED, "S2")
+    fit = Fit(T, 0.5, 2.4, "ambiguous", (Candidate(0.0, 0.5, 2.4, 1, 90.0, Verdict.FAIL), Candidate(90.0, 0.6, 2.5, 1)))
+    quality = {"pitch_mm": np.float32(0.3), "points": np.int64(12), "nothing": float("nan"), "list": (1, None, True)}
+    return GroupReport(
+        kind,
+        f"scans/{kind.plural}.tiff",
+        "a" * 64,
+        "refined",
+        2,
+        1,
+        Verdict.FAIL,
+        (measured, lost),
+        (spacing,),
+        fit,
+        (RESULT,),
+        (f"{first} is 2.41 mm from design",),
+        ("absolute position not checked",),
+        quality,
+    )
+
+
+def full_report() -> JobReport:
+    """A report that uses every noun there is."""
+    pair = PairResult("S1", "R1", (0.1, -0.0), 0.1, 0.07, 3.0, 2.4, Verdict.PASS, probability=1.0)
+    pose = TrialPose(T, 0.1, 0.1, 0.0, (pair,))
+    trial = TrialReport(
+        Verdict.NOT_MEASURED,
+        pose,
+        pose,
+        (),
+        ("S2",),
+        ("S2 is missing",),
+        (),
+        0.987654321,
+        0.966666666,
+        PoseWindow((-1.0, 1.0), (-1.0, 1.0), (-0.5, 0.5)),
+        0.0,
+        (TurnResult(0.0, 0.1, Verdict.PASS), TurnResult(90.0, None, Verdict.NOT_MEASURED)),
+        160.0,
+        ("diameter over the ribs after GB/T 1499.2",),
+    )
+    hanging = HoistingReport(
+        "hoist-1.tiff",
+        ("S1",),
+        1.0,
+        1.5,
+        0.25,
+        Verdict.FAIL,
+        (
+            HoistingPair("S1", "R1", (0.0, 0.0, 500.0), (0.0, 0.0, 700.0), (1.0, 0.0), 1.0, 0.1, True),
+            HoistingPair("S2", "R2", None, None, None, None, None, False, "out of view"),
+        ),
+        Correction(1.0, -0.0, 0.1),
+        ("move it",),
+        "b" * 64,
+        "refined",
+    )
+    full = ColumnReport(
+        "柱-301",
+        Verdict.FAIL,
+        Verdict.NOT_MEASURED,
+        ("S1 is 2.41 mm from design",),
+        group(Kind.SLEEVE),
+        group(Kind.REBAR),
+        trial,
+        (hanging,),
+        "0" * 22,
+        "PCZ-1",
+        "3F",
+        "C/1",
+        (250, 250),
+        T,
+        (RESULT,),
+        ("a note",),
+    )
+    bare = ColumnReport("C-302", Verdict.ERROR, Verdict.NOT_ASSESSED, ("no such file",))
+    return JobReport(
+        {"name": "aadm", "version": "0.1.0"},
+        {"name": "Floor 3", "sha256": "c" * 64},
+        {"date": "2026-11-20"},
+        {"source": "floor3.ifc", "sha256": "d" * 64},
+        Profile("cn", "China", (RULE,), 5.0),
+        (full, bare),
+    )
+
+
+def valid(document: Any) -> bool:
+    """Whether a document is what the schema describes."""
+    return bool(jsonschema.Draft202012Validator(report_schema()).is_valid(document))
+
+
+@pytest.fixture
+def document() -> Any:
+    """report.json as it is read back."""
+    return json.loads(encode(report_document(full_report())))
+
+
+def test_schema_is_one() -> None:
+    jsonschema.Draft202012Validator.check_schema(report_schema())
+
+
+def test_full_report_is_valid(document: Any) -> None:
+    jsonschema.Draft202012Validator(report_schema()).validate(document)
+
+
+CONTRACT = {
+    "": "schema tool job capture model profile summary columns",
+    "columns.0": "id global_id piece_mark storey grid size_mm T_model_column verdict goes_on reasons sleeves rebars "
+    "trial_assembly hoisting",
+    "columns.0.sleeves": "source sha256 method expected found quality points spacing fit",
+    "columns.0.sleeves.points.0": "label global_id design_mm scan_mm aligned_mm diameter_mm axis_tilt_deg offset_mm "
+    "deviation_mm u_mm limit_mm verdict reason",
+    "columns.0.sleeves.spacing.0": "between design_mm measured_mm deviation_mm u_mm limit_mm verdict",
+    "columns.0.sleeves.fit": "T_design_scan rms_mm max_mm orientation candidates",
+    "columns.0.rebars.points.0": "label exposed_length_mm",
+    "columns.0.trial_assembly": "least_squares minimax collisions verdict",
+    "columns.0.trial_assembly.minimax": "T_sleeves_rebars max_mm mean_mm sd_mm pairs",
+    "columns.0.trial_assembly.least_squares.pairs.0": "sleeve rebar offset_mm distance_mm u_mm clearance_mm verdict",
+    "columns.0.hoisting.0": "source keys mean_mm max_mm column_tilt_deg verdict pairs correction",
+    "columns.0.hoisting.0.pairs.0": "sleeve rebar sleeve_scan_mm rebar_scan_mm offset_mm distance_mm u_mm seen",
+    "columns.0.hoisting.0.correction": "dx_mm dy_mm yaw_deg",
+}
+
+
+def at(document: Any, path: str) -> Any:
+    """What stands at ``columns.0.id``."""
+    for key in path.split(".") if path else ():
+        document = document[int(key) if isinstance(document, list) else key]
+    return document
+
+
+@pytest.mark.parametrize("path", CONTRACT)
+def test_keys_of_the_contract(document: Any, path: str) -> None:
+    assert set(CONTRACT[path].split()) <= set(at(document, path))
+
+
+def test_only_bars_stick_out(document: Any) -> None:
+    assert "exposed_length_mm" not in at(document, "columns.0.sleeves.points.0")
+    assert at(document, "columns.0.rebars.points.0.exposed_length_mm") == 119.5
+
+
+def test_numbers(document: Any) -> None:
+    assert at(document, "columns.0.sleeves.points.0.deviation_mm") == 2.4123
+    assert at(document, "columns.0.sleeves.points.0.scan_mm") == [0.3333, 2.0, 800.0]
+    assert at(document, "columns.0.size_mm") == [250.0, 250.0]
+    assert at(document, "columns.0.trial_assembly.probability") == 0.987654
+    assert at(document, "columns.0.T_model_column") == [
+        [0.0, -1.0, 0.0, 333333.333333],
+        [1.0, 0.0, 0.0, -2.0],
+        [0.0, 0.0, 1.0, 0.333333],
+        [0.0, 0.0, 0.0, 1.0],
+    ]
+    assert at(document, "columns.0.sleeves.quality") == {
+        "pitch_mm": 0.3,
+        "points": 12,
+        "nothing": None,
+        "list": [1, None, True],
+    }
+    assert at(document, "profile.rules.0")["upper_mm"] == 2.0
+    assert at(document, "profile.rules.0")["lower_mm"] is None
+    text = encode(report_document(full_report())).decode()
+    assert not any(word in text for word in ("NaN", "Infinity", "-0.0"))
+
+
+def test_vectors_stand_on_one_line_and_texts_are_left_alone() -> None:
+    assert encode({"a": [1.5, None, -2], "b": "[\\n 1,\\n 2]", "c": [], "d": ["x"]}).decode().splitlines() == [
+        "{",
+        ' "a": [1.5, null, -2],',
+        ' "b": "[\\\\n 1,\\\\n 2]",',
+        ' "c": [],',
+        ' "d": [',
+        '  "x"',
+        " ]",
+        "}",
+    ]
+
+
+def test_last_bits_do_not_show(tmp_path: Path) -> None:
+    report = full_report()
+    write_report(report, tmp_path / "a.json")
+    moved = T * (1.0 + 1e-16)
+    moved[0, 3] += 1e-9
+    column = report.columns[0]
+    jittered = JobReport(
+        report.tool,
+        report.job,
+        report.capture,
+        report.model,
+        report.profile,
+        (ColumnReport(**{**vars(column), "T_model_column": moved}), report.columns[1]),
+    )
+    write_report(jittered, tmp_path / "b.json")
+    assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
+
+
+def changed(path: str, value: Any) -> Callable[[Any], None]:
+    """Puts something else in a place."""
+    folder, _, key = path.rpartition(".")
+
+    def change(document: Any) -> None:
+        place = at(document, folder)
+        place[int(key) if isinstance(place, list) else key] = value
+
+    return change
+
+
+SLIPS = [
+    ("columns.0.verdict", "passed"),
+    ("columns.0.verdict", "not_assessed"),
+    ("columns.0.goes_on", True),
+    ("columns.0.reasons", []),
+    ("columns.0.extra", 1),
+    ("columns.0.sleeves.extra", 1),
+    ("columns.0.sleeves.points.0.exposed_length_mm", 1.0),
+    ("columns.0.sleeves.points.0.label", "R1"),
+    ("columns.0.sleeves.points.0.deviation_mm", None),
+    ("columns.0.sleeves.points.0.deviation_mm", -1.0),
+    ("columns.0.sleeves.points.0.scan_mm", [1.0, 2.0]),
+    ("columns.0.sleeves.points.1.verdict", "pass"),
+    ("columns.0.sleeves.fit.orientation", "guessed"),
+    ("columns.0.sleeves.fit.T_design_scan", [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 2]]),
+    ("columns.0.trial_assembly.verdict", "pass"),
+    ("columns.0.trial_assembly.minimax.pairs.0.rebar", "S1"),
+    ("columns.0.hoisting.0.correction.yaw_rad", 0.1),
+    ("job.sha256", "abc"),
+    ("schema", 2),
+    ("summary.passed", 1),
+    ("profile.rules", []),
+    ("columns", []),
+]
+
+
+@pytest.mark.parametrize(("path", "value"), SLIPS, ids=[f"{path}={value}" for path, value in SLIPS])
+def test_schema_notices(document: Any, path: str, value: Any) -> None:
+    slipped = copy.deepcopy(document)
+    changed(path, value)(slipped)
+    assert valid(document)
+    assert not valid(slipped)
+
+
+@pytest.mark.parametrize("path", [path for path in CONTRACT if path])
+def test_schema_misses_every_key(document: Any, path: str) -> None:
+    for key in CONTRACT[path].split():
+        slipped = copy.deepcopy(document)
+        del at(slipped, path)[key]
+        assert not valid(slipped), f"{path} without {key}"
