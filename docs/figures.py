@@ -10,10 +10,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
-
-mpl.use("Agg")
-import matplotlib.pyplot as plt
+from matplotlib.figure import Figure
 from matplotlib.patches import Circle, Rectangle
 
 MAGNIFIED = 20
@@ -50,7 +47,8 @@ def main(report: Path, column_id: str, picture: Path) -> None:
     """Draw least squares beside minimax for one column."""
     columns = json.loads(report.read_text(encoding="utf-8"))["columns"]
     column = next(entry for entry in columns if entry["id"] == column_id)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 5.6))
+    figure = Figure(figsize=(11, 5.6))
+    left, right = figure.subplots(1, 2)
     draw_pose(left, column, "least_squares", "Least squares")
     draw_pose(right, column, "minimax", "Minimax")
     figure.suptitle(

@@ -12,12 +12,17 @@ from ..switches import add_switches
 SUMMARY = "make synthetic scans with known truth"
 EXAMPLE = """\
 example:
-  aadm simulate pair --setting field --out pair --seed 7"""
+  aadm simulate pair --setting field --out pair --seed 7
+  aadm simulate floor --out floor --seed 2026"""
 _PAIR = "a column foot and the bars under it: two scans, truth.json and a job.toml that aadm check runs"
 _PAIR_EXAMPLE = """\
 example:
   aadm simulate pair --setting lab --out pair --seed 7 --format ply
   aadm check pair/job.toml"""
+_JOBS = {
+    "floor": "the sample floor: scans, truth.json and job.toml of eight columns; the job wants floor3.ifc beside it",
+    "lab": "the laboratory model: clouds, truth.json and job.toml of two columns",
+}
 _PACKAGES = ("manifold3d", "open3d")
 
 
@@ -39,14 +44,55 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     pair.add_argument("--format", choices=("tiff", "ply", "pcd"), default="tiff", help="of the scans (default: tiff)")
     add_switches(pair, prints_json=None)
     pair.set_defaults(run=_simulate_pair)
+    for name, summary in _JOBS.items():
+        job = kinds.add_parser(
+            name,
+            help=summary,
+            description=f"Simulate {summary}.",
+            epilog=f"example:\n  aadm simulate {name} --out {name} --seed 2026",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        job.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files")
+        job.add_argument("--seed", type=int, default=2026, metavar="N", help="other errors (default: 2026)")
+        add_switches(job, prints_json=None)
+        job.set_defaults(run=_simulate_job, what=name)
 
 
 def _simulate_pair(options: argparse.Namespace) -> int:
     _require_virtual_camera()
-    from aadm_workbench.errors import AadmError
     from aadm_workbench.twin.pair import SETTINGS, make_pair
 
     from ..terminal import show
+
+    _prepare(options)
+    make_pair(options.out, SETTINGS[options.setting], options.seed, options.format)
+    if not options.quiet:
+        names = (f"foot.{options.format}", f"bars.{options.format}", "truth.json", "job.toml")
+        show(f"Wrote {', '.join(names)} to {options.out}", f"Check it: aadm check {options.out / 'job.toml'}")
+    return ALL_PASS
+
+
+def _simulate_job(options: argparse.Namespace) -> int:
+    _require_virtual_camera()
+    from aadm_workbench.twin.floor import make_floor
+    from aadm_workbench.twin.lab import make_lab
+
+    from ..terminal import say, show
+
+    _prepare(options)
+    for line in {"floor": make_floor, "lab": make_lab}[options.what](options.out, options.seed):
+        if not options.quiet:
+            say(line)
+    if not options.quiet:
+        show(
+            f"Wrote scans, truth.json and job.toml to {options.out}", f"Check it: aadm check {options.out / 'job.toml'}"
+        )
+    return ALL_PASS
+
+
+def _prepare(options: argparse.Namespace) -> None:
+    """Refuse a seed that is none, and make the folder."""
+    from aadm_workbench.errors import AadmError
 
     if options.seed < 0:
         raise AadmError(f"--seed must not be below zero, it is {options.seed}")
@@ -54,11 +100,6 @@ def _simulate_pair(options: argparse.Namespace) -> int:
         options.out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise AadmError(f"{options.out}: the folder cannot be made ({error.strerror})") from error
-    make_pair(options.out, SETTINGS[options.setting], options.seed, options.format)
-    if not options.quiet:
-        names = (f"foot.{options.format}", f"bars.{options.format}", "truth.json", "job.toml")
-        show(f"Wrote {', '.join(names)} to {options.out}", f"Check it: aadm check {options.out / 'job.toml'}")
-    return ALL_PASS
 
 
 def _require_virtual_camera() -> None:

@@ -1,0 +1,86 @@
+"""The samples as a user would check them: every verdict is the one that their truth implies."""
+
+from __future__ import annotations
+
+import json
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import numpy as np
+import pytest
+
+from aadm_workbench.report.json import report_document, report_schema
+from batch.job_file import read_job
+from batch.run import RunOptions, run_job
+
+SAMPLES = Path(__file__).resolve().parents[1] / "samples"
+
+
+@cache
+def truth(sample: str) -> dict[str, Any]:
+    columns: dict[str, Any] = json.loads((SAMPLES / sample / "truth.json").read_text(encoding="utf-8"))["columns"]
+    return columns
+
+
+@cache
+def report(sample: str, method: str = "refined", only: tuple[str, ...] = ()) -> dict[str, Any]:
+    run = run_job(read_job(SAMPLES / sample / "job.toml"), RunOptions(method, only), lambda total: lambda column: None)
+    return json.loads(json.dumps(report_document(run.report)))  # type: ignore[no-any-return]
+
+
+def in_plane_errors(document: dict[str, Any], sample: str, kind: str) -> np.ndarray:
+    """Distances mm, in the plane of the column frame, of measured centres from the true ones."""
+    errors = []
+    for column in document["columns"]:
+        if column[kind] is None or column[kind]["fit"] is None:
+            continue
+        rotation = np.array(column[kind]["fit"]["T_design_scan"])[:2, :3]
+        for point, true in zip(column[kind]["points"], truth(sample)[column["id"]][kind], strict=True):
+            assert point["label"] == true["label"]
+            assert (point["scan_mm"] is not None) == true["measurable"]
+            if point["scan_mm"] is not None:
+                errors.append(np.linalg.norm(rotation @ (np.array(point["scan_mm"]) - true["scan_mm"])))
+    return np.array(errors)
+
+
+@pytest.mark.parametrize("sample", ["floor", "lab"])
+def test_every_verdict_is_the_one_that_the_truth_implies(sample: str) -> None:
+    found = {column["id"]: (column["verdict"], column["goes_on"]) for column in report(sample)["columns"]}
+    assert found == {key: (true["verdict"], true["goes_on"]) for key, true in truth(sample).items()}
+
+
+@pytest.mark.parametrize("sample", ["floor", "lab"])
+@pytest.mark.parametrize("kind", ["sleeves", "rebars"])
+def test_refined_centres_are_within_a_fifth_of_a_millimetre(sample: str, kind: str) -> None:
+    errors = in_plane_errors(report(sample), sample, kind)
+    assert len(errors) > 20
+    assert errors.mean() < 0.2
+
+
+def test_published_centres_are_within_one_and_a_half_millimetres() -> None:
+    document = report("floor", "fusion", ("C-301", "C-305"))
+    for kind in ("sleeves", "rebars"):
+        assert in_plane_errors(document, "floor", kind).mean() < 1.5
+
+
+def test_least_squares_and_minimax_say_what_the_truth_says() -> None:
+    column = next(entry for entry in report("floor")["columns"] if entry["id"] == "C-303")
+    for name in ("least_squares", "minimax"):
+        assert column["trial_assembly"][name]["max_mm"] == pytest.approx(
+            truth("floor")["C-303"][name]["max_mm"], abs=0.3
+        )
+    assert any(pair["verdict"] == "fail" for pair in column["trial_assembly"]["least_squares"]["pairs"])
+    assert all(pair["verdict"] == "pass" for pair in column["trial_assembly"]["minimax"]["pairs"])
+
+
+@pytest.mark.parametrize("sample", ["floor", "lab"])
+def test_the_report_meets_its_schema(sample: str) -> None:
+    jsonschema.validate(report(sample), report_schema())
+
+
+def test_the_samples_stay_small_and_say_that_they_are_synthetic() -> None:
+    assert sum(path.stat().st_size for path in SAMPLES.rglob("*") if path.is_file()) < 40e6
+    for sample in ("floor", "lab"):
+        assert json.loads((SAMPLES / sample / "truth.json").read_text(encoding="utf-8"))["synthetic"] is True
