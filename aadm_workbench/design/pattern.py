@@ -59,9 +59,13 @@ def pair(sleeves: Array, rebars: Array, within_mm: float = math.inf) -> IntArray
     partner = np.full(len(sleeves), -1, dtype=np.int64)
     if not len(sleeves) or not len(rebars):
         return partner
-    from scipy.optimize import linear_sum_assignment  # slow to import, and only models need it
-
     distance_mm = distances_mm(sleeves, rebars)
+    nearest = distance_mm.argmin(axis=1)
+    if len(np.unique(nearest)) == len(sleeves):  # each has its nearest to itself: no other pairing is shorter
+        near = distance_mm[np.arange(len(sleeves)), nearest] <= within_mm
+        return np.where(near, nearest, partner)
+    from scipy.optimize import linear_sum_assignment  # slow to import, and few patterns need it
+
     # What is out of reach costs more than any set of pairs within it, and is dropped afterwards.
     out_of_reach = distance_mm > within_mm
     reachable_mm = float(distance_mm[~out_of_reach].sum()) if not out_of_reach.all() else 0.0

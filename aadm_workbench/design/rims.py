@@ -6,8 +6,6 @@ from collections import defaultdict
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from aadm_workbench.design.circles import FEWEST_VERTICES, Circle, circle_through
 from aadm_workbench.design.shapes import Mesh
@@ -76,6 +74,9 @@ def _plane_patches(normals: Array, edges: IntArray, face_of: IntArray) -> IntArr
     first, second = face_of[order][:-1][one_edge], face_of[order][1:][one_edge]
     level = np.abs((normals[first] * normals[second]).sum(axis=1)) > _SAME_PLANE_COS
     first, second = first[level], second[level]
+    from scipy.sparse import coo_matrix  # slow to import, and only meshes need it
+    from scipy.sparse.csgraph import connected_components
+
     graph = coo_matrix((np.ones(len(first)), (first, second)), shape=(len(normals), len(normals)))
     labels: IntArray = connected_components(graph, directed=False)[1].astype(np.int64)
     return labels

@@ -7,7 +7,6 @@ from itertools import accumulate
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array
@@ -159,6 +158,8 @@ def _pose(file: ScanFile, entries: dict[str, list[str]]) -> Array:
     if values.shape != (7,) or not np.isfinite(values).all() or not values[3:].any():
         raise wrong
     pose = np.eye(4)
+    from scipy.spatial.transform import Rotation  # slow to import, and few files need it
+
     pose[:3, :3] = Rotation.from_quat(values[[4, 5, 6, 3]]).as_matrix()
     pose[:3, 3] = values[:3]
     return pose
