@@ -14,20 +14,16 @@ import numpy as np
 from aadm_workbench.extract.circle import bins_of
 from aadm_workbench.model import Array, BoolArray, IntArray, Plane
 
-_WIDEST_PITCHES = 4.0
-_OVERLAP_PITCHES = 0.7
-
 
 @dataclass(frozen=True, eq=False)
 class Outlines:
-    """Edge evidence of one feature, mm, plan: brackets where both sides are known, else rim points alone.
+    """Edge evidence of one feature, mm, plan: in each angular bin the point next to the edge, on either side of it.
 
-    ``middle`` (n, 2) and ``half_width`` (n,) of the brackets; ``rim`` (m, 2).
+    ``rim`` (n, 2) lies on the surface, ``beyond`` (m, 2) are crossings of rays that passed it.
     """
 
-    middle: Array
-    half_width: Array
     rim: Array
+    beyond: Array
 
 
 def crossings(points: Array, eye: Array, plane: Plane) -> Array:
@@ -37,10 +33,8 @@ def crossings(points: Array, eye: Array, plane: Plane) -> Array:
     return np.asarray(eye + (points - eye) * share[:, None])
 
 
-def bracketed(
-    surface: Array, beyond: Array, centre: Array, usable: BoolArray, pitch_mm: float, *, hole: bool
-) -> Outlines:
-    """Pair, in each angular bin, the surface point next to the edge with the crossing next to it on the other side.
+def outlined(surface: Array, beyond: Array, centre: Array, usable: BoolArray, *, hole: bool) -> Outlines:
+    """Take, in each angular bin, the surface point next to the edge and the crossing next to it on the other side.
 
     Parameters
     ----------
@@ -51,22 +45,10 @@ def bracketed(
     hole
         True: the surface lies outside of the edge.
     """
-    sign, bins = (1.0 if hole else -1.0), len(usable)
-    rim_radius, rim_at = _extreme(surface, centre, bins, sign)
-    gap_radius, _ = _extreme(beyond, centre, bins, -sign)
-    has_rim = np.isfinite(rim_radius) & usable
-    both = has_rim & np.isfinite(gap_radius)
-    width = np.full(bins, np.inf)
-    width[both] = sign * (rim_radius[both] - gap_radius[both])
-    paired = (width > -_OVERLAP_PITCHES * pitch_mm) & (width < _WIDEST_PITCHES * pitch_mm)
-    middle = 0.5 * (rim_radius + gap_radius)[paired]
-    direction = _directions(surface, rim_at, centre, paired)
-    alone = has_rim & ~paired
-    return Outlines(
-        centre + direction * middle[:, None],
-        0.5 * np.abs(width[paired]),
-        surface[rim_at[alone]],
-    )
+    sign = 1.0 if hole else -1.0
+    rim_radius, rim_at = _extreme(surface, centre, len(usable), sign)
+    gap_radius, gap_at = _extreme(beyond, centre, len(usable), -sign)
+    return Outlines(surface[rim_at[usable & np.isfinite(rim_radius)]], beyond[gap_at[usable & np.isfinite(gap_radius)]])
 
 
 def _extreme(xy: Array, centre: Array, bins: int, sign: float) -> tuple[Array, IntArray]:
@@ -83,9 +65,3 @@ def _extreme(xy: Array, centre: Array, bins: int, sign: float) -> tuple[Array, I
     extreme[place[chosen]] = radius[chosen]
     index[place[chosen]] = chosen
     return extreme, index
-
-
-def _directions(xy: Array, index: IntArray, centre: Array, wanted: BoolArray) -> Array:
-    about = xy[index[wanted]] - centre if wanted.any() else np.empty((0, 2))
-    length = np.maximum(np.hypot(about[:, 0], about[:, 1]), 1e-9)
-    return np.asarray(about / length[:, None])

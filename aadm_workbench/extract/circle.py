@@ -8,6 +8,7 @@ import numpy as np
 
 from aadm_workbench.model import Array, IntArray
 
+_SETTLED_MM = 5e-3
 _MISFIT_MM = 0.5  # residual at which a point counts half in the first fit
 
 
@@ -61,9 +62,10 @@ def circle_through(xy: Array, centre: Array, radius_mm: float) -> tuple[Array, f
         weight = 1.0 / (1.0 + ((residual - np.median(residual)) / _MISFIT_MM) ** 2)
         jacobian = np.column_stack([about / distance[:, None], np.ones(len(xy))])
         weighted = jacobian * weight[:, None]
-        step = np.linalg.lstsq(weighted.T @ jacobian, weighted.T @ residual, rcond=None)[0]
+        normal = weighted.T @ jacobian + 1e-9 * len(xy) * np.eye(3)
+        step = np.linalg.solve(normal, weighted.T @ residual)
         step[:2] = np.clip(step[:2], -radius_mm, radius_mm)
         centre, radius_mm = centre + step[:2], radius_mm + float(step[2])
-        if np.abs(step).max() < 1e-4:
+        if np.abs(step).max() < _SETTLED_MM:
             break
     return centre, radius_mm

@@ -26,35 +26,42 @@ class RimLaw:
     """Points known from one side, with x mm behind the edge (negative: before it).
 
     ``f(x) = (1 - q) S(x/s) exp(-max(x, 0)/t)/t + q S(-x/s) exp(min(x, 0)/h)/h + stray`` where S is the logistic
-    step, s a small part of the ``pitch_mm``, t the ``tail_mm``, and q the share of ``foreign`` points, which
-    stand out by about h = ``stands_out_mm``.
+    step, s a small part of the ``pitch_mm``, t the ``tail_mm`` (one for all points, or (n,)), and q the share
+    of ``foreign`` points, which stand out by about h = ``stands_out_mm``.
     """
 
     pitch_mm: float
-    tail_mm: float
+    tail_mm: float | Array
     foreign: float
     stands_out_mm: float = 0.5
+    softness: float = 0.05
 
     @property
     def softness_mm(self) -> float:
         """Half width of the flank."""
-        return 0.08 * self.pitch_mm
+        return self.softness * self.pitch_mm
 
     def cost(self, behind: Array) -> Array:
         """Negative log density of distances (...,) mm behind the edge."""
-        return np.asarray(-np.log(self._own(behind) + self._standing_out(behind) + _STRAY_SHARE / _STRAY_SPAN_MM))
+        step = _step(behind / self.softness_mm)
+        density = self._own(behind, step) + self._standing_out(behind, step) + _STRAY_SHARE / _STRAY_SPAN_MM
+        return np.asarray(-np.log(density))
 
     def slope(self, behind: Array) -> Array:
         """Derivative of :meth:`cost`."""
-        return _derivative(self.cost, behind, 0.25 * self.softness_mm)
+        step = _step(behind / self.softness_mm)
+        own, foreign = self._own(behind, step), self._standing_out(behind, step)
+        rise = (1.0 - step) / self.softness_mm - (behind > 0) / self.tail_mm
+        fall = (behind < 0) / self.stands_out_mm - step / self.softness_mm
+        return np.asarray(-(own * rise + foreign * fall) / (own + foreign + _STRAY_SHARE / _STRAY_SPAN_MM))
 
-    def _own(self, behind: Array) -> Array:
+    def _own(self, behind: Array, step: Array) -> Array:
         tail = np.exp(-np.maximum(behind, 0.0) / self.tail_mm) / self.tail_mm
-        return np.asarray((1.0 - self.foreign) * _step(behind / self.softness_mm) * tail)
+        return np.asarray((1.0 - self.foreign) * step * tail)
 
-    def _standing_out(self, behind: Array) -> Array:
+    def _standing_out(self, behind: Array, step: Array) -> Array:
         tail = np.exp(np.minimum(behind, 0.0) / self.stands_out_mm) / self.stands_out_mm
-        return np.asarray(self.foreign * _step(-behind / self.softness_mm) * tail)
+        return np.asarray(self.foreign * (1.0 - step) * tail)
 
 
 @dataclass(frozen=True)
@@ -95,29 +102,28 @@ def best_circles(
     sides: list[Array],
     centres: Array,
     radius_mm: float,
-    laws: tuple[BracketLaw, RimLaw, BracketLaw],
-    side: float,
+    laws: tuple[RimLaw, RimLaw, BracketLaw],
 ) -> tuple[Array, float]:
-    """Circles of one pooled radius where robust fits mislead: ribs can stand out on half of an outline.
+    """Discs of one pooled radius where robust fits mislead: ribs can stand out on half of an outline.
 
     Half a rib makes an outline that a larger, shifted circle fits well, so the radius cannot come from all
     features alike: ribs only ever add. Each feature is fitted with a radius of its own, and the lower
     quartile of these is the radius of the core; with it each centre follows. ``sides`` holds, per feature,
-    points (n, 2) of its side. Returns centres (k, 2) and the radius, mm, to about 0.05 mm.
+    points (n, 2) of its side; ``laws`` are those of crossings beyond the edge, of rims and of sides. Returns centres (k, 2) and the radius, mm, to about 0.05 mm.
     """
     evidence = [
-        [_thin(shape.middle), _thin(shape.rim), _thin(side_xy)] for shape, side_xy in zip(outlines, sides, strict=True)
+        [_thin(shape.beyond), _thin(shape.rim), _thin(side_xy)] for shape, side_xy in zip(outlines, sides, strict=True)
     ]
-    radii = radius_mm + np.arange(-1.2, 1.21, 0.15)
+    radii = radius_mm + np.arange(-1.0, 1.01, 0.2)
     own = []
     for parts, centre in zip(evidence, centres, strict=True):
-        near, radius = _grid(parts, centre, radii, laws, side, *_COARSE_MM)
-        own.append(_grid(parts, near, radius + np.arange(-0.15, 0.16, 0.05), laws, side, *_FINE_MM)[1])
+        near, radius = _grid(parts, centre, radii, laws, *_COARSE_MM)
+        own.append(_grid(parts, near, radius + np.arange(-0.15, 0.16, 0.05), laws, *_FINE_MM)[1])
     pooled = np.array([np.percentile(own, 25.0)])
     found = []
     for parts, centre in zip(evidence, centres, strict=True):
-        near, _ = _grid(parts, centre, pooled, laws, side, *_COARSE_MM)
-        found.append(_grid(parts, near, pooled, laws, side, *_FINE_MM)[0])
+        near, _ = _grid(parts, centre, pooled, laws, *_COARSE_MM)
+        found.append(_grid(parts, near, pooled, laws, *_FINE_MM)[0])
     return np.array(found), float(pooled[0])
 
 
@@ -125,8 +131,7 @@ def _grid(
     evidence: list[Array],
     centre: Array,
     radii: Array,
-    laws: tuple[BracketLaw, RimLaw, BracketLaw],
-    side: float,
+    laws: tuple[RimLaw, RimLaw, BracketLaw],
     reach_mm: float,
     step_mm: float,
 ) -> tuple[Array, float]:
@@ -136,15 +141,15 @@ def _grid(
     distances = [_distances(points, centre, shifts) for points in evidence]
     costs = np.zeros((len(radii), len(shifts)))
     for cost, radius in zip(costs, radii, strict=True):
-        cost += laws[0].cost(side * (distances[0] - radius)).sum(axis=1)
-        cost += laws[1].cost(side * (distances[1] - radius)).sum(axis=1)
-        cost += laws[2].cost(side * (distances[2] - radius)).sum(axis=1)
+        cost += laws[0].cost(distances[0] - radius).sum(axis=1)
+        cost += laws[1].cost(radius - distances[1]).sum(axis=1)
+        cost += laws[2].cost(radius - distances[2]).sum(axis=1)
     which, where = np.unravel_index(int(costs.argmin()), (len(radii), len(shifts)))
     return centre + shifts[where], float(radii[which])
 
 
 def _thin(xy: Array) -> Array:
-    return xy[:: len(xy) // 48 + 1]
+    return xy[:: len(xy) // 36 + 1]
 
 
 def _distances(points: Array, centre: Array, shifts: Array) -> Array:

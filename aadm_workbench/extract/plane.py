@@ -13,7 +13,7 @@ from aadm_workbench.model import Array, BoolArray, Plane
 INLIER_DISTANCE_MM = 1.2
 _HYPOTHESES = 400
 _SCORED = 2500
-_ENOUGH = 30_000  # points: noise averages out long before, and what remains is the camera's own warp
+_ENOUGH = 15_000  # points: noise averages out long before, and what remains is the camera's own warp
 
 
 def find_plane(

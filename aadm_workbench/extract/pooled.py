@@ -22,20 +22,11 @@ from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
 from aadm_workbench.model import Array, IntArray
 
 _OWN = 6  # unknowns of a feature: centre x, y; lean x, y; push; radius
-_POOLED = 4  # unknowns that all features share: radius of walls, of brackets, of rims; push
-_WALL, _BRACKET, _RIM, _PUSH = range(_POOLED)
-_WALL_CORRELATION = 3.0  # neighbouring wall points share their errors: standard errors are this much larger
+_POOLED = 4  # unknowns that all features share: radius of walls, of crossings beyond the edge, of rims; push
+_WALL, _BEYOND, _RIM, _PUSH = range(_POOLED)
+_WALL_CORRELATION = 2.5  # neighbouring wall points share their errors: standard errors are this much larger
 _TUKEY = 4.0
-
-
-@dataclass(frozen=True, eq=False)
-class Brackets:
-    """Edge points held from both sides: ``xy`` (n, 2) mm, ``owner`` (n,), ``side`` as for :class:`Rims`."""
-
-    xy: Array
-    owner: IntArray
-    side: float
-    law: BracketLaw
+_SETTLED_MM = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +47,7 @@ class Walls:
     """Points of a bore or a bar's side: ``xy`` (n, 2) mm, ``depth`` (n,) mm along the axis from the centre.
 
     ``slope`` (n, 2): how far the line of sight moves in the plan per mm of depth. ``law``: how the points of
-    a bar's side scatter, of which many lie on ribs; None for a bore, whose scatter is symmetric.
+    a bar's side (``side`` -1) or of a ribbed bore (+1) scatter; None where they scatter symmetrically.
     """
 
     xy: Array
@@ -77,13 +68,16 @@ class Priors:
     push: float = 0.4
     radius: float = 0.5
     wall_to_edge: float = 0.03
+    rim_to_wall: float = np.inf
+    rim_to_beyond: float = np.inf
 
 
 @dataclass(frozen=True, eq=False)
 class PooledFit:
     """Result for k features: ``centre`` (k, 2) and ``lean`` (k, 2), their ``covariance`` (k, 2, 2) mm².
 
-    ``radius`` (k,) mm of the wall, ``outline_radius`` (k,) mm of the edge. ``wall_count``, ``edge_count`` (k,) are the
+    ``radius`` (k,) mm of the wall, ``outline_radius`` (k,) mm of the edge. ``rim_inset_mm`` is how far rims
+    stand off the walls, pooled. ``wall_count``, ``edge_count`` (k,) are the
     points with weight. ``wall_mm`` and ``edge_mm`` are robust standard deviations of the residuals.
     """
 
@@ -92,6 +86,7 @@ class PooledFit:
     radius: Array
     covariance: Array
     outline_radius: Array
+    rim_inset_mm: float
     push_mm: float
     wall_mm: float
     edge_mm: float
@@ -100,29 +95,29 @@ class PooledFit:
 
 
 def fit_pooled(
-    brackets: Brackets, rims: Rims, walls: Walls, start: Array, radius_mm: float, priors: Priors, rounds: int = 30
+    beyond: Rims, rims: Rims, walls: Walls, start: Array, radius_mm: float, priors: Priors, rounds: int = 30
 ) -> PooledFit:
     """Fit all features (start centres (k, 2) mm, nominal radius mm) to their edges and walls together."""
     state = _State(start.copy(), radius_mm)
     for number in range(rounds):
-        terms = _Terms(brackets, rims, walls, state)
+        terms = _Terms(beyond, rims, walls, state)
         step = state.move(terms.system(state, priors, radius_mm, knowledge=False))
-        if step < 2e-4 and number > 4:
+        if step < _SETTLED_MM and number > 2:
             break
-    terms = _Terms(brackets, rims, walls, state)
+    terms = _Terms(beyond, rims, walls, state)
     return _result(state, terms, terms.system(state, priors, radius_mm, knowledge=True))
 
 
 class _Terms:
     """Residuals of all witnesses at a state, with their Jacobians and weights."""
 
-    def __init__(self, brackets: Brackets, rims: Rims, walls: Walls, state: _State) -> None:
-        self.brackets, self.rims, self.walls = brackets, rims, walls
+    def __init__(self, beyond: Rims, rims: Rims, walls: Walls, state: _State) -> None:
+        self.beyond, self.rims, self.walls = beyond, rims, walls
         self.wall, self.wall_jacobian = _wall_terms(walls, state)
         self.wall_mm = max(_spread(self.wall), 0.02)
         self.wall_weight = _tukey(self.wall / self.wall_mm) / (_WALL_CORRELATION * self.wall_mm) ** 2
-        self.edge, self.edge_jacobian = _edge_terms(brackets.xy, brackets.owner, state, _BRACKET)
-        self.edge_slope = brackets.side * brackets.law.slope(brackets.side * self.edge)
+        self.edge, self.edge_jacobian = _edge_terms(beyond.xy, beyond.owner, state, _BEYOND)
+        self.edge_slope = beyond.side * beyond.law.slope(beyond.side * self.edge)
         self.rim, self.rim_jacobian = _edge_terms(rims.xy, rims.owner, state, _RIM)
         self.rim_slope = rims.side * rims.law.slope(rims.side * self.rim)
 
@@ -138,7 +133,7 @@ class _Terms:
             bend = slope**2 * _WALL_CORRELATION**2 if knowledge else bend
             system.add(self.wall_jacobian, slope, bend, self.walls.owner)
         for points, residual, jacobian, slope in (
-            (self.brackets, self.edge, self.edge_jacobian, self.edge_slope),
+            (self.beyond, self.edge, self.edge_jacobian, self.edge_slope),
             (self.rims, self.rim, self.rim_jacobian, self.rim_slope),
         ):
             bend = np.abs(slope) / np.maximum(np.abs(residual), points.law.softness_mm)
@@ -192,12 +187,14 @@ class _System:
         offset = np.concatenate([state.own.ravel(), state.pooled - [radius_mm, radius_mm, radius_mm, 0.0]])
         self.normal[np.diag_indices_from(self.normal)] += precision + 1e-9
         self.gradient += precision * offset
-        self._tie(state, priors.wall_to_edge)
+        self._tie(state, _WALL, _BEYOND, priors.wall_to_edge)
+        self._tie(state, _WALL, _RIM, priors.rim_to_wall)
+        self._tie(state, _BEYOND, _RIM, priors.rim_to_beyond)
 
-    def _tie(self, state: _State, deviation_mm: float) -> None:
+    def _tie(self, state: _State, one: int, other: int, deviation_mm: float) -> None:
         """A bore has one radius, be it seen as a wall or as an edge."""
-        difference = state.pooled[_WALL] - state.pooled[_BRACKET]
-        first, second = _WALL - _POOLED, _BRACKET - _POOLED
+        difference = state.pooled[one] - state.pooled[other]
+        first, second = one - _POOLED, other - _POOLED
         self.normal[np.ix_([first, second], [first, second])] += np.array([[1.0, -1.0], [-1.0, 1.0]]) / deviation_mm**2
         self.gradient[[first, second]] += np.array([difference, -difference]) / deviation_mm**2
 
@@ -243,13 +240,14 @@ def _result(state: _State, terms: _Terms, knowledge: _System) -> PooledFit:
     features = knowledge.features
     starts = np.arange(features) * _OWN
     covariance = np.array([inverse[s : s + 2, s : s + 2] for s in starts]).reshape(-1, 2, 2)
-    held = np.bincount(terms.brackets.owner, minlength=features)
+    held = np.bincount(terms.beyond.owner, minlength=features)
     return PooledFit(
         centre=state.own[:, :2],
         lean=state.own[:, 2:4],
         radius=state.pooled[_WALL] + state.own[:, 5],
         covariance=covariance,
-        outline_radius=state.pooled[_BRACKET] + state.own[:, 5],
+        outline_radius=state.pooled[_BEYOND] + state.own[:, 5],
+        rim_inset_mm=float(state.pooled[_RIM] - state.pooled[_WALL]),
         push_mm=float(state.pooled[_PUSH]),
         wall_mm=terms.wall_mm,
         edge_mm=_spread(np.concatenate([terms.edge, terms.rim])),

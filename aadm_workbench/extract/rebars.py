@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.extract.around import Neighbourhood, points_around
-from aadm_workbench.extract.bracket import Outlines, bracketed, crossings
+from aadm_workbench.extract.bracket import Outlines, crossings, outlined
 from aadm_workbench.extract.circle import circle_through, outline
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw, best_circles
 from aadm_workbench.extract.plane import axes_on, from_plane, in_plane
-from aadm_workbench.extract.pooled import Brackets, PooledFit, Priors, Rims, Walls, fit_pooled
+from aadm_workbench.extract.pooled import PooledFit, Priors, Rims, Walls, fit_pooled
 from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.extract.tops import Standing, find_standing, standing_along, top_plane
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Kind, Plane, Scan
@@ -29,9 +29,12 @@ _SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
 _SIDE_POINTS_MAX = 600
 _RADIUS_MISFIT = 0.15
 _GOES_ON_SHARE = 0.3
-_SHAPE_U_MM = 0.065  # what ribs and burrs leave of the outline's departure from a circle, in simulated scans
-_FOREIGN = 0.5  # share of outline points that are ribs
-_BAR_PRIORS = Priors(lean=0.005, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.03, wall_to_edge=0.02)
+_SHAPE_U_PITCHES = 0.1, 0.3  # what ribs leave of the departure from a circle: edge held from both sides, or from one
+_BEYOND_TAIL_MM, _FLYING = 1.2, 0.05
+_FOREIGN = 0.3  # share of outline points that are ribs
+_BAR_PRIORS = Priors(
+    lean=0.005, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.06, wall_to_edge=0.02, rim_to_beyond=0.03
+)
 _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)
 _TURNS = 3
 
@@ -112,9 +115,9 @@ def _fitted(
         return [], None
     pitch_mm = float(np.median([top.pitch_mm for top in tops]))
     laws = (
-        BracketLaw(max(0.35 * pitch_mm, 0.06), _FOREIGN),
-        RimLaw(pitch_mm, 1.2 * pitch_mm, _FOREIGN),
-        BracketLaw(0.08, 0.6),
+        RimLaw(pitch_mm, _BEYOND_TAIL_MM, _FLYING, softness=0.08),
+        RimLaw(pitch_mm, 1.2 * pitch_mm, _FOREIGN, softness=0.08),
+        BracketLaw(0.08, 0.8),
     )
     start, radius_mm = best_circles(
         [top.outlines for top in tops],
@@ -122,7 +125,6 @@ def _fitted(
         np.array([top.centre for top in tops]),
         diameter_mm / 2,
         laws,
-        side=-1.0,
     )
     return tops, fit_pooled(*_evidence(tops, *laws), start, radius_mm, priors)
 
@@ -171,7 +173,7 @@ def _top(
     if eye is not None:
         passed = crossings(local[around.borne & (height < -band_mm)], eye, plane)[:, :2]
         passed = passed[np.hypot(*(passed - centre).T) > 0.75 * radius_mm]
-    outlines = bracketed(rim_xy, passed, centre, np.ones(bins, bool), pitch_mm, hole=False)
+    outlines = outlined(rim_xy, passed, centre, np.ones(bins, bool), hole=False)
     in_band = (radius - radius_mm > _SIDE_BAND_MM[0]) & (radius - radius_mm < _SIDE_BAND_MM[1])
     side = np.flatnonzero(in_band & (-height > _SIDE_DEPTH_MM[0]) & (-height < _SIDE_DEPTH_MM[1]))
     side = side[:: max(1, len(side) // _SIDE_POINTS_MAX + 1)]
@@ -198,23 +200,21 @@ def _settled(top_xy: Array, centre: Array, radius_mm: float, bins: int) -> Array
     return centre
 
 
-def _evidence(
-    tops: list[Top], bracket_law: BracketLaw, rim_law: RimLaw, side_law: BracketLaw
-) -> tuple[Brackets, Rims, Walls]:
+def _evidence(tops: list[Top], beyond_law: RimLaw, rim_law: RimLaw, side_law: BracketLaw) -> tuple[Rims, Rims, Walls]:
     rims = Rims(
         np.concatenate([t.outlines.rim for t in tops]), _owners([len(t.outlines.rim) for t in tops]), -1.0, rim_law
     )
-    brackets = Brackets(
-        np.concatenate([t.outlines.middle for t in tops]),
-        _owners([len(t.outlines.middle) for t in tops]),
-        -1.0,
-        bracket_law,
+    beyond = Rims(
+        np.concatenate([t.outlines.beyond for t in tops]),
+        _owners([len(t.outlines.beyond) for t in tops]),
+        1.0,
+        beyond_law,
     )
     side_owner = _owners([len(t.side_xy) for t in tops])
     side_xy = np.concatenate([t.side_xy for t in tops])
     depth = np.concatenate([t.side_depth for t in tops])
     walls = Walls(side_xy, depth, np.zeros_like(side_xy), side_owner, side_law)
-    return brackets, rims, walls
+    return beyond, rims, walls
 
 
 def _owners(counts: list[int]) -> IntArray:
@@ -246,7 +246,7 @@ def _point(top: Top, fit: PooledFit, k: int, level: Plane) -> AssemblyPoint:
     axes = axes_on(level)
     axis = axes.T @ np.array([-fit.lean[k, 0], -fit.lean[k, 1], 1.0])
     flat = np.zeros((3, 3))
-    flat[:2, :2] = fit.covariance[k] + np.eye(2) * _SHAPE_U_MM**2
+    flat[:2, :2] = fit.covariance[k] + np.eye(2) * _shape_u_mm(top) ** 2
     flat[2, 2] = max(top.plane.residual_mm, 0.02) ** 2
     evidence = f"{fit.edge_count[k]} edge and {fit.wall_count[k]} side points"
     centre = from_plane(np.array([x, y, z]), level)
@@ -259,6 +259,11 @@ def _point(top: Top, fit: PooledFit, k: int, level: Plane) -> AssemblyPoint:
         covariance=axes.T @ flat @ axes,
         why=evidence,
     )
+
+
+def _shape_u_mm(top: Top) -> float:
+    held = len(top.outlines.beyond) > 0.5 * len(top.outlines.rim)
+    return _SHAPE_U_PITCHES[0 if held else 1] * top.pitch_mm
 
 
 def _mean_axis(points: tuple[AssemblyPoint, ...]) -> Array:

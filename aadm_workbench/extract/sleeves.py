@@ -6,17 +6,17 @@ hole, and fit bores and mouth edges of all sleeves together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from aadm_workbench.extract.around import points_around
-from aadm_workbench.extract.bracket import Outlines, bracketed
+from aadm_workbench.extract.bracket import Outlines, outlined
 from aadm_workbench.extract.circle import bins_of, circle_through, outline
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
 from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.plane import axes_on, facing, find_planes, from_plane, in_plane, near, turned_over
-from aadm_workbench.extract.pooled import Brackets, PooledFit, Priors, Rims, Walls, fit_pooled
+from aadm_workbench.extract.pooled import PooledFit, Priors, Rims, Walls, fit_pooled
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm, thinned
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, IntArray, Kind, Plane, Scan
 
@@ -24,12 +24,16 @@ _SAMPLE = 90_000
 _FACE_BAND_MM = 1.5
 _REACH_MM = 4.0  # beyond the nominal radius: how far around a mouth points are taken
 _RIM_DEPTH_MM = 2.5  # a chamfer ends less far behind the face
-_WALL_DEPTH_MM = (2.0, 60.0)
+_WALL_DEPTH_MM = (2.0, 120.0)
 _WALL_BAND_MM = 2.0  # about the nominal radius
-_WALL_POINTS_MAX = 800
+_WALL_POINTS_MAX = 350
 _SECTORS, _OPEN_SECTORS, _CLOSED_SHARE = 12, 4, 0.15
-_TAIL_PITCHES = 6.0
-_FOREIGN = 0.05  # share of outline points that are flying pixels or dirt
+_OPPOSITE_COSINE = 0.3
+_WALL_LAW = BracketLaw(0.08, 0.4)  # many points lie on ribs, which only ever stand inwards
+_TAIL_PITCHES, _TAIL_TO_KEPT, _USUALLY_KEPT = 6.0, 1.5, 0.7
+_SIDES, _SIDE_COUNT_MIN = 6, 10
+_WORN_PITCHES, _UNWORN_PITCHES = 1.0, 0.05
+_FOREIGN = 0.01  # share of outline points that are flying pixels or dirt
 _RADIUS_MISFIT = 0.08  # relative: a hole this much larger or smaller than nominal is no sleeve
 
 
@@ -141,12 +145,12 @@ def _mouth(local: Array, centre: Array, radius_mm: float, pitch_mm: float, eye: 
     ring = outline(xy[rim & close], centre, bins, innermost=True)
     if ring.coverage < 0.35:
         return None
-    passed = np.empty((0, 2))
     on_wall = np.abs(radius - radius_mm) < _WALL_BAND_MM
     upper = on_wall & (height < -1.0) & (height > -12.0)
     open_bins = ~_widened(np.isin(np.arange(bins), bins_of((xy - centre)[upper], bins)))
-    outlines = bracketed(xy[rim & close], passed, centre, open_bins, pitch_mm, hole=True)
+    outlines = outlined(xy[rim & close], np.empty((0, 2)), centre, open_bins, hole=True)
     wall = np.flatnonzero(on_wall & (height < -_WALL_DEPTH_MM[0]) & (height > -_WALL_DEPTH_MM[1]))
+    wall = wall[_opposite(xy[wall] - centre, _slope(local[wall], eye))]
     wall = wall[:: max(1, len(wall) // _WALL_POINTS_MAX + 1)]
     slope = _slope(local[wall], eye)
     return Mouth(centre, outlines, xy[wall], -height[wall], slope, ring.coverage)
@@ -193,13 +197,19 @@ def _slope(local: Array, eye: Array | None) -> Array:
     return np.asarray(ray[:, :2] / np.abs(ray[:, 2:]))
 
 
+def _opposite(about: Array, slope: Array) -> BoolArray:
+    """Wall points (n, 2) that the camera looks at: towards the ends of what it sees, surfaces mix in its pixels."""
+    if not slope.any():
+        return np.ones(len(about), bool)
+    along = np.einsum("ij,ij->i", about, slope)
+    return np.asarray(along > _OPPOSITE_COSINE * np.hypot(*about.T) * np.hypot(*slope.T))
+
+
 def _measured(mouths: list[Mouth], face: Plane, diameter_mm: float, pitch_mm: float) -> Extraction:
     if not mouths:
         reason = f"no hole of {diameter_mm:g} mm in the face could be measured"
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
-    law = RimLaw(pitch_mm, _TAIL_PITCHES * pitch_mm, _FOREIGN)
-    start = np.array([mouth.centre for mouth in mouths])
-    fit = fit_pooled(*_evidence(mouths, law), start, diameter_mm / 2, Priors())
+    fit = _fit(mouths, diameter_mm, pitch_mm)
     sound = np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT
     points = tuple(_point(fit, k, face, pitch_mm) for k in np.flatnonzero(sound).tolist())
     quality = {
@@ -213,23 +223,56 @@ def _measured(mouths: list[Mouth], face: Plane, diameter_mm: float, pitch_mm: fl
     return Extraction(Kind.SLEEVE, "refined", points, face, -face.normal, "foot face", quality=quality)
 
 
-def _evidence(mouths: list[Mouth], law: RimLaw) -> tuple[Brackets, Rims, Walls]:
+def _fit(mouths: list[Mouth], diameter_mm: float, pitch_mm: float) -> PooledFit:
+    """Fit all mouths together, then again with what the first fit tells of the camera.
+
+    At depth steps a camera keeps only a share of the pixels, and not the same share on every side of a mouth:
+    the law of the rims follows the share that it keeps. Rims stand on the bore's own radius, unless the first
+    fit says that this camera wears edges away.
+    """
+    law = RimLaw(pitch_mm, _TAIL_PITCHES * pitch_mm, _FOREIGN)
+    beyond, rims, walls = _evidence(mouths, law)
+    start = np.array([mouth.centre for mouth in mouths])
+    fit = fit_pooled(beyond, rims, walls, start, diameter_mm / 2, Priors(rim_to_wall=_WORN_PITCHES * pitch_mm))
+    worn = abs(fit.rim_inset_mm) > _WORN_PITCHES * pitch_mm
+    priors = Priors(rim_to_wall=(1.0 if worn else _UNWORN_PITCHES) * pitch_mm)
+    away = _away_from_camera(mouths)
+    kept = replace(rims, law=replace(law, tail_mm=_tails(rims, fit, away, pitch_mm)))
+    return fit_pooled(beyond, kept, walls, fit.centre, diameter_mm / 2, priors)
+
+
+def _away_from_camera(mouths: list[Mouth]) -> Array:
+    """Direction (k,) rad, from each mouth to the side on which its wall shows: away from the camera's foot point."""
+    sides = [mouth.wall_xy.mean(axis=0) - mouth.centre if len(mouth.wall_xy) else np.zeros(2) for mouth in mouths]
+    return np.array([np.arctan2(side[1], side[0]) for side in sides])
+
+
+def _tails(rims: Rims, fit: PooledFit, away: Array, pitch_mm: float) -> Array:
+    """Length (n,) mm over which the rim points of each side thin out: the longer, the fewer pixels are kept there."""
+    about = rims.xy - fit.centre[rims.owner]
+    inset = np.hypot(about[:, 0], about[:, 1]) - fit.radius[rims.owner] - fit.rim_inset_mm
+    turn = np.abs(np.mod(np.arctan2(about[:, 1], about[:, 0]) - away[rims.owner] + np.pi, 2 * np.pi) - np.pi)
+    side = np.minimum((turn / np.pi * _SIDES).astype(np.int64), _SIDES - 1)
+    count = np.bincount(side, minlength=_SIDES)
+    first = np.bincount(side, inset < pitch_mm, minlength=_SIDES)
+    kept = np.where(count >= _SIDE_COUNT_MIN, first / np.maximum(count, 1), _USUALLY_KEPT)
+    return np.asarray(_TAIL_TO_KEPT * pitch_mm / np.clip(kept, 0.15, 1.2))[side]
+
+
+def _evidence(mouths: list[Mouth], law: RimLaw) -> tuple[Rims, Rims, Walls]:
     rims = Rims(
         np.concatenate([m.outlines.rim for m in mouths]), _owners([len(m.outlines.rim) for m in mouths]), 1.0, law
     )
-    brackets = Brackets(
-        np.concatenate([m.outlines.middle for m in mouths]),
-        _owners([len(m.outlines.middle) for m in mouths]),
-        1.0,
-        BracketLaw(law.pitch_mm, law.foreign),
-    )
+    nothing = Rims(np.empty((0, 2)), np.empty(0, np.int64), -1.0, law)  # inside a sleeve it is dark
     walls = Walls(
         np.concatenate([m.wall_xy for m in mouths]),
         np.concatenate([m.wall_depth for m in mouths]),
         np.concatenate([m.wall_slope for m in mouths]),
         _owners([len(m.wall_xy) for m in mouths]),
+        _WALL_LAW,
+        side=1.0,
     )
-    return brackets, rims, walls
+    return nothing, rims, walls
 
 
 def _owners(counts: list[int]) -> IntArray:

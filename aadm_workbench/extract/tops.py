@@ -16,6 +16,7 @@ _ABOVE_FLOOR_MM = 15.0
 _TOP_ZONE_MM = 8.0  # a cut of 15 degrees over a 28 mm bar
 _TOP_LEAN_COSINE = 0.85
 _TOP_COUNT_MIN = 20
+_ENOUGH = 700  # points of one top
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +113,7 @@ def top_plane(local: Array, radius_mm: float, rng: np.random.Generator) -> Plane
         return None
     level = float(np.percentile(core[:, 2], 98.0))
     zone = core[np.abs(core[:, 2] - level) < _TOP_ZONE_MM]
+    zone = zone[:: len(zone) // _ENOUGH + 1]
     plane = find_plane(zone, rng, inlier_distance_mm=0.5, hypotheses=120)
     if plane is None or abs(plane.normal[2]) < _TOP_LEAN_COSINE:
         return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aadm_workbench.extract.bracket import bracketed, crossings
+from aadm_workbench.extract.bracket import crossings, outlined
 from aadm_workbench.extract.circle import circle_through, outline
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
 from aadm_workbench.extract.holes import find_discs, rastered
@@ -96,15 +96,15 @@ def test_crossings_lie_where_the_ray_meets_the_plane() -> None:
     assert crossed[0] == pytest.approx([20.0, 0.0, 0.0])
 
 
-def test_a_bracket_is_the_middle_of_both_sides() -> None:
+def test_an_outline_keeps_what_is_next_to_the_edge_on_either_side() -> None:
     angle = np.linspace(0, 2 * np.pi, 36, endpoint=False) + 0.01
     ring = np.column_stack([np.cos(angle), np.sin(angle)])
-    shape = bracketed(10.2 * ring, 9.8 * ring, np.zeros(2), np.ones(36, bool), 0.5, hole=True)
-    assert np.hypot(*shape.middle.T) == pytest.approx(np.full(36, 10.0))
-    assert shape.half_width == pytest.approx(np.full(36, 0.2))
-    alone = bracketed(10.2 * ring, np.empty((0, 2)), np.zeros(2), np.ones(36, bool), 0.5, hole=True)
-    assert len(alone.middle) == 0
-    assert len(alone.rim) == 36
+    face, gap = np.vstack([10.2 * ring, 10.9 * ring]), np.vstack([9.8 * ring, 7.0 * ring])
+    shape = outlined(face, gap, np.zeros(2), np.ones(36, bool), hole=True)
+    assert np.hypot(*shape.rim.T) == pytest.approx(np.full(36, 10.2))
+    assert np.hypot(*shape.beyond.T) == pytest.approx(np.full(36, 9.8))
+    half = outlined(face, np.empty((0, 2)), np.zeros(2), np.arange(36) < 18, hole=True)
+    assert (len(half.rim), len(half.beyond)) == (18, 0)
 
 
 @pytest.mark.parametrize("law", [RimLaw(0.5, 1.5, 0.1), BracketLaw(0.1, 0.3)])
