@@ -48,7 +48,8 @@ def outlined(surface: Array, beyond: Array, centre: Array, usable: BoolArray, *,
     sign = 1.0 if hole else -1.0
     rim_radius, rim_at = _extreme(surface, centre, len(usable), sign)
     gap_radius, gap_at = _extreme(beyond, centre, len(usable), -sign)
-    return Outlines(surface[rim_at[usable & np.isfinite(rim_radius)]], beyond[gap_at[usable & np.isfinite(gap_radius)]])
+    on_surface = usable & np.isfinite(rim_radius)  # where the surface itself is missing, nothing tells of its edge
+    return Outlines(surface[rim_at[on_surface]], beyond[gap_at[on_surface & np.isfinite(gap_radius)]])
 
 
 def _extreme(xy: Array, centre: Array, bins: int, sign: float) -> tuple[Array, IntArray]:

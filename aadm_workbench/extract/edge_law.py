@@ -109,7 +109,8 @@ def best_circles(
     Half a rib makes an outline that a larger, shifted circle fits well, so the radius cannot come from all
     features alike: ribs only ever add. Each feature is fitted with a radius of its own, and the lower
     quartile of these is the radius of the core; with it each centre follows. ``sides`` holds, per feature,
-    points (n, 2) of its side; ``laws`` are those of crossings beyond the edge, of rims and of sides. Returns centres (k, 2) and the radius, mm, to about 0.05 mm.
+    points (n, 2) of its side; ``laws`` are those of crossings beyond the edge, of rims and of sides. Returns
+    centres (k, 2) and the radius, mm, to about 0.05 mm.
     """
     evidence = [
         [_thin(shape.beyond), _thin(shape.rim), _thin(side_xy)] for shape, side_xy in zip(outlines, sides, strict=True)

@@ -26,6 +26,7 @@ _POOLED = 4  # unknowns that all features share: radius of walls, of crossings b
 _WALL, _BEYOND, _RIM, _PUSH = range(_POOLED)
 _WALL_CORRELATION = 2.5  # neighbouring wall points share their errors: standard errors are this much larger
 _TUKEY = 4.0
+_DISAGREE_CHI2, _FEW, _ONE_SIDED = 13.8, 25, 1e3  # 0.1 % of chi-squared with two degrees of freedom
 _SETTLED_MM = 1e-3
 
 
@@ -64,7 +65,7 @@ class Priors:
 
     lean: float = 0.010
     own_radius: float = 0.05
-    own_push: float = 0.1
+    own_push: float = 0.25
     push: float = 0.4
     radius: float = 0.5
     wall_to_edge: float = 0.03
@@ -76,8 +77,7 @@ class Priors:
 class PooledFit:
     """Result for k features: ``centre`` (k, 2) and ``lean`` (k, 2), their ``covariance`` (k, 2, 2) mm².
 
-    ``radius`` (k,) mm of the wall, ``outline_radius`` (k,) mm of the edge. ``rim_inset_mm`` is how far rims
-    stand off the walls, pooled. ``wall_count``, ``edge_count`` (k,) are the
+    ``radius`` (k,) mm of the wall, ``outline_radius`` (k,) mm of the edge. ``wall_count``, ``edge_count`` (k,) are the
     points with weight. ``wall_mm`` and ``edge_mm`` are robust standard deviations of the residuals.
     """
 
@@ -86,7 +86,6 @@ class PooledFit:
     radius: Array
     covariance: Array
     outline_radius: Array
-    rim_inset_mm: float
     push_mm: float
     wall_mm: float
     edge_mm: float
@@ -116,22 +115,20 @@ class _Terms:
         self.wall, self.wall_jacobian = _wall_terms(walls, state)
         self.wall_mm = max(_spread(self.wall), 0.02)
         self.wall_weight = _tukey(self.wall / self.wall_mm) / (_WALL_CORRELATION * self.wall_mm) ** 2
-        self.edge, self.edge_jacobian = _edge_terms(beyond.xy, beyond.owner, state, _BEYOND)
+        self.wall_pull, self.wall_bend = self.wall_weight * self.wall, self.wall_weight
+        if walls.law is not None:
+            self.wall_pull = walls.side * walls.law.slope(walls.side * self.wall) / _WALL_CORRELATION**2
+            self.wall_bend = np.abs(self.wall_pull) / np.maximum(np.abs(self.wall), walls.law.softness_mm)
+        self.edge, self.edge_jacobian = _edge_terms(beyond, state, _BEYOND)
         self.edge_slope = beyond.side * beyond.law.slope(beyond.side * self.edge)
-        self.rim, self.rim_jacobian = _edge_terms(rims.xy, rims.owner, state, _RIM)
+        self.rim, self.rim_jacobian = _edge_terms(rims, state, _RIM)
         self.rim_slope = rims.side * rims.law.slope(rims.side * self.rim)
 
     def system(self, state: _State, priors: Priors, radius_mm: float, *, knowledge: bool) -> _System:
         """Normal equations for a step, or, with ``knowledge``, of what the witnesses tell (for the covariance)."""
         system = _System(len(state.own))
-        if self.walls.law is None:
-            system.add(self.wall_jacobian, self.wall_weight * self.wall, self.wall_weight, self.walls.owner)
-        else:
-            side = self.walls.side
-            slope = side * self.walls.law.slope(side * self.wall) / _WALL_CORRELATION**2
-            bend = np.abs(slope) / np.maximum(np.abs(self.wall), self.walls.law.softness_mm)
-            bend = slope**2 * _WALL_CORRELATION**2 if knowledge else bend
-            system.add(self.wall_jacobian, slope, bend, self.walls.owner)
+        bend = self.wall_bend if self.walls.law is None or not knowledge else self.wall_pull**2 * _WALL_CORRELATION**2
+        system.add(self.wall_jacobian, self.wall_pull, bend, self.walls.owner)
         for points, residual, jacobian, slope in (
             (self.beyond, self.edge, self.edge_jacobian, self.edge_slope),
             (self.rims, self.rim, self.rim_jacobian, self.rim_slope),
@@ -213,9 +210,9 @@ def _wall_terms(walls: Walls, state: _State) -> tuple[Array, Array]:
     return distance - state.pooled[_WALL] - own[:, 5], jacobian
 
 
-def _edge_terms(xy: Array, owner: IntArray, state: _State, pooled: int) -> tuple[Array, Array]:
-    own = state.own[owner]
-    about = xy - own[:, :2]
+def _edge_terms(rims: Rims, state: _State, pooled: int) -> tuple[Array, Array]:
+    own = state.own[rims.owner]
+    about = rims.xy - own[:, :2]
     distance = np.maximum(np.hypot(about[:, 0], about[:, 1]), 1e-9)
     outward = about / distance[:, None]
     minus, none = -np.ones(len(distance)), np.zeros(len(distance))
@@ -241,16 +238,48 @@ def _result(state: _State, terms: _Terms, knowledge: _System) -> PooledFit:
     starts = np.arange(features) * _OWN
     covariance = np.array([inverse[s : s + 2, s : s + 2] for s in starts]).reshape(-1, 2, 2)
     held = np.bincount(terms.beyond.owner, minlength=features)
+    covariance = covariance + _disagreement(terms, features)
     return PooledFit(
         centre=state.own[:, :2],
         lean=state.own[:, 2:4],
         radius=state.pooled[_WALL] + state.own[:, 5],
         covariance=covariance,
         outline_radius=state.pooled[_BEYOND] + state.own[:, 5],
-        rim_inset_mm=float(state.pooled[_RIM] - state.pooled[_WALL]),
         push_mm=float(state.pooled[_PUSH]),
         wall_mm=terms.wall_mm,
         edge_mm=_spread(np.concatenate([terms.edge, terms.rim])),
         wall_count=np.bincount(terms.walls.owner[terms.wall_weight > 0], minlength=features),
         edge_count=held + np.bincount(terms.rims.owner, minlength=features),
     )
+
+
+def _disagreement(terms: _Terms, features: int) -> Array:
+    """What to add to the covariances (k, 2, 2) mm² where walls and rims of a feature place it differently.
+
+    Each witness alone would move the centre by its own step; where the two steps differ by more than their
+    errors explain, the walls' pull on the joint centre counts as uncertainty.
+    """
+    extra = np.zeros((features, 2, 2))
+    for k in range(features):
+        wall, wall_information = _step_alone(
+            terms.wall_jacobian, terms.wall_pull, terms.wall_weight, terms.walls.owner, k
+        )
+        rim, rim_information = _step_alone(terms.rim_jacobian, terms.rim_slope, terms.rim_slope**2, terms.rims.owner, k)
+        if wall is None or rim is None:
+            continue
+        apart = wall - rim
+        expected = np.linalg.inv(wall_information) + np.linalg.inv(rim_information)
+        if apart @ np.linalg.solve(expected, apart) > _DISAGREE_CHI2:
+            pulled = np.linalg.solve(wall_information + rim_information, wall_information @ apart)
+            extra[k] = np.outer(pulled, pulled)
+    return extra
+
+
+def _step_alone(jacobian: Array, pull: Array, weight: Array, owner: IntArray, k: int) -> tuple[Array | None, Array]:
+    """Step (2,) of a feature's centre that one witness alone asks for, and its information (2, 2)."""
+    rows = owner == k
+    across = jacobian[rows, :2]
+    information = (across * weight[rows, None]).T @ across
+    if rows.sum() < _FEW or np.linalg.cond(information) > _ONE_SIDED:
+        return None, information
+    return -np.linalg.solve(information, across.T @ pull[rows]), information

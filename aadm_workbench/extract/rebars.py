@@ -13,7 +13,7 @@ import numpy as np
 
 from aadm_workbench.extract.around import Neighbourhood, points_around
 from aadm_workbench.extract.bracket import Outlines, crossings, outlined
-from aadm_workbench.extract.circle import circle_through, outline
+from aadm_workbench.extract.circle import AGREES_MM, agreeing_share, outline, settled_centre
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw, best_circles
 from aadm_workbench.extract.plane import axes_on, from_plane, in_plane
 from aadm_workbench.extract.pooled import PooledFit, Priors, Rims, Walls, fit_pooled
@@ -29,7 +29,9 @@ _SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
 _SIDE_POINTS_MAX = 600
 _RADIUS_MISFIT = 0.15
 _GOES_ON_SHARE = 0.3
+_SOUND_SHARE = 0.55
 _SHAPE_U_PITCHES = 0.1, 0.3  # what ribs leave of the departure from a circle: edge held from both sides, or from one
+_USUAL_SPOILT, _SPOILT_U_MM = 0.13, 1.5
 _BEYOND_TAIL_MM, _FLYING = 1.2, 0.05
 _FOREIGN = 0.3  # share of outline points that are ribs
 _BAR_PRIORS = Priors(
@@ -161,7 +163,8 @@ def _top(
     xy = local[:, :2]
     pitch_mm = float(np.sqrt(np.pi * radius_mm**2 / max(int(on_top.sum()), 1)))
     bins = int(np.clip(2 * np.pi * radius_mm / pitch_mm, 24, 720))
-    centre = _settled(xy[on_top], centre, radius_mm, bins)
+    zone_mm = 0.3 * radius_mm, radius_mm + 3.0
+    centre = settled_centre(xy[on_top], centre, radius_mm, bins, zone_mm, innermost=False)
     radius = np.hypot(*(xy - centre).T)
     if _goes_on(radius[on_top], radius_mm):
         return None
@@ -187,19 +190,6 @@ def _goes_on(radius: Array, radius_mm: float) -> bool:
     return bool(around > _GOES_ON_SHARE * disc)
 
 
-def _settled(top_xy: Array, centre: Array, radius_mm: float, bins: int) -> Array:
-    for _ in range(3):
-        candidates = top_xy[np.hypot(*(top_xy - centre).T) < radius_mm + 3.0]
-        if len(candidates) < 12:
-            return centre
-        ring = outline(candidates, centre, bins, innermost=False)
-        moved, _ = circle_through(candidates[ring.index], centre, radius_mm)
-        if np.hypot(*(moved - centre)) > radius_mm:
-            return centre
-        centre = moved
-    return centre
-
-
 def _evidence(tops: list[Top], beyond_law: RimLaw, rim_law: RimLaw, side_law: BracketLaw) -> tuple[Rims, Rims, Walls]:
     rims = Rims(
         np.concatenate([t.outlines.rim for t in tops]), _owners([len(t.outlines.rim) for t in tops]), -1.0, rim_law
@@ -222,7 +212,12 @@ def _owners(counts: list[int]) -> IntArray:
 
 
 def _extraction(tops: list[Top], fit: PooledFit, standing: Standing, level: Plane, diameter_mm: float) -> Extraction:
-    sound = np.flatnonzero(np.abs(2 * fit.outline_radius / diameter_mm - 1.0) < _RADIUS_MISFIT)
+    agree = [
+        agreeing_share(t.outlines.rim, fit.centre[k], fit.outline_radius[k], max(AGREES_MM, 2.0 * t.pitch_mm))
+        for k, t in enumerate(tops)
+    ]
+    right = np.abs(2 * fit.outline_radius / diameter_mm - 1.0) < _RADIUS_MISFIT
+    sound = np.flatnonzero(right & (np.array(agree) > _SOUND_SHARE))
     points = tuple(_point(tops[k], fit, k, level) for k in sound.tolist())
     vertical, source = standing.vertical, "floor"
     if standing.floor is None and points:
@@ -246,7 +241,7 @@ def _point(top: Top, fit: PooledFit, k: int, level: Plane) -> AssemblyPoint:
     axes = axes_on(level)
     axis = axes.T @ np.array([-fit.lean[k, 0], -fit.lean[k, 1], 1.0])
     flat = np.zeros((3, 3))
-    flat[:2, :2] = fit.covariance[k] + np.eye(2) * _shape_u_mm(top) ** 2
+    flat[:2, :2] = fit.covariance[k] + np.eye(2) * _shape_u_mm(top, fit.centre[k], fit.outline_radius[k]) ** 2
     flat[2, 2] = max(top.plane.residual_mm, 0.02) ** 2
     evidence = f"{fit.edge_count[k]} edge and {fit.wall_count[k]} side points"
     centre = from_plane(np.array([x, y, z]), level)
@@ -261,9 +256,13 @@ def _point(top: Top, fit: PooledFit, k: int, level: Plane) -> AssemblyPoint:
     )
 
 
-def _shape_u_mm(top: Top) -> float:
+def _shape_u_mm(top: Top, centre: Array, radius_mm: float) -> float:
+    """What a top's departure from a disc may hide: ribs, and more where a burr stands out or a piece is missing."""
     held = len(top.outlines.beyond) > 0.5 * len(top.outlines.rim)
-    return _SHAPE_U_PITCHES[0 if held else 1] * top.pitch_mm
+    behind = radius_mm - np.hypot(*(top.outlines.rim - centre).T)
+    spoilt = max(float((behind < -0.3).mean()) - _USUAL_SPOILT, 0.0) + 0.5 * float((behind > 1.0).mean())
+    spoilt += 0.5 * (1.0 - top.coverage)
+    return float(np.hypot(_SHAPE_U_PITCHES[0 if held else 1] * top.pitch_mm, _SPOILT_U_MM * spoilt))
 
 
 def _mean_axis(points: tuple[AssemblyPoint, ...]) -> Array:

@@ -12,7 +12,7 @@ import numpy as np
 
 from aadm_workbench.extract.around import points_around
 from aadm_workbench.extract.bracket import Outlines, outlined
-from aadm_workbench.extract.circle import bins_of, circle_through, outline
+from aadm_workbench.extract.circle import AGREES_MM, bins_of, outline, settled_centre
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
 from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.plane import axes_on, facing, find_planes, from_plane, in_plane, near, turned_over
@@ -26,14 +26,16 @@ _REACH_MM = 4.0  # beyond the nominal radius: how far around a mouth points are 
 _RIM_DEPTH_MM = 2.5  # a chamfer ends less far behind the face
 _WALL_DEPTH_MM = (2.0, 120.0)
 _WALL_BAND_MM = 2.0  # about the nominal radius
-_WALL_POINTS_MAX = 350
+_WALL_POINTS_MAX, _WALL_COUNT_MIN = 350, 20
 _SECTORS, _OPEN_SECTORS, _CLOSED_SHARE = 12, 4, 0.15
 _OPPOSITE_COSINE = 0.3
 _WALL_LAW = BracketLaw(0.08, 0.4)  # many points lie on ribs, which only ever stand inwards
 _TAIL_PITCHES, _TAIL_TO_KEPT, _USUALLY_KEPT = 6.0, 1.5, 0.7
 _SIDES, _SIDE_COUNT_MIN = 6, 10
-_WORN_PITCHES, _UNWORN_PITCHES = 1.0, 0.05
+_RIM_TO_WALL_PITCHES = 0.05
+_WEAR_PITCHES = 0.05  # how far rims may be worn away unnoticed; it shifts centres along the view
 _FOREIGN = 0.01  # share of outline points that are flying pixels or dirt
+_SOUND_SHARE = 0.3
 _RADIUS_MISFIT = 0.08  # relative: a hole this much larger or smaller than nominal is no sleeve
 
 
@@ -47,6 +49,7 @@ class Mouth:
     wall_depth: Array
     wall_slope: Array
     coverage: float
+    bins: int
 
 
 def extract_sleeves(
@@ -137,8 +140,9 @@ def _mouth(local: Array, centre: Array, radius_mm: float, pitch_mm: float, eye: 
     rim = (height > -_RIM_DEPTH_MM) & (height < _FACE_BAND_MM)
     if rim.sum() < 12:
         return None
-    centre = _settled(xy[rim], centre, radius_mm, bins)
-    if _closed(xy[rim] - centre, radius_mm, pitch_mm):
+    zone_mm = 0.5 * radius_mm, radius_mm + _REACH_MM
+    centre = settled_centre(xy[rim], centre, radius_mm, bins, zone_mm, innermost=True)
+    if _closed(xy[height > -_RIM_DEPTH_MM] - centre, radius_mm, pitch_mm):
         return None
     radius = np.hypot(*(xy - centre).T)
     close = np.abs(radius - radius_mm) < _WALL_BAND_MM + 1.0
@@ -153,7 +157,7 @@ def _mouth(local: Array, centre: Array, radius_mm: float, pitch_mm: float, eye: 
     wall = wall[_opposite(xy[wall] - centre, _slope(local[wall], eye))]
     wall = wall[:: max(1, len(wall) // _WALL_POINTS_MAX + 1)]
     slope = _slope(local[wall], eye)
-    return Mouth(centre, outlines, xy[wall], -height[wall], slope, ring.coverage)
+    return Mouth(centre, outlines, xy[wall], -height[wall], slope, ring.coverage, bins)
 
 
 def _closed(rim_xy: Array, radius_mm: float, pitch_mm: float) -> bool:
@@ -166,20 +170,6 @@ def _closed(rim_xy: Array, radius_mm: float, pitch_mm: float) -> bool:
     expected = np.pi * (0.75**2 - 0.2**2) * (radius_mm / pitch_mm) ** 2 / _SECTORS
     filled = np.bincount(bins_of(inside, _SECTORS), minlength=_SECTORS) > _CLOSED_SHARE * expected
     return int(filled.sum()) > _SECTORS - _OPEN_SECTORS
-
-
-def _settled(rim_xy: Array, centre: Array, radius_mm: float, bins: int) -> Array:
-    for _ in range(3):
-        within = np.hypot(*(rim_xy - centre).T)
-        candidates = rim_xy[(within > 0.5 * radius_mm) & (within < radius_mm + _REACH_MM)]
-        if len(candidates) < 12:
-            return centre
-        ring = outline(candidates, centre, bins, innermost=True)
-        moved, _ = circle_through(candidates[ring.index], centre, radius_mm)
-        if np.hypot(*(moved - centre)) > radius_mm:
-            return centre
-        centre = moved
-    return centre
 
 
 def _widened(marked: BoolArray, reach: int = 2) -> BoolArray:
@@ -210,7 +200,7 @@ def _measured(mouths: list[Mouth], face: Plane, diameter_mm: float, pitch_mm: fl
         reason = f"no hole of {diameter_mm:g} mm in the face could be measured"
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
     fit = _fit(mouths, diameter_mm, pitch_mm)
-    sound = np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT
+    sound = (np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT) & _are_round(mouths, fit, pitch_mm)
     points = tuple(_point(fit, k, face, pitch_mm) for k in np.flatnonzero(sound).tolist())
     quality = {
         "point_pitch_mm": pitch_mm,
@@ -226,33 +216,50 @@ def _measured(mouths: list[Mouth], face: Plane, diameter_mm: float, pitch_mm: fl
 def _fit(mouths: list[Mouth], diameter_mm: float, pitch_mm: float) -> PooledFit:
     """Fit all mouths together, then again with what the first fit tells of the camera.
 
-    At depth steps a camera keeps only a share of the pixels, and not the same share on every side of a mouth:
-    the law of the rims follows the share that it keeps. Rims stand on the bore's own radius, unless the first
-    fit says that this camera wears edges away.
+    At depth steps a camera keeps only a share of the pixels, and not the same share on every side of a mouth: the
+    law of the rims follows the share that it keeps. Rims stand on the bore's own radius: a camera that takes a
+    whole ring of pixels from every depth step shifts centres along the view by about half of that ring.
     """
     law = RimLaw(pitch_mm, _TAIL_PITCHES * pitch_mm, _FOREIGN)
     beyond, rims, walls = _evidence(mouths, law)
     start = np.array([mouth.centre for mouth in mouths])
-    fit = fit_pooled(beyond, rims, walls, start, diameter_mm / 2, Priors(rim_to_wall=_WORN_PITCHES * pitch_mm))
-    worn = abs(fit.rim_inset_mm) > _WORN_PITCHES * pitch_mm
-    priors = Priors(rim_to_wall=(1.0 if worn else _UNWORN_PITCHES) * pitch_mm)
-    away = _away_from_camera(mouths)
-    kept = replace(rims, law=replace(law, tail_mm=_tails(rims, fit, away, pitch_mm)))
+    turned = _turned_from_camera(rims, start, mouths)
+    priors = Priors(rim_to_wall=_RIM_TO_WALL_PITCHES * pitch_mm)
+    fit = fit_pooled(beyond, rims, walls, start, diameter_mm / 2, priors)
+    kept = replace(rims, law=replace(law, tail_mm=_tails(rims, fit, turned, pitch_mm)))
     return fit_pooled(beyond, kept, walls, fit.centre, diameter_mm / 2, priors)
 
 
-def _away_from_camera(mouths: list[Mouth]) -> Array:
-    """Direction (k,) rad, from each mouth to the side on which its wall shows: away from the camera's foot point."""
+def _are_round(mouths: list[Mouth], fit: PooledFit, pitch_mm: float) -> BoolArray:
+    """Whether enough (k,) of what each outline shows lies on its circle: a gap between things is no mouth."""
+    shares = []
+    for mouth, centre, radius in zip(mouths, fit.centre, fit.radius, strict=True):
+        behind = np.hypot(*(mouth.outlines.rim - centre).T) - radius
+        agrees = int(((behind > -AGREES_MM / 2) & (behind < max(AGREES_MM, 2.5 * pitch_mm))).sum())
+        on_wall = mouth.bins - len(mouth.outlines.rim) if len(mouth.wall_xy) >= _WALL_COUNT_MIN else 0
+        shares.append((agrees + on_wall) / mouth.bins)
+    return np.array(shares) > _SOUND_SHARE
+
+
+def _turned_from_camera(rims: Rims, centres: Array, mouths: list[Mouth]) -> Array:
+    """Angle (n,) rad, 0..pi, between each rim point and the side on which its mouth's wall shows.
+
+    That side is away from the camera's foot point: there the face runs on into the wall, opposite it ends in a
+    depth step. A mouth that shows no wall is all step: pi.
+    """
     sides = [mouth.wall_xy.mean(axis=0) - mouth.centre if len(mouth.wall_xy) else np.zeros(2) for mouth in mouths]
-    return np.array([np.arctan2(side[1], side[0]) for side in sides])
+    away = np.array([np.arctan2(side[1], side[0]) for side in sides])
+    shown = np.array([len(mouth.wall_xy) >= _WALL_COUNT_MIN for mouth in mouths])
+    about = rims.xy - centres[rims.owner]
+    turn = np.abs(np.mod(np.arctan2(about[:, 1], about[:, 0]) - away[rims.owner] + np.pi, 2 * np.pi) - np.pi)
+    return np.where(shown[rims.owner], turn, np.pi)
 
 
-def _tails(rims: Rims, fit: PooledFit, away: Array, pitch_mm: float) -> Array:
+def _tails(rims: Rims, fit: PooledFit, turned: Array, pitch_mm: float) -> Array:
     """Length (n,) mm over which the rim points of each side thin out: the longer, the fewer pixels are kept there."""
     about = rims.xy - fit.centre[rims.owner]
-    inset = np.hypot(about[:, 0], about[:, 1]) - fit.radius[rims.owner] - fit.rim_inset_mm
-    turn = np.abs(np.mod(np.arctan2(about[:, 1], about[:, 0]) - away[rims.owner] + np.pi, 2 * np.pi) - np.pi)
-    side = np.minimum((turn / np.pi * _SIDES).astype(np.int64), _SIDES - 1)
+    inset = np.hypot(about[:, 0], about[:, 1]) - fit.radius[rims.owner]
+    side = np.minimum((turned / np.pi * _SIDES).astype(np.int64), _SIDES - 1)
     count = np.bincount(side, minlength=_SIDES)
     first = np.bincount(side, inset < pitch_mm, minlength=_SIDES)
     kept = np.where(count >= _SIDE_COUNT_MIN, first / np.maximum(count, 1), _USUALLY_KEPT)
@@ -285,7 +292,7 @@ def _point(fit: PooledFit, k: int, face: Plane, pitch_mm: float) -> AssemblyPoin
     # depth runs against the normal: an axis that gains `lean` per mm of depth points into the column
     axis = axes.T @ np.array([*fit.lean[k], -1.0])
     flat = np.zeros((3, 3))
-    flat[:2, :2] = fit.covariance[k]
+    flat[:2, :2] = fit.covariance[k] + np.eye(2) * (_WEAR_PITCHES * pitch_mm) ** 2
     flat[2, 2] = max(face.residual_mm, 0.02) ** 2
     evidence = f"{fit.wall_count[k]} wall and {fit.edge_count[k]} edge points at {pitch_mm:.2f} mm"
     return AssemblyPoint(
