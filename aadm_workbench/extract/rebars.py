@@ -219,11 +219,13 @@ def _extraction(tops: list[Top], fit: PooledFit, standing: Standing, level: Plan
     right = np.abs(2 * fit.outline_radius / diameter_mm - 1.0) < _RADIUS_MISFIT
     sound = np.flatnonzero(right & (np.array(agree) > _SOUND_SHARE))
     points = tuple(_point(tops[k], fit, k, level) for k in sound.tolist())
+    if not points:
+        return _nothing(f"what stands in the scan has no round top of {diameter_mm:g} mm")
     vertical, source = standing.vertical, "floor"
-    if standing.floor is None and points:
+    if standing.floor is None:
         vertical, source = _mean_axis(points), "bar axes"
     exposed = tuple(_exposed(point, standing.floor) for point in points)
-    tops_level = Plane(vertical, float(np.median([vertical @ point.centre for point in points]))) if points else None
+    tops_level = Plane(vertical, float(np.median([vertical @ point.centre for point in points])))
     quality = {
         "point_pitch_mm": float(np.median([t.pitch_mm for t in tops])),
         "plane_residual_mm": float(np.median([t.plane.residual_mm for t in tops])),

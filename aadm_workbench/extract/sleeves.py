@@ -202,6 +202,9 @@ def _measured(mouths: list[Mouth], face: Plane, diameter_mm: float, pitch_mm: fl
     fit = _fit(mouths, diameter_mm, pitch_mm)
     sound = (np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT) & _are_round(mouths, fit, pitch_mm)
     points = tuple(_point(fit, k, face, pitch_mm) for k in np.flatnonzero(sound).tolist())
+    if not points:
+        reason = f"the openings in the face are no round mouths of {diameter_mm:g} mm"
+        return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
     quality = {
         "point_pitch_mm": pitch_mm,
         "plane_residual_mm": face.residual_mm,

@@ -44,3 +44,24 @@ def _turn(axis: int, angle: float) -> Array:
     matrix[i, i] = matrix[j, j] = c
     matrix[i, j], matrix[j, i] = -s, s
     return matrix
+
+
+DEPTH_SCALE_MM = 0.03
+"""Step of the depth maps: 65,535 of them reach 1.9 m, beyond the floor under the bars."""
+
+CAPTURE_TABLES = f"""\
+[camera]
+fx = {PRO_M.fx}
+fy = {PRO_M.fy}
+cx = {PRO_M.cx}
+cy = {PRO_M.cy}
+width = {PRO_M.width}
+height = {PRO_M.height}
+depth_scale_mm = {DEPTH_SCALE_MM}
+scale_error = {PRO_M.scale_error}
+
+[capture]
+operator = "virtual camera"
+settings = "synthetic scans, no real camera was used"
+"""
+"""What a job says of the virtual camera's scans."""

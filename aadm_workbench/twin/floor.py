@@ -17,14 +17,13 @@ from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError
 from aadm_workbench.model import Array, Verdict
 from aadm_workbench.scan.write import write_depth_tiff
-from aadm_workbench.twin.camera import PRO_M, facing
+from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM, facing
 from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.parts import BarGroup, Foot
 from aadm_workbench.twin.scene import scan_of
 from aadm_workbench.twin.scenes import FIELD, Setting, random_bars, random_foot
 from aadm_workbench.twin.truth import listed, sample_design, true_verdicts
 
-DEPTH_SCALE_MM = 0.03
 _BOUND_MM = 0.8
 _UPS = {"+x": (1.0, 0.0), "-x": (-1.0, 0.0), "+y": (0.0, 1.0), "-y": (0.0, -1.0)}
 
@@ -179,7 +178,6 @@ def _apart(foot: Foot, bars: BarGroup) -> tuple[Foot, BarGroup]:
 
 def job_text(cases: tuple[Case, ...]) -> str:
     """The job file of the sample floor."""
-    camera = PRO_M
     head = f"""# Sample floor: synthetic scans of a virtual camera, see ../README.md
 schema = 1
 name = "Sample floor 3"
@@ -190,20 +188,7 @@ decision = "guarded"
 [model]
 path = "floor3.ifc"
 
-[camera]
-fx = {camera.fx}
-fy = {camera.fy}
-cx = {camera.cx}
-cy = {camera.cy}
-width = {camera.width}
-height = {camera.height}
-depth_scale_mm = {DEPTH_SCALE_MM}
-scale_error = {camera.scale_error}
-
-[capture]
-operator = "virtual camera"
-settings = "synthetic scans, no real camera was used"
-"""
+{CAPTURE_TABLES}"""
     return head + "".join(_column_text(case) for case in cases)
 
 

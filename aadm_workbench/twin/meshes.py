@@ -5,32 +5,22 @@ Boolean work is Manifold's (through ``manifold3d``); bars are height fields over
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from aadm_workbench.model import Array, IntArray
-from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot, SleeveAsBuilt, axis_of
+from aadm_workbench.model import Array
+from aadm_workbench.twin.objects import object_surface
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, SleeveAsBuilt, axis_of
+from aadm_workbench.twin.surface import BAR, CONCRETE, DARK, FLOOR, SLEEVE_WALL, TAPE, Surface, joined, one_kind
 
-CONCRETE, SLEEVE_WALL, BAR, FLOOR, TAPE = range(5)
 _RIB_INCLINATION = np.radians(60.0)  # of transverse ribs against the bar's axis; 45 to 70 degrees are usual
+_SHIFT_DEPTHS_MM = (1.5, 2.0)
 SEGMENTS = 256  # of a bore's outline: the chord stays within 0.003 mm of a 36 mm circle
 
 
-@dataclass(frozen=True, eq=False)
-class Surface:
-    """A triangle mesh: vertices (n, 3) mm, triangles (m, 3), ``kind`` and ``owner`` (m,) per triangle."""
-
-    vertices: Array
-    triangles: IntArray
-    kind: IntArray
-    owner: IntArray
-
-
 def foot_surface(foot: Foot) -> Surface:
-    """Mesh of the foot with its bores, plugs, chips and tapes."""
+    """Mesh of the foot with its bores, plugs, chips, tapes and grout, and of what stands beside it."""
     import manifold3d
 
     block = manifold3d.Manifold.cube([*foot.size, foot.height]).translate([-foot.size[0] / 2, -foot.size[1] / 2, 0.0])
@@ -39,34 +29,23 @@ def foot_surface(foot: Foot) -> Surface:
     cutters = list(bores)
     cutters += [_chip(sleeve) for sleeve in foot.sleeves if sleeve.chip > 0]
     solid = manifold3d.Manifold.batch_boolean([block, *cutters], manifold3d.OpType.Subtract)
+    if foot.grout:
+        splashes = [_splash(grout) for grout in foot.grout]
+        solid = manifold3d.Manifold.batch_boolean([solid, *splashes], manifold3d.OpType.Add)
     owner_of = {bore.original_id(): number for number, bore in enumerate(bores)}
     surfaces = [_labelled(solid, owner_of, [sleeve.chamfer for sleeve in foot.sleeves])]
     surfaces += [_tape(sleeve, number) for number, sleeve in enumerate(foot.sleeves) if sleeve.taped > 0]
+    surfaces += [object_surface(thing) for thing in foot.beside]
     return joined(surfaces)
 
 
 def bars_surface(group: BarGroup) -> Surface:
-    """Mesh of a bar group and the floor it stands in."""
+    """Mesh of a bar group, the floor it stands in and what stands beside it."""
     surfaces = [_bar(bar, number, group.floor - 5.0) for number, bar in enumerate(group.bars)]
     surfaces.append(_floor(group))
-    surfaces += [_box(x, y, group.floor, edge) for x, y, edge in group.debris]
+    surfaces += [object_surface(_cube(x, y, group.floor, edge)) for x, y, edge in group.debris]
+    surfaces += [object_surface(thing) for thing in group.beside]
     return joined(surfaces)
-
-
-def joined(surfaces: list[Surface]) -> Surface:
-    """One surface of several."""
-    starts = np.cumsum([0] + [len(surface.vertices) for surface in surfaces[:-1]])
-    return Surface(
-        np.concatenate([surface.vertices for surface in surfaces]),
-        np.concatenate([surface.triangles + start for surface, start in zip(surfaces, starts, strict=True)]),
-        np.concatenate([surface.kind for surface in surfaces]),
-        np.concatenate([surface.owner for surface in surfaces]),
-    )
-
-
-def moved(surface: Surface, T: Array) -> Surface:
-    """The surface after a rigid transform (4, 4)."""
-    return Surface(surface.vertices @ T[:3, :3].T + T[:3, 3], surface.triangles, surface.kind, surface.owner)
 
 
 def _bore_profile(sleeve: SleeveAsBuilt) -> list[tuple[float, float]]:
@@ -74,6 +53,7 @@ def _bore_profile(sleeve: SleeveAsBuilt) -> list[tuple[float, float]]:
     depth = sleeve.depth if sleeve.plugged_at is None else max(sleeve.plugged_at, 0.05)
     profile = [(0.0, -15.0), (radius + chamfer, -15.0)]
     profile += [(radius + chamfer, 0.0), (radius, chamfer)] if chamfer > 0 else []
+    profile += [(radius, depth_mm) for depth_mm in _SHIFT_DEPTHS_MM if sleeve.wall_shift != (0.0, 0.0)]
     if sleeve.rib_height > 0:
         for start in np.arange(sleeve.rib_start, depth - 10.0, sleeve.rib_pitch):
             profile += [
@@ -90,7 +70,15 @@ def _bore(sleeve: SleeveAsBuilt) -> Any:
 
     section = manifold3d.CrossSection([_bore_profile(sleeve)])
     upright = manifold3d.Manifold.revolve(section, SEGMENTS)
+    if sleeve.wall_shift != (0.0, 0.0):
+        upright = upright.warp_batch(lambda vertices: _shifted(vertices, sleeve.wall_shift))
     return upright.transform(_leaning(sleeve.lean, (sleeve.x, sleeve.y, 0.0)))
+
+
+def _shifted(vertices: Array, shift: tuple[float, float]) -> Array:
+    """Vertices (n, 3) of an upright bore, those behind its mouth moved sideways."""
+    share = np.interp(vertices[:, 2], _SHIFT_DEPTHS_MM, (0.0, 1.0))
+    return np.asarray(vertices + share[:, None] * [*shift, 0.0])
 
 
 def _leaning(lean: tuple[float, float], origin: tuple[float, float, float]) -> Array:
@@ -106,7 +94,15 @@ def _chip(sleeve: SleeveAsBuilt) -> Any:
     reach = sleeve.diameter / 2 + 0.4 * sleeve.chip
     x = sleeve.x + reach * np.cos(sleeve.chip_direction)
     y = sleeve.y + reach * np.sin(sleeve.chip_direction)
-    return manifold3d.Manifold.sphere(1.0, 64).scale([sleeve.chip * 0.6, sleeve.chip, 4.0]).translate([x, y, 0.0])
+    piece = manifold3d.Manifold.sphere(1.0, 64).scale([sleeve.chip * 0.6, sleeve.chip, 4.0])
+    return piece.rotate([0.0, 0.0, float(np.degrees(sleeve.chip_direction))]).translate([x, y, 0.0])
+
+
+def _splash(grout: Grout) -> Any:
+    import manifold3d
+
+    dome = manifold3d.Manifold.sphere(1.0, 96).scale([grout.radius, grout.radius, grout.thickness])
+    return dome.translate([grout.x, grout.y, 0.0])
 
 
 def _labelled(solid: Any, owner_of: dict[int, int], chamfers: list[float]) -> Surface:
@@ -135,7 +131,7 @@ def _tape(sleeve: SleeveAsBuilt, number: int) -> Surface:
     corners = [along * a + across * b for a in (begin, radius) for b in (-radius, radius)]
     vertices = np.array([[sleeve.x + corner[0], sleeve.y + corner[1], -0.15] for corner in corners])
     triangles = np.array([[0, 1, 2], [1, 3, 2]])
-    return Surface(vertices, triangles, np.full(2, TAPE), np.full(2, number))
+    return one_kind(vertices, triangles, TAPE, number)
 
 
 def _rib_profile(bar: BarAsBuilt, angle: Array, below_top: Array) -> Array:
@@ -157,11 +153,13 @@ def _bar(bar: BarAsBuilt, number: int, foot_z: float) -> Surface:
     length = bar.top - foot_z
     below_top = np.arange(0.0, length + 0.8, 0.8)
     radius = bar.core_diameter / 2 + _rib_profile(bar, angles, below_top)
-    radius[:2] += bar.burr
+    radius[:2] += _burr(bar, angles)
     x, y = radius * np.cos(angles), radius * np.sin(angles)
     cut = bar.slant[0] * x[0] + bar.slant[1] * y[0] - bar.missing_top * (x[0] > 0.2 * bar.core_diameter)
     fade = np.clip(1.0 - below_top / (0.6 * length), 0.0, 1.0)
     z = -below_top[:, None] + fade[:, None] * cut[None, :]
+    bent = ((1.0 - below_top / length) ** 2 - 1.0)[:, None]
+    x, y = x + bent * bar.bend[0], y + bent * bar.bend[1]
     rows, columns = radius.shape
     local = np.stack([x, y, z], -1).reshape(-1, 3)
     T = _leaning(bar.lean, (bar.x, bar.y, bar.top))
@@ -171,7 +169,17 @@ def _bar(bar: BarAsBuilt, number: int, foot_z: float) -> Surface:
     a, b, c, d = grid[:-1].ravel(), beside[:-1].ravel(), grid[1:].ravel(), beside[1:].ravel()
     cap = np.column_stack([grid[0], beside[0], np.full(columns, rows * columns)])
     triangles = np.vstack([np.column_stack([a, c, b]), np.column_stack([b, c, d]), cap])
-    return Surface(vertices, triangles, np.full(len(triangles), BAR), np.full(len(triangles), number))
+    surface = one_kind(vertices, triangles, BAR, number)
+    away = np.abs(np.mod(angles - bar.rust_direction + np.pi, 2 * np.pi) - np.pi)
+    surface.kind[-columns:][away < np.pi * bar.rust] = DARK
+    return surface
+
+
+def _burr(bar: BarAsBuilt, angles: Array) -> Array:
+    """How far the burr stands out (angles,)."""
+    if bar.burr_direction is None:
+        return np.full(len(angles), bar.burr)
+    return np.asarray(bar.burr * np.clip(np.cos(angles - bar.burr_direction), 0.0, 1.0))
 
 
 def _floor(group: BarGroup) -> Surface:
@@ -179,14 +187,8 @@ def _floor(group: BarGroup) -> Surface:
     corners = np.array([[x, y] for x in (-half_x, half_x) for y in (-half_y, half_y)])
     heights = group.floor - corners @ np.asarray(group.floor_lean)
     vertices = np.column_stack([corners, heights])
-    return Surface(vertices, np.array([[0, 2, 1], [1, 2, 3]]), np.full(2, FLOOR), np.full(2, -1))
+    return one_kind(vertices, np.array([[0, 2, 1], [1, 2, 3]]), FLOOR)
 
 
-def _box(x: float, y: float, floor: float, edge: float) -> Surface:
-    import manifold3d
-
-    cube = manifold3d.Manifold.cube([edge, edge, edge]).translate([x - edge / 2, y - edge / 2, floor])
-    mesh = cube.to_mesh64()
-    triangles: npt.NDArray[np.int64] = np.asarray(mesh.tri_verts, np.int64)
-    vertices = np.asarray(mesh.vert_properties, np.float64)[:, :3]
-    return Surface(vertices, triangles, np.full(len(triangles), FLOOR), np.full(len(triangles), -1))
+def _cube(x: float, y: float, floor: float, edge: float) -> Box:
+    return Box((x - edge / 2, y - edge / 2, floor), (x + edge / 2, y + edge / 2, floor + edge))

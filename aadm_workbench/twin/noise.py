@@ -9,8 +9,8 @@ import numpy.typing as npt
 from scipy import ndimage
 
 from aadm_workbench.model import BoolArray, Camera
-from aadm_workbench.twin.meshes import SLEEVE_WALL
 from aadm_workbench.twin.raycast import View
+from aadm_workbench.twin.surface import DARK, SLEEVE_WALL
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,9 @@ class CameraNoise:
 
     ``depth_at_1m``: standard deviation on a surface square to the view at 1 m; it grows with the
     distance squared and with 1/cos of the incidence. ``correlated`` is the share of its variance that
-    neighbouring pixels have in common. ``wall_bias`` pushes returns of sleeve walls along the ray.
+    neighbouring pixels have in common. ``wall_bias`` pushes returns of sleeve walls along the ray, and
+    ``wall_bias_own`` those of each sleeve by an amount of its own, up to this. ``warp_period`` is in pixels: a third
+    of the image's width where it is None.
     """
 
     depth_at_1m: float = 0.07
@@ -36,6 +38,8 @@ class CameraNoise:
     grazing_none: float = 0.06
     wall_loss: float = 0.25
     wall_bias: float = 0.0
+    wall_bias_own: float = 0.0
+    warp_period: float | None = None
 
     @staticmethod
     def drawn(rng: np.random.Generator) -> CameraNoise:
@@ -55,6 +59,9 @@ def captured(view: View, camera: Camera, noise: CameraNoise, rng: np.random.Gene
     measured = ideal + _depth_error(view, camera, noise, rng)
     wall = view.kind == SLEEVE_WALL
     measured[wall] += (noise.wall_bias * rng.uniform(0.6, 1.0, wall.sum())).astype(np.float32)
+    if noise.wall_bias_own > 0.0:
+        own = rng.uniform(-noise.wall_bias_own, noise.wall_bias_own, int(view.owner.max(initial=0)) + 1)
+        measured[wall] += own[view.owner[wall]].astype(np.float32)
     measured *= np.float32(1.0 + noise.scale)
     low, high = _neighbourhood(ideal)
     step = np.isfinite(low) & np.isfinite(high) & (high - low > noise.step_height)
@@ -74,6 +81,7 @@ def _lost(view: View, step: BoolArray, wall: BoolArray, noise: CameraNoise, rng:
     chance = np.maximum(chance, np.clip((noise.grazing_full - view.cosine) / span, 0.0, 1.0))
     chance[wall] = 1.0 - (1.0 - chance[wall]) * (1.0 - noise.wall_loss)
     chance[step] = np.maximum(chance[step], noise.step_loss)
+    chance[view.kind == DARK] = 1.0
     return np.asarray(~view.lit | (rng.random(view.depth.shape) < chance))
 
 
@@ -88,9 +96,9 @@ def _depth_error(view: View, camera: Camera, noise: CameraNoise, rng: np.random.
 
 
 def _warp(camera: Camera, noise: CameraNoise, rng: np.random.Generator) -> npt.NDArray[np.float32]:
-    """A smooth error whose period is a third of the image."""
+    """A smooth error along both sides of the image."""
     phase = rng.uniform(0.0, 2 * np.pi, 2)
-    period = camera.width / 3.0
+    period = camera.width / 3.0 if noise.warp_period is None else noise.warp_period
     u = np.sin(2 * np.pi * np.arange(camera.width) / period + phase[0])
     v = np.sin(2 * np.pi * np.arange(camera.height) / period + phase[1])
     return np.asarray(noise.warp * 0.5 * (u[None, :] + v[:, None]), np.float32)

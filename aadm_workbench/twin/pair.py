@@ -15,15 +15,12 @@ from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.pattern import inline_design, label_order
 from aadm_workbench.model import AssemblyPoint, ColumnDesign
 from aadm_workbench.scan.write import write_depth_tiff, write_pcd, write_ply
-from aadm_workbench.twin.camera import PRO_M
+from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM
 from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot
 from aadm_workbench.twin.scene import TrueScan, scan_of
 from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_foot, random_pose
 from aadm_workbench.twin.truth import true_verdicts
-
-DEPTH_SCALE_MM = 0.03
-"""Step of the depth maps: 65,535 of them reach 1.9 m, beyond the floor under the bars."""
 
 _DECIMALS = 4
 
@@ -143,7 +140,6 @@ def _scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, 
 
 
 def _job_text(setting: Setting, seed: int, scan_format: str) -> str:
-    camera = PRO_M
     design = "".join(f"{key} = {value}\n" for key, value in _design_table(setting).items())
     return f"""# Synthetic scans of a virtual camera: aadm simulate pair --setting {setting.name} --seed {seed}
 schema = 1
@@ -151,20 +147,7 @@ name = "Simulated pair, {setting.name} setting"
 units = "mm"
 tolerances = "cn"
 
-[camera]
-fx = {camera.fx}
-fy = {camera.fy}
-cx = {camera.cx}
-cy = {camera.cy}
-width = {camera.width}
-height = {camera.height}
-depth_scale_mm = {DEPTH_SCALE_MM}
-scale_error = {camera.scale_error}
-
-[capture]
-operator = "virtual camera"
-settings = "synthetic scans, no real camera was used"
-
+{CAPTURE_TABLES}
 [[columns]]
 id = "{_column_id(setting)}"
 sleeves = "foot.{scan_format}"

@@ -5,7 +5,7 @@ Lengths in mm, angles in radians. A lean ``(lx, ly)`` tilts the axis to the dire
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -18,6 +18,8 @@ class SleeveAsBuilt:
 
     ``plugged_at`` is the depth of a plug behind the face (0: flush with it); None for an open sleeve.
     ``taped`` is the part of the mouth covered by tape, 0..1. ``chip`` is the reach of a spalled rim.
+    ``wall_shift`` is how far light that bounces inside makes the wall appear beside its place, from 2 mm behind
+    the face on.
     """
 
     x: float
@@ -33,13 +35,17 @@ class SleeveAsBuilt:
     taped: float = 0.0
     chip: float = 0.0
     chip_direction: float = 0.0
+    wall_shift: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass(frozen=True)
 class BarAsBuilt:
     """One connecting rebar: a ribbed cylinder whose top ends at ``top`` with a cut of some slant.
 
-    (x, y, top) is where the axis of the core meets the top: the bar's centre.
+    (x, y, top) is where the axis of the core meets the top: the bar's centre. ``bend`` is how far its top is bent
+    off the line on which the bar leaves the floor. ``burr`` is what shearing pushed out at the top: all around, or
+    most towards ``burr_direction``. ``rust`` is the share of the top that returns no light, a sector about
+    ``rust_direction``; ``missing_top`` the depth of a piece broken off its +x side.
     """
 
     x: float
@@ -54,27 +60,67 @@ class BarAsBuilt:
     longitudinal_rib: float = 0.0
     slant: tuple[float, float] = (0.0, 0.0)
     burr: float = 0.0
+    burr_direction: float | None = None
     missing_top: float = 0.0
+    bend: tuple[float, float] = (0.0, 0.0)
+    rust: float = 0.0
+    rust_direction: float = 0.0
+
+
+@dataclass(frozen=True)
+class Grout:
+    """A splash of grout on a foot face about (x, y): a flat dome, ``thickness`` high in its middle."""
+
+    x: float
+    y: float
+    radius: float
+    thickness: float
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box or a board between two corners, sides along the axes of the column frame."""
+
+    low: tuple[float, float, float]
+    high: tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Hose:
+    """A hose whose middle lies at ``height``, on a smooth line through plan positions."""
+
+    path: tuple[tuple[float, float], ...]
+    height: float
+    diameter: float = 25.0
 
 
 @dataclass(frozen=True)
 class Foot:
-    """The foot of a column: a block above z = 0 whose face, seen from below, holds the sleeves."""
+    """The foot of a column: a block above z = 0 whose face, seen from below, holds the sleeves.
+
+    ``grout`` sticks to its face; ``beside`` stands between it and the camera, or around it.
+    """
 
     size: tuple[float, float]
     sleeves: tuple[SleeveAsBuilt, ...]
     height: float = 400.0
+    grout: tuple[Grout, ...] = ()
+    beside: tuple[Box | Hose, ...] = ()
 
 
 @dataclass(frozen=True)
 class BarGroup:
-    """Connecting rebars that stick out of a floor at ``floor``; its normal leans by ``floor_lean``."""
+    """Connecting rebars that stick out of a floor at ``floor``; its normal leans by ``floor_lean``.
+
+    ``debris`` are cubes (x, y, edge) on the floor; ``beside`` is what else stands about.
+    """
 
     bars: tuple[BarAsBuilt, ...]
     floor: float
     floor_size: tuple[float, float] = (2600.0, 2000.0)
     floor_lean: tuple[float, float] = (0.0, 0.0)
-    debris: tuple[tuple[float, float, float], ...] = field(default=())
+    debris: tuple[tuple[float, float, float], ...] = ()
+    beside: tuple[Box | Hose, ...] = ()
 
 
 def axis_of(lean: tuple[float, float]) -> Array:

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import BoolArray, Camera
-from aadm_workbench.twin.meshes import Surface
+from aadm_workbench.twin.surface import Surface
 
 PROJECTOR_BASELINE_MM = 270.0  # along +x of the camera, as targets refer to it
 _SHADOW_MARGIN_MM = 0.3

@@ -10,10 +10,11 @@ import numpy.typing as npt
 from aadm_workbench.model import Array, AssemblyPoint, Camera, Kind, Scan
 from aadm_workbench.scan.camera import depth_to_points
 from aadm_workbench.twin.camera import PRO_M
-from aadm_workbench.twin.meshes import Surface, bars_surface, foot_surface, moved
+from aadm_workbench.twin.meshes import bars_surface, foot_surface
 from aadm_workbench.twin.noise import CameraNoise, captured
 from aadm_workbench.twin.parts import BarGroup, Foot, axis_of
 from aadm_workbench.twin.raycast import look
+from aadm_workbench.twin.surface import Surface, moved
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.design.pattern import label_order
-from aadm_workbench.model import Array
-from aadm_workbench.twin.camera import facing
+from aadm_workbench.model import Array, Camera
+from aadm_workbench.twin.camera import PRO_M, facing
 from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot, SleeveAsBuilt, ring
 from aadm_workbench.twin.scene import TrueScan, scan_of
@@ -103,13 +103,13 @@ def random_pose(
     return facing(target, forward, UP, distance, tilt, np.radians(rng.uniform(-3.0, 3.0)))
 
 
-def random_sleeve_scan(setting: Setting, rng: np.random.Generator) -> TrueScan:
+def random_sleeve_scan(setting: Setting, rng: np.random.Generator, camera: Camera = PRO_M) -> TrueScan:
     """A random foot as the reference camera sees it."""
     foot = random_foot(setting, rng)
-    return scan_of(foot, random_pose(setting, True, rng), CameraNoise.drawn(rng), rng)
+    return scan_of(foot, random_pose(setting, True, rng), CameraNoise.drawn(rng), rng, camera)
 
 
-def random_bar_scan(setting: Setting, rng: np.random.Generator) -> TrueScan:
+def random_bar_scan(setting: Setting, rng: np.random.Generator, camera: Camera = PRO_M) -> TrueScan:
     """A random group of bars as the reference camera sees it."""
     bars = random_bars(setting, rng)
-    return scan_of(bars, random_pose(setting, False, rng), CameraNoise.drawn(rng), rng)
+    return scan_of(bars, random_pose(setting, False, rng), CameraNoise.drawn(rng), rng, camera)

@@ -9,11 +9,12 @@ import pytest
 
 from aadm_workbench.model import Camera
 from aadm_workbench.twin.camera import PRO_M, facing
-from aadm_workbench.twin.meshes import CONCRETE, SLEEVE_WALL, bars_surface, foot_surface, moved
+from aadm_workbench.twin.meshes import bars_surface, foot_surface
 from aadm_workbench.twin.noise import CameraNoise, captured
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot, SleeveAsBuilt
 from aadm_workbench.twin.raycast import View, look, rays_of
 from aadm_workbench.twin.scene import scan_of
+from aadm_workbench.twin.surface import CONCRETE, SLEEVE_WALL, moved
 
 SMALL = Camera(fx=600.0, fy=600.0, cx=319.5, cy=255.5, width=640, height=512)
 SLEEVE = SleeveAsBuilt(30.0, -20.0, 36.0, lean=(0.01, 0.0))

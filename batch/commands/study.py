@@ -1,0 +1,138 @@
+"""Measure how exact and how fast the methods are, on synthetic scans whose truth is known."""
+
+from __future__ import annotations
+
+import argparse
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..exit_codes import ALL_PASS
+from ..one_thread import calculate_in_one_thread
+from ..switches import add_switches, whole_number
+from .check import METHODS
+
+if TYPE_CHECKING:
+    from aadm_workbench.twin.study.methods import MethodStudy
+
+SUMMARY = "measure methods on synthetic scans of known truth"
+EXAMPLE = """\
+example:
+  aadm study methods --setting lab --scenes 5 --out study"""
+_METHODS = "all methods over random scenes, beside the tables of the paper"
+_METHODS_EXAMPLE = """\
+examples:
+  aadm study methods --setting both --scenes 20 --out study
+  aadm study methods --setting field --scenes 3 --methods refined fusion --json"""
+_PACKAGES = ("manifold3d", "open3d")
+_SETTINGS = ("lab", "field")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    kinds = parser.add_subparsers(title="what to study", metavar="WHAT", required=True)
+    methods = kinds.add_parser(
+        "methods",
+        help=_METHODS,
+        description=f"Run {_METHODS}: errors of diameters, spacings and centres, and times.",
+        epilog=_METHODS_EXAMPLE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    methods.add_argument(
+        "--setting", choices=(*_SETTINGS, "both"), default="both", help="250 mm model, 600 mm column (default: both)"
+    )
+    methods.add_argument(
+        "--scenes", type=whole_number, default=20, metavar="N", help="random scenes of each setting (default: 20)"
+    )
+    methods.add_argument("--seed", type=int, default=0, metavar="S", help="another seed, other scenes (default: 0)")
+    methods.add_argument(
+        "--methods", nargs="+", choices=METHODS, default=list(METHODS), metavar="M", help=f"of {', '.join(METHODS)}"
+    )
+    methods.add_argument(
+        "--quick", action="store_true", help="a camera of half the resolution: a quarter of the time, other numbers"
+    )
+    methods.add_argument("--out", type=Path, metavar="DIR", help="folder for CSV, summary.json and plots")
+    add_switches(methods, prints_json="the numbers")
+    methods.set_defaults(run=_study_methods)
+
+
+def _study_methods(options: argparse.Namespace) -> int:
+    _prepare(options)
+    calculate_in_one_thread()
+    from aadm_workbench.report.json import encode
+    from aadm_workbench.twin.camera import PRO_M
+    from aadm_workbench.twin.pair import SETTINGS
+    from aadm_workbench.twin.study.methods import study_methods, thinned_camera
+
+    from ..progress import StepProgress
+    from ..study_tables import study_tables
+    from ..terminal import show, show_json
+
+    names = _SETTINGS if options.setting == "both" else (options.setting,)
+    with StepProgress("rendering", quiet=options.quiet) as progress:
+        study = study_methods(
+            [SETTINGS[name] for name in names],
+            list(dict.fromkeys(options.methods)),
+            scenes=options.scenes,
+            seed=options.seed,
+            finished=progress.start(options.scenes * len(names)),
+            camera=thinned_camera(PRO_M, 2) if options.quick else PRO_M,
+        )
+    summary = encode(_document(study, quick=options.quick))
+    written = [] if options.out is None else _write(study, summary, options.out)
+    if options.json:
+        show_json(summary)
+    elif not options.quiet:
+        show(*study_tables(study))
+        if written:
+            show("", f"Wrote {', '.join(path.name for path in written)} to {options.out}")
+    return ALL_PASS
+
+
+def _prepare(options: argparse.Namespace) -> None:
+    """Refuse what cannot work before hours of rendering."""
+    from aadm_workbench.errors import AadmError, MissingDependencyError
+
+    if options.seed < 0:
+        raise AadmError(f"--seed must not be below zero, it is {options.seed}")
+    for package in (*_PACKAGES, *(() if options.out is None else ("matplotlib",))):
+        if find_spec(package) is None:
+            needed_for = "A plot" if package == "matplotlib" else "The virtual camera"
+            raise MissingDependencyError(package, needed_for, "pip install 'aadm-workbench[twin]'")
+    if options.out is not None:
+        try:
+            options.out.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise AadmError(f"{options.out}: the folder cannot be made ({error.strerror})") from error
+
+
+def _document(study: MethodStudy, *, quick: bool) -> dict[str, Any]:
+    """The numbers of a study; lengths in mm, times in s."""
+    from aadm_workbench.model import Kind
+    from aadm_workbench.twin.study.published import TABLES
+    from aadm_workbench.twin.study.scores import bare_seconds, scores
+
+    rated = scores(study)
+    return {
+        "synthetic": True,
+        "seed": study.seed,
+        "scenes": study.scenes,
+        "half_resolution": quick,
+        "settings": {
+            setting: {
+                "published": TABLES[setting],
+                "measured": [score for score in rated if score.setting == setting],
+                "bare_calls_s": {kind.plural: bare_seconds(study, setting, kind) for kind in Kind},
+            }
+            for setting in study.settings
+        },
+    }
+
+
+def _write(study: MethodStudy, summary: bytes, folder: Path) -> list[Path]:
+    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.twin.study.files import write_tables
+    from aadm_workbench.twin.study.plots import write_plots
+
+    write_atomically(folder / "summary.json", summary)
+    return [folder / "summary.json", *write_tables(study, folder), *write_plots(study, folder)]
