@@ -11,11 +11,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from aadm_workbench.assembly.absolute import DatumRules, inspect_absolute
 from aadm_workbench.assembly.column import rules_of_the_erected_column, sum_up
+from aadm_workbench.assembly.control import ControlPose, fit_control_points, shown_up_deg
+from aadm_workbench.assembly.datum import with_absolute
 from aadm_workbench.assembly.decision import DecisionRule
+from aadm_workbench.assembly.eopa import NoFit
 from aadm_workbench.assembly.inspect import inspect_group
 from aadm_workbench.assembly.match import Match, match_extraction
+from aadm_workbench.assembly.place import place_points
+from aadm_workbench.assembly.repair import advise_repair
+from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.assembly.trial import try_scans
+from aadm_workbench.assembly.views import merge_views
 from aadm_workbench.errors import JobError
 from aadm_workbench.extract.method import extract
 from aadm_workbench.extract.missing import explain_missing
@@ -24,11 +32,13 @@ from aadm_workbench.model import (
     AssemblyPoint,
     ColumnDesign,
     ColumnReport,
+    ControlPoint,
     Extraction,
     GroupReport,
     Kind,
     PointResult,
     Profile,
+    RepairReport,
     Scan,
     TrialReport,
     Verdict,
@@ -36,6 +46,9 @@ from aadm_workbench.model import (
 
 IMAGE_UP_SCAN = np.array([0.0, -1.0, 0.0])
 """Direction of the image's top in the scan frame: -y."""
+
+LARGEST_U_TO_LIMIT = 0.409
+"""1/sqrt(-2 ln 0.05): with a larger u per axis no radial deviation is within the limit at 95 % (Rice law)."""
 
 CHECKS = ("sleeves", "rebars", "trial")
 
@@ -59,13 +72,14 @@ class ColumnScans:
     """The scans of one column.
 
     ``..._up_deg``: column-frame direction at the top of the image, in degrees from +x, counter-clockwise seen from
-    above; None where nobody declared it.
+    above; None where nobody declared it. ``control_points`` are measured in the scan of the rebars.
     """
 
     sleeves: tuple[Scan, ...] = ()
     rebars: tuple[Scan, ...] = ()
     sleeves_up_deg: float | None = None
     rebars_up_deg: float | None = None
+    control_points: tuple[ControlPoint, ...] = ()
 
     def of(self, kind: Kind) -> tuple[Scan, ...]:
         """The views of one kind."""
@@ -104,16 +118,23 @@ def check_column(
         Where the job asks for a check without giving its scans.
     """
     checks = _wanted(design, scans, settings)
-    measured = {
-        kind: _measure(design, scans.of(kind), scans.up_deg(kind), kind, settings, stage)
-        for kind in Kind
-        if scans.of(kind)
-    }
-    trial = None
+    measured = measure_column(design, scans, settings, stage)
+    trial, repair = None, None
     if "trial" in checks:
         with stage("assembly"):
             trial = _try(design, measured[Kind.SLEEVE], measured[Kind.REBAR], settings)
-    return _report(design, measured, trial, checks, settings.profile)
+            repair = _repair(design, measured[Kind.SLEEVE], measured[Kind.REBAR], trial, settings)
+    return replace(_report(design, measured, trial, checks, settings.profile), repair=repair)
+
+
+def measure_column(
+    design: ColumnDesign,
+    scans: ColumnScans,
+    settings: CheckSettings,
+    stage: Stage = lambda name: nullcontext(),
+) -> dict[Kind, Measured]:
+    """Extract, match and inspect what there are scans of; parameters as :func:`check_column`."""
+    return {kind: _measure(design, scans, kind, settings, stage) for kind in Kind if scans.of(kind)}
 
 
 def _wanted(design: ColumnDesign, scans: ColumnScans, settings: CheckSettings) -> tuple[str, ...]:
@@ -128,31 +149,30 @@ def _wanted(design: ColumnDesign, scans: ColumnScans, settings: CheckSettings) -
     return settings.checks
 
 
-def _measure(
-    design: ColumnDesign,
-    scans: tuple[Scan, ...],
-    up_deg: float | None,
-    kind: Kind,
-    settings: CheckSettings,
-    stage: Stage,
-) -> Measured:
+def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: CheckSettings, stage: Stage) -> Measured:
     """Extract, match and inspect one group of points."""
-    if len(scans) > 1:
-        raise JobError(f"column {design.id}: several views of one scan are not merged by this version; name one file")
-    scan, points = scans[0], design.points(kind)
-    diameter_mm = float(np.median([point.diameter_mm for point in points]))
+    views, points, up_deg = scans.of(kind), design.points(kind), scans.up_deg(kind)
+    scan, diameter_mm = views[0], float(np.median([point.diameter_mm for point in points]))
     rng = np.random.default_rng([settings.seed, list(Kind).index(kind)])
     with stage("extract"):
-        extraction = extract(scan, kind, diameter_mm, settings.method, rng)
-        match = match_extraction(points, extraction, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
-        places = _missing_places(points, match)
-        if places and settings.method == "refined":
-            again = extract(scan, kind, diameter_mm, settings.method, rng, np.array(list(places.values())))
-            second = match_extraction(points, again, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
-            if second and second.placements[0].found > match.placements[0].found:
-                extraction, match = again, second
-                places = _missing_places(points, match)
-        reasons = _reasons(scan, extraction, places, diameter_mm, rng)
+        seen = [extract(view, kind, diameter_mm, settings.method, rng) for view in views]
+        control = _control(design, scans, kind, seen[0])
+        ups = [up_deg] * len(views)
+        if up_deg is None and isinstance(control, ControlPose):
+            # It says how the first view is turned, and nothing about the others.
+            up_deg = ups[0] = shown_up_deg(control, IMAGE_UP_SCAN)
+        found = [_matched(points, *one, settings, rng) for one in zip(views, seen, ups, strict=True)]
+        extraction, match = found[0]
+        if control is not None and not match:
+            control = NoFit("the points in the first scan of the rebars, that of the control points, were not matched")
+        notes: tuple[str, ...] = ()
+        if len(views) > 1:
+            extraction, notes = merge_views([one for one, _ in found], [one for _, one in found])
+            match = match_extraction(points, extraction, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
+            reasons = dict.fromkeys(_missing_places(points, match), f"in none of the {len(views)} views")
+        else:
+            reasons = _reasons(scan, extraction, _missing_places(points, match), diameter_mm, rng)
+    scale_error = scan.camera.scale_error if scan.camera else 0.0
     with stage("assembly"):
         report = inspect_group(
             points,
@@ -160,11 +180,87 @@ def _measure(
             match,
             settings.profile,
             decision=settings.decision,
-            scale_error=scan.camera.scale_error if scan.camera else 0.0,
-            source=scan.source,
-            sha256=scan.sha256,
+            scale_error=scale_error,
+            source=", ".join(view.source for view in views),
+            sha256=", ".join(view.sha256 for view in views),
         )
-    return Measured(extraction, match, _with_reasons(report, reasons))
+        u_mm = _typical_u_mm(extraction)
+        notes = (*report.notes, *notes, *_unsupported(u_mm, settings.profile, kind))
+        report = replace(report, notes=notes, quality={**report.quality, "u_mm": u_mm})
+        measured = Measured(extraction, match, _with_reasons(report, reasons))
+        if control is None or not match:
+            return measured
+        return _in_the_building(measured, points, scans.control_points, control, settings, scale_error)
+
+
+def _typical_u_mm(extraction: Extraction) -> float | None:
+    """Median standard uncertainty, mm per axis across the vertical, of the centres; None without covariances."""
+    known = [point.covariance for point in extraction.points if point.covariance is not None]
+    if not known or extraction.vertical is None:
+        return None
+    up = extraction.vertical
+    return float(np.median([np.sqrt(max(np.trace(c) - up @ c @ up, 0.0) / 2.0) for c in known]))
+
+
+def _unsupported(u_mm: float | None, profile: Profile, kind: Kind) -> tuple[str, ...]:
+    """A note where no deviation, however small, could be accepted at 95 % with this uncertainty."""
+    limits = [rule.upper for rule in rules_for(profile, f"{kind.value}_position")]
+    if u_mm is None or not limits or u_mm < LARGEST_U_TO_LIMIT * min(limits):
+        return ()
+    return (
+        f"this scan cannot support a decision on {min(limits):g} mm: its centres have u = {u_mm:.2f} mm, rescan closer",
+    )
+
+
+def _matched(
+    points: tuple[AssemblyPoint, ...],
+    scan: Scan,
+    extraction: Extraction,
+    up_deg: float | None,
+    settings: CheckSettings,
+    rng: np.random.Generator,
+) -> tuple[Extraction, Match]:
+    """Which point of a scan is which; where some are missing, look again at the places where they should be."""
+    match = match_extraction(points, extraction, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
+    places = _missing_places(points, match)
+    if not places or settings.method != "refined":
+        return extraction, match
+    diameter_mm = float(np.median([point.diameter_mm for point in points]))
+    again = extract(scan, extraction.kind, diameter_mm, settings.method, rng, np.array(list(places.values())))
+    second = match_extraction(points, again, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
+    if second and second.placements[0].found > match.placements[0].found:
+        return again, second
+    return extraction, match
+
+
+def _control(
+    design: ColumnDesign, scans: ColumnScans, kind: Kind, extraction: Extraction
+) -> ControlPose | NoFit | None:
+    """The pose of the scan of the bars by the job's control points; None without any."""
+    if kind is not Kind.REBAR or not scans.control_points:
+        return None
+    return fit_control_points(scans.control_points, design.T_model_column, extraction.vertical)
+
+
+def _in_the_building(
+    measured: Measured,
+    points: tuple[AssemblyPoint, ...],
+    control_points: tuple[ControlPoint, ...],
+    control: ControlPose | NoFit,
+    settings: CheckSettings,
+    scale_error: float,
+) -> Measured:
+    """The measured bars with their absolute position in the report."""
+    absolute = inspect_absolute(
+        points,
+        place_points(measured.extraction, measured.match.placements[0]),
+        control_points,
+        control,
+        DatumRules.of(settings.profile),
+        decision=settings.decision,
+        scale_error=scale_error,
+    )
+    return replace(measured, report=with_absolute(measured.report, absolute, settings.profile))
 
 
 def _missing_places(points: tuple[AssemblyPoint, ...], match: Match) -> dict[int, Array]:
@@ -213,6 +309,30 @@ def _try(design: ColumnDesign, sleeves: Measured, rebars: Measured, settings: Ch
         np.random.default_rng([settings.seed, 2]),
         decision=settings.decision,
         turns=settings.turns,
+    )
+
+
+def _repair(
+    design: ColumnDesign, sleeves: Measured, rebars: Measured, trial: TrialReport, settings: CheckSettings
+) -> RepairReport | None:
+    """Advice where the trial did not pass; none where it is open which bar belongs to which sleeve."""
+    if "ambiguous" in (sleeves.match.orientation, rebars.match.orientation) or trial.minimax is None:
+        return None
+    placed = {
+        kind: [
+            None if found is None else found.point for found in place_points(one.extraction, one.match.placements[0])
+        ]
+        for kind, one in ((Kind.SLEEVE, sleeves), (Kind.REBAR, rebars))
+    }
+    rng = np.random.default_rng([settings.seed, 3])
+    return advise_repair(
+        design,
+        placed[Kind.SLEEVE],
+        placed[Kind.REBAR],
+        trial,
+        settings.profile,
+        rng,
+        decision=settings.decision,
     )
 
 

@@ -26,7 +26,7 @@ def vectors(p: Array, q: Array, z: Array) -> Array:
 def step(p: Array, q: Array, weights: Array, z: Array, level: Array, lam: Array, bound: Array) -> None:
     """One primal–dual Newton step of k problems, in place on z (k, 3), the level s (k,) and the multipliers (k, n).
 
-    ``bound`` (k,) is the best lower bound known; the other arguments are those of
+    ``bound`` (k,) is the best lower bound known, ``weights`` is (k, n); the other arguments are those of
     :func:`~aadm_workbench.assembly.discs.smallest_common_disc`.
     """
     e = vectors(p, q, z)
@@ -35,7 +35,7 @@ def step(p: Array, q: Array, weights: Array, z: Array, level: Array, lam: Array,
     slack = np.maximum(level[:, None] - value, _SMALLEST_SLACK * level[:, None])
     # Aimed at what the bound leaves open, not at the products: a step may centre long before it is near.
     mu = _CENTRING * np.maximum(level - bound, _SMALLEST_AIM * level) / lam.shape[1]
-    gradient = np.concatenate([(q * e).sum(axis=2, keepdims=True), e], axis=2) * (2.0 * weights[:, None])
+    gradient = np.concatenate([(q * e).sum(axis=2, keepdims=True), e], axis=2) * (2.0 * weights[:, :, None])
     move, raised = _direction(q, gradient, lam, slack, mu, weights)
     along = np.einsum("kni,ki->kn", gradient, move)
     change = mu[:, None] / slack - lam + lam / slack * (along - raised[:, None])

@@ -43,30 +43,31 @@ def smallest_common_disc(
     p, q
         (k, n, 2) float64; of like magnitude, for the sake of the arithmetic.
     weights
-        (n,) float64, above zero.
+        (n,) float64, above zero, or (k, n) where those of the problems differ.
     decide_at
         Only whether the optimum of each problem is below or above this is wanted: then a problem is left as soon
         as its value or its bound says so.
     start
         (n,) multipliers of a problem like these; by default all are equal.
     """
+    weights = np.broadcast_to(weights, p.shape[:2])
     z = np.zeros((len(p), 3))
     first = np.ones(p.shape[1]) if start is None else np.maximum(start, 1e-6)
     multipliers = np.tile(first / first.sum(), (len(p), 1))
     best, best_z = _largest(p, q, weights, z), z.copy()
-    bound = _bound(p, q, weights, multipliers)
+    bound = proven_bound(p, q, weights, multipliers)
     level = 1.5 * best + 1e-30
     open_ = np.flatnonzero(_undecided(best, bound, decide_at))
     for _ in range(_ROUNDS):
         if not len(open_):
             break
-        pk, qk, zk, level_k, lam = p[open_], q[open_], z[open_], level[open_], multipliers[open_]
-        step(pk, qk, weights, zk, level_k, lam, bound[open_])
+        pk, qk, wk, zk, level_k, lam = (v[open_] for v in (p, q, weights, z, level, multipliers))
+        step(pk, qk, wk, zk, level_k, lam, bound[open_])
         z[open_], level[open_], multipliers[open_] = zk, level_k, lam
-        reached = _largest(pk, qk, weights, zk)
+        reached = _largest(pk, qk, wk, zk)
         better = reached < best[open_]
         best[open_[better]], best_z[open_[better]] = reached[better], zk[better]
-        bound[open_] = np.maximum(bound[open_], _bound(pk, qk, weights, lam))
+        bound[open_] = np.maximum(bound[open_], proven_bound(pk, qk, wk, lam))
         open_ = open_[_undecided(best[open_], bound[open_], decide_at)]
     share = multipliers / multipliers.sum(axis=1, keepdims=True)
     return DiscSolution(best_z, best, share, np.minimum(bound, best))
@@ -83,7 +84,7 @@ def _largest(p: Array, q: Array, weights: Array, z: Array) -> Array:
     return np.asarray((weights * (vectors(p, q, z) ** 2).sum(axis=2)).max(axis=1))
 
 
-def _bound(p: Array, q: Array, weights: Array, multipliers: Array) -> Array:
+def proven_bound(p: Array, q: Array, weights: Array, multipliers: Array) -> Array:
     """Lower bound (k,) that the multipliers prove: no largest value is below the smallest weighted mean."""
     share = multipliers / multipliers.sum(axis=1, keepdims=True) * weights
     total = share.sum(axis=1)

@@ -11,10 +11,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from aadm_workbench.assembly.constraints import pose_constraints
 from aadm_workbench.assembly.discs import smallest_common_disc
-from aadm_workbench.assembly.minimax import half_turn_vectors
 from aadm_workbench.assembly.pairs import Pair
-from aadm_workbench.assembly.upright import turn
 from aadm_workbench.model import Array
 
 SAMPLES = 2000
@@ -42,50 +41,26 @@ def probability_of_a_pose(
     covariances = [pair.covariance for pair in pairs if pair.covariance is not None]
     if len(covariances) < len(pairs):
         return None
-    vectors, stretched, limits, owner = _constraints(pairs, limits_mm, yaw, shift)
-    if (limits <= 0.0).any():
+    found = pose_constraints(pairs, limits_mm, yaw, shift)
+    if (found.limits_mm <= 0.0).any():
         return 0.0
     noise = np.einsum(
         "nij,knj->kni", _roots(np.array(covariances)), generator.standard_normal((samples, len(pairs), 2))
     )
-    p = vectors[None] + noise[:, owner]
-    q = np.broadcast_to(stretched, p.shape)
-    solution = smallest_common_disc(p, q, 1.0 / limits**2, decide_at=1.0)
+    p = found.vectors[None] + noise[:, found.owner]
+    q = np.broadcast_to(found.turning, p.shape)
+    solution = smallest_common_disc(p, q, 1.0 / found.limits_mm**2, decide_at=1.0)
     return float((solution.ratio_squared <= 1.0).mean())
 
 
 def pose_exists(pairs: Sequence[Pair], limits_mm: Array, yaw: float, shift: Array) -> bool:
     """Whether some pose near the given one meets all limits and clearances at the measured centres."""
-    p, q, limits, _ = _constraints(pairs, limits_mm, yaw, shift)
-    if (limits <= 0.0).any():
+    found = pose_constraints(pairs, limits_mm, yaw, shift)
+    if (found.limits_mm <= 0.0).any():
         return False
-    return bool(smallest_common_disc(p[None], q[None], 1.0 / limits**2, decide_at=1.0).ratio_squared[0] <= 1.0)
-
-
-def _constraints(
-    pairs: Sequence[Pair], limits_mm: Array, yaw: float, shift: Array
-) -> tuple[Array, Array, Array, Array]:
-    """Vectors (c, 2), their change with a small turn (c, 2), their limits (c,) and the pair that each belongs to (c,).
-
-    Clearances that the limit of the distance implies are left out.
-    """
-    rotation = turn(yaw)
-    placed = np.array([rotation @ pair.rebar_xy + shift for pair in pairs])
-    targets = np.array([pair.sleeve_xy for pair in pairs])
-    origin = targets.mean(axis=0)
-    p, q = half_turn_vectors(placed - origin, targets - origin)
-    q = q * float(np.median(limits_mm)) / max(float(np.sqrt((q**2).sum(axis=1).mean())), 1e-9)
-    vectors, turning, limits, owner = list(p), list(q), list(limits_mm), list(range(len(pairs)))
-    for index, pair in enumerate(pairs):
-        if pair.room_mm is None:
-            continue
-        for lean in (rotation @ pair.bar_shift, pair.sleeve_shift):
-            if limits_mm[index] + float(np.hypot(*lean)) > pair.room_mm:
-                vectors.append(p[index] - lean)
-                turning.append(q[index])
-                limits.append(pair.room_mm)
-                owner.append(index)
-    return np.array(vectors), np.array(turning), np.array(limits), np.array(owner)
+    weights = 1.0 / found.limits_mm**2
+    solution = smallest_common_disc(found.vectors[None], found.turning[None], weights, decide_at=1.0)
+    return bool(solution.ratio_squared[0] <= 1.0)
 
 
 def _roots(covariances: Array) -> Array:

@@ -172,7 +172,7 @@ def _try_pairs(
     if isinstance(squares, NoFit):
         reason = f"no trial with {len(pairs)} pairs of sleeve and rebar: {squares.reason}"
         return TrialReport(Verdict.NOT_MEASURED, missing=missing, reasons=(reason,))
-    limits = _limits(pairs, rule)
+    limits = distance_limits(pairs, rule)
     fit = fit_minimax(source, target, np.ones(len(pairs)) if limits is None else limits)
     if isinstance(fit, NoFit):
         return TrialReport(Verdict.NOT_MEASURED, missing=missing, reasons=(fit.reason,))
@@ -193,7 +193,7 @@ def _try_pairs(
     return judge_trial(report, pairs, limits, fit, probability, profile)
 
 
-def _limits(pairs: Sequence[Pair], rule: Rule | None) -> Array | None:
+def distance_limits(pairs: Sequence[Pair], rule: Rule | None) -> Array | None:
     """Limit of the distance of each pair, (n,) mm; without a rule the room over the ribs, None where unknown."""
     if rule is not None:
         return np.full(len(pairs), rule.upper)

@@ -10,6 +10,12 @@ the column) and *model frame* (of the IFC or FreeCAD model).
 
 from __future__ import annotations
 
+from aadm_workbench.model.absolute import (
+    AbsolutePoint,
+    AbsolutePosition,
+    ControlPoint,
+    ControlResidual,
+)
 from aadm_workbench.model.arrays import (
     Array,
     BoolArray,
@@ -18,6 +24,11 @@ from aadm_workbench.model.arrays import (
     Vector2,
     Vector3,
 )
+from aadm_workbench.model.drift import (
+    Capability,
+    MouldDrift,
+    SleeveDrift,
+)
 from aadm_workbench.model.measured import (
     AssemblyPoint,
     Camera,
@@ -25,6 +36,11 @@ from aadm_workbench.model.measured import (
     Extraction,
     Plane,
     Scan,
+)
+from aadm_workbench.model.repairs import (
+    RepairAction,
+    RepairReport,
+    RepairStep,
 )
 from aadm_workbench.model.reports import (
     ColumnReport,
@@ -51,6 +67,13 @@ from aadm_workbench.model.rules import (
     Profile,
     Rule,
 )
+from aadm_workbench.model.shipment import (
+    Assignment,
+    FitCell,
+    ShipmentGroup,
+    ShipmentProblem,
+    ShipmentReport,
+)
 from aadm_workbench.model.verdicts import (
     Kind,
     Verdict,
@@ -58,17 +81,24 @@ from aadm_workbench.model.verdicts import (
 )
 
 __all__ = [
+    "AbsolutePoint",
+    "AbsolutePosition",
     "Array",
     "AssemblyPoint",
+    "Assignment",
     "BoolArray",
     "Camera",
     "Candidate",
+    "Capability",
     "ColumnDesign",
     "ColumnReport",
+    "ControlPoint",
+    "ControlResidual",
     "Correction",
     "Deviation",
     "Extraction",
     "Fit",
+    "FitCell",
     "FloatArray",
     "GroupReport",
     "HoistingPair",
@@ -76,14 +106,22 @@ __all__ = [
     "IntArray",
     "JobReport",
     "Kind",
+    "MouldDrift",
     "PairResult",
     "Plane",
     "PointResult",
     "PoseWindow",
     "Profile",
+    "RepairAction",
+    "RepairReport",
+    "RepairStep",
     "Rule",
     "RuleResult",
     "Scan",
+    "ShipmentGroup",
+    "ShipmentProblem",
+    "ShipmentReport",
+    "SleeveDrift",
     "SpacingResult",
     "TrialPose",
     "TrialReport",

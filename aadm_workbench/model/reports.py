@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from aadm_workbench.model.arrays import Array, Vector2, Vector3
+from aadm_workbench.model.drift import MouldDrift
+from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile
 from aadm_workbench.model.verdicts import Verdict
@@ -55,7 +57,7 @@ class HoistingReport:
 
 @dataclass(frozen=True, eq=False)
 class ColumnReport:
-    """Everything that report.json holds about one column."""
+    """Everything that report.json holds about one column; ``repair`` where its trial did not pass."""
 
     id: str
     verdict: Verdict
@@ -73,6 +75,7 @@ class ColumnReport:
     T_model_column: Array | None = None
     rules: tuple[RuleResult, ...] = ()
     notes: tuple[str, ...] = ()
+    repair: RepairReport | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +88,7 @@ class JobReport:
     model: dict[str, str] | None
     profile: Profile
     columns: tuple[ColumnReport, ...]
+    mould_drift: tuple[MouldDrift, ...] = ()
 
     def summary(self) -> dict[str, int]:
         """How many columns came to each verdict: pass, fail, inconclusive, not_measured, error."""

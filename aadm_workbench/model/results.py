@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from aadm_workbench.model.absolute import AbsolutePosition
 from aadm_workbench.model.arrays import Array, Vector2, Vector3
 from aadm_workbench.model.verdicts import Kind, Verdict
 
@@ -100,7 +101,8 @@ class GroupReport:
     """The sleeves or the rebars of one column: every design point, the spacing of neighbours, the fit.
 
     ``points`` and ``spacing`` are of the candidate that ``fit`` names; where the orientation is ambiguous,
-    their verdicts and ``verdict`` hold only what all candidates agree on.
+    their verdicts and ``verdict`` hold only what all candidates agree on. ``absolute`` is where the group stands in the
+    building; None without control points.
     """
 
     kind: Kind
@@ -117,6 +119,7 @@ class GroupReport:
     reasons: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     quality: dict[str, Any] = field(default_factory=dict)
+    absolute: AbsolutePosition | None = None
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from aadm_workbench.atomic import write_atomically
-from aadm_workbench.model import ColumnReport, GroupReport, JobReport, Kind, Profile
+from aadm_workbench.model import ColumnReport, GroupReport, JobReport, Kind, Profile, ShipmentReport
 
 SCHEMA = 1
 _LENGTH_DECIMALS = 4
@@ -26,6 +26,18 @@ _RATIO_DECIMALS = 6
 _DIRECTION_DECIMALS = 9
 _SHIFT_DECIMALS = 6
 _OTHER_DIGITS = 9
+_RATIOS = {
+    "probability",
+    "margin",
+    "smallest_margin",
+    "sum_of_margins",
+    "as_listed_margin",
+    "p_value",
+    "cp",
+    "cp_interval",
+    "cpk",
+    "cpk_interval",
+}
 
 # Vectors go on one line, so that people can read the file; a text holds no line break, so none is touched.
 _NUMBER = r"\n\s+(?:[-+.\deE]+|null)"
@@ -75,7 +87,13 @@ def report_document(report: JobReport) -> dict[str, Json]:
         "profile": profile_document(report.profile),
         "summary": _plain("", report.summary()),
         "columns": [_column(column) for column in report.columns],
+        "mould_drift": _plain("", report.mould_drift),
     }
+
+
+def shipment_document(report: ShipmentReport) -> dict[str, Json]:
+    """The matching of a shipment as match.json holds it."""
+    return {"schema": SCHEMA, **_fields(report)}
 
 
 def profile_document(profile: Profile) -> Json:
@@ -99,12 +117,13 @@ def _column(column: ColumnReport) -> Json:
 
 
 def _group(group: GroupReport | None) -> Json:
-    """Sleeves or rebars; only bars stick out of a floor."""
+    """Sleeves or rebars; only bars stick out of a floor, and stand in a building."""
     if group is None:
         return None
     document = _fields(group)
     del document["kind"]
     if group.kind is Kind.SLEEVE:
+        del document["absolute"]
         points = (_fields(point) for point in group.points)
         document["points"] = [
             {key: value for key, value in point.items() if key != "exposed_length_mm"} for point in points
@@ -149,7 +168,7 @@ def _rounded(name: str, value: float) -> float | None:
         return _to(_ANGLE_DECIMALS, value)
     if name == "scale":
         return _to(_DIRECTION_DECIMALS, value)
-    if name in {"probability", "margin"}:
+    if name in _RATIOS:
         return _to(_RATIO_DECIMALS, value)
     return _to(None, float(f"{value:.{_OTHER_DIGITS}g}"))
 

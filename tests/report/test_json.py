@@ -3,6 +3,7 @@
 import copy
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +12,12 @@ import numpy as np
 import pytest
 
 from aadm_workbench.model import (
+    AbsolutePoint,
+    AbsolutePosition,
     Candidate,
+    Capability,
     ColumnReport,
+    ControlResidual,
     Correction,
     Fit,
     GroupReport,
@@ -20,12 +25,17 @@ from aadm_workbench.model import (
     HoistingReport,
     JobReport,
     Kind,
+    MouldDrift,
     PairResult,
     PointResult,
     PoseWindow,
     Profile,
+    RepairAction,
+    RepairReport,
+    RepairStep,
     Rule,
     RuleResult,
+    SleeveDrift,
     SpacingResult,
     TrialPose,
     TrialReport,
@@ -80,7 +90,57 @@ def group(kind: Kind) -> GroupReport:
         (f"{first} is 2.41 mm from design",),
         ("absolute position not checked",),
         quality,
+        absolute(first) if kind is Kind.REBAR else None,
     )
+
+
+def absolute(label: str) -> AbsolutePosition:
+    """A group of bars that stands off, by two control points."""
+    points = tuple(
+        ControlResidual(name, (1.0, 2.0, 3.0), (4.0, 5.0, 6.0), (0.1, -0.1, 0.0), 0.5) for name in ("G1", "G2")
+    )
+    bar = AbsolutePoint(label, (9.0, 0.0), 9.0, 0.4, 8.0, Verdict.FAIL, 0.01, "R1 is 9.00 mm from its place")
+    return AbsolutePosition(
+        Verdict.FAIL,
+        "the group",
+        points,
+        T,
+        "scan",
+        0.14,
+        (9.0, 0.0),
+        9.0,
+        0.4,
+        0.12,
+        0.05,
+        8.0,
+        "a clause",
+        0.01,
+        (bar,),
+    )
+
+
+def repair(pose: TrialPose) -> RepairReport:
+    """A bend and a sleeve to reject."""
+    bend = RepairStep(
+        RepairAction.BEND, "S1", "R1", (-3.0, 0.5), 3.04, 1.2, False, 3.1, 0.4, 2.0, 0.1, "R1 then is where it belongs"
+    )
+    reject = RepairStep(
+        RepairAction.REJECT_SLEEVE, "S2", "R2", None, None, None, True, 0.3, None, None, 6.0, "S2 is off"
+    )
+    return RepairReport(
+        RepairAction.REJECT_SLEEVE, "reject S2", (bend, reject), True, pose, 0.2, 0.99, 5.0, "no clause", notes=("one",)
+    )
+
+
+def mould() -> MouldDrift:
+    """A sleeve that drifts, and one without scatter."""
+    capable = Capability("x", 1.5, (0.9, 2.1), 1.2, (0.6, 1.8))
+    drifting = SleeveDrift("S1", 3, (1.0, 0.0), (0.2, 0.2), (0.1, 0.1), 0.001234567, True, False, (capable,))
+    still = SleeveDrift(
+        "S2", 3, (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), None, False, False, (Capability("y", *[None] * 4),)
+    )
+    ids = ("C-1", "C-2", "C-3")
+    return MouldDrift("PCZ-1", ids, 0.002, 0.1, 2.0, 1.41421356, "the square", (drifting, still), "S1 by 1 mm")
 
 
 def full_report() -> JobReport:
@@ -136,6 +196,7 @@ def full_report() -> JobReport:
         T,
         (RESULT,),
         ("a note",),
+        repair(pose),
     )
     bare = ColumnReport("C-302", Verdict.ERROR, Verdict.NOT_ASSESSED, ("no such file",))
     return JobReport(
@@ -145,6 +206,7 @@ def full_report() -> JobReport:
         {"source": "floor3.ifc", "sha256": "d" * 64},
         Profile("cn", "China", (RULE,), 5.0),
         (full, bare),
+        (mould(),),
     )
 
 
@@ -201,6 +263,17 @@ def test_keys_of_the_contract(document: Any, path: str) -> None:
 def test_only_bars_stick_out(document: Any) -> None:
     assert "exposed_length_mm" not in at(document, "columns.0.sleeves.points.0")
     assert at(document, "columns.0.rebars.points.0.exposed_length_mm") == 119.5
+    assert "absolute" not in at(document, "columns.0.sleeves")
+    assert at(document, "columns.0.rebars.absolute.offset_mm") == [9.0, 0.0]
+
+
+def test_advice_and_moulds(document: Any) -> None:
+    assert at(document, "columns.0.repair.steps.0.bend_mm") == [-3.0, 0.5]
+    assert at(document, "columns.0.repair.steps.1.bend_mm") is None
+    assert at(document, "columns.0.repair.subject_to") == "the engineer's release"
+    assert at(document, "columns.1.repair") is None
+    assert at(document, "mould_drift.0.sleeves.0.p_value") == 0.001235
+    assert at(document, "mould_drift.0.axis_limit_mm") == 1.4142
 
 
 def test_numbers(document: Any) -> None:
@@ -244,15 +317,8 @@ def test_last_bits_do_not_show(tmp_path: Path) -> None:
     write_report(report, tmp_path / "a.json")
     moved = T * (1.0 + 1e-16)
     moved[0, 3] += 1e-9
-    column = report.columns[0]
-    jittered = JobReport(
-        report.tool,
-        report.job,
-        report.capture,
-        report.model,
-        report.profile,
-        (ColumnReport(**{**vars(column), "T_model_column": moved}), report.columns[1]),
-    )
+    first = replace(report.columns[0], T_model_column=moved)
+    jittered = replace(report, columns=(first, *report.columns[1:]))
     write_report(jittered, tmp_path / "b.json")
     assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
 
@@ -274,6 +340,12 @@ SLIPS = [
     ("columns.0.goes_on", True),
     ("columns.0.reasons", []),
     ("columns.0.extra", 1),
+    ("columns.0.repair.action", "cut"),
+    ("columns.0.repair.advice", ""),
+    ("columns.0.repair.steps.0.extra", 1),
+    ("columns.0.rebars.absolute.offset_mm", None),
+    ("columns.0.sleeves.absolute", None),
+    ("mould_drift.0.columns", ["C-1"]),
     ("columns.0.sleeves.extra", 1),
     ("columns.0.sleeves.points.0.exposed_length_mm", 1.0),
     ("columns.0.sleeves.points.0.label", "R1"),
