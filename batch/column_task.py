@@ -6,8 +6,10 @@ Whatever goes wrong with a column costs that column alone: its verdict is then `
 from __future__ import annotations
 
 import traceback
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Generic, TypeVar
 
 import numpy as np
 
@@ -19,6 +21,8 @@ from aadm_workbench.scan.read import read_scan
 
 from .job import JobColumn
 from .stopwatch import Stopwatch
+
+Result = TypeVar("Result")
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,21 +52,43 @@ class ColumnOutcome:
     where: str = ""
 
 
-def check_task(task: ColumnTask) -> ColumnOutcome:
-    """Read a column's scans and check it; errors become its verdict."""
+@dataclass(frozen=True, eq=False)
+class Attempt(Generic[Result]):
+    """What work on a column came to: its ``result``, or ``error``, the report on why there is none."""
+
+    result: Result | None
+    error: ColumnReport | None
+    seconds: dict[str, float]
+    where: str = ""
+
+
+def attempt(task: ColumnTask, work: Callable[[ColumnTask, Stopwatch], Result]) -> Attempt[Result]:
+    """Do some work on a column; whatever goes wrong becomes a report with the verdict ``error``."""
     watch = Stopwatch()
-    where = ""
+    result, error_found, where = None, None, ""
     with watch.stage("total"):
         try:
-            report = _checked(task, watch)
+            result = work(task, watch)
         except MemoryError:
-            report = error_report(task, "there is not enough memory for its scans: check fewer columns at a time")
+            error_found = error_report(task, "there is not enough memory for its scans: check fewer columns at a time")
         except (AadmError, OSError) as error:
-            report = error_report(task, _as_named(task, str(error) or type(error).__name__))
+            error_found = error_report(task, _as_named(task, str(error) or type(error).__name__))
         except Exception as error:  # noqa: BLE001 - a night's batch must not end at one column
-            report = error_report(task, f"internal error ({_as_named(task, _described(error))}); --debug shows where")
-            where = traceback.format_exc()
-    return ColumnOutcome(report, watch.seconds(), where)
+            reason = f"internal error ({_as_named(task, _described(error))}); --debug shows where"
+            error_found, where = error_report(task, reason), traceback.format_exc()
+    return Attempt(result, error_found, watch.seconds(), where)
+
+
+def check_task(task: ColumnTask) -> ColumnOutcome:
+    """Read a column's scans and check it; errors become its verdict."""
+    done = attempt(task, _checked)
+    report = done.result or done.error or error_report(task, "it was not checked")
+    return ColumnOutcome(report, done.seconds, done.where)
+
+
+def killed(task: ColumnTask, reason: str) -> ColumnOutcome:
+    """The outcome for a column whose process was killed."""
+    return ColumnOutcome(error_report(task, reason))
 
 
 def error_report(task: ColumnTask, reason: str) -> ColumnReport:
@@ -79,7 +105,7 @@ def _checked(task: ColumnTask, watch: Stopwatch) -> ColumnReport:
         report = ColumnReport(task.column.id, Verdict.NOT_MEASURED, Verdict.NOT_ASSESSED, (reason,))
         return _identified(report, task.design)
     with watch.stage("read"):
-        scans = _scans(task, task.design)
+        scans = read_scans(task, task.design)
     report = check_column(task.design, scans, task.settings, watch.stage)
     return replace(report, id=task.column.id, notes=(*report.notes, *_not_done(task.column)))
 
@@ -102,13 +128,21 @@ def _identified(report: ColumnReport, design: ColumnDesign) -> ColumnReport:
     )
 
 
-def _scans(task: ColumnTask, design: ColumnDesign) -> ColumnScans:
+def read_scans(task: ColumnTask, design: ColumnDesign) -> ColumnScans:
+    """The scans that the job names for a column.
+
+    Raises
+    ------
+    AadmError
+        Where one of them cannot be read, or cannot be a scan of this column.
+    """
     column = task.column
     return ColumnScans(
         sleeves=_group(task, design, Kind.SLEEVE, column.sleeves, column.sleeves_image),
         rebars=_group(task, design, Kind.REBAR, column.rebars, column.rebars_image),
         sleeves_up_deg=column.sleeves_up_deg,
         rebars_up_deg=column.rebars_up_deg,
+        control_points=column.control_points,
     )
 
 

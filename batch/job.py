@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from aadm_workbench.model import Camera, ColumnDesign, Profile
+from aadm_workbench.model import Camera, ColumnDesign, ControlPoint, Profile
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,8 @@ class JobColumn:
     """One column of a job: its scans as the job names them, how they lie, and its design where the job gives it.
 
     ``..._up_deg``: column-frame direction at the top of the image, degrees from +x counter-clockwise from above.
-    ``near``: signs of x and y of the corner of the bars nearest to the hoisting camera.
+    ``near``: signs of x and y of the corner of the bars nearest to the hoisting camera. ``control_points`` are measured
+    in the scan of the rebars.
     """
 
     id: str
@@ -37,6 +38,7 @@ class JobColumn:
     rebars_up_deg: float | None = None
     near: tuple[int, int] | None = None
     design: ColumnDesign | None = None
+    control_points: tuple[ControlPoint, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,15 +9,16 @@ from aadm_workbench.errors import DesignError
 from aadm_workbench.model import ColumnDesign
 
 from .job import JobColumn
+from .job_control import read_control_points
 from .job_direction import near_corner, up_deg
 from .job_table import JobTable
 
 _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
-_COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "near", "design")
+_COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "near", "design", "control_points")
 _DESIGN = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter", "embedded_length", "size", "centres")
 
 
-def read_columns(top: JobTable, *, has_model: bool) -> tuple[JobColumn, ...]:
+def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColumn, ...]:
     """The columns of a job, in its order.
 
     Raises
@@ -30,7 +31,7 @@ def read_columns(top: JobTable, *, has_model: bool) -> tuple[JobColumn, ...]:
         raise top.wrong("columns", 'the job has no columns; add [[columns]] with id = "..." and its scans')
     columns: list[JobColumn] = []
     for table in tables:
-        column = _column(table, has_model=has_model)
+        column = _column(table, units=units, has_model=has_model)
         for other, earlier in zip(columns, tables, strict=False):
             if other.id == column.id:
                 line = earlier.lines.get((*earlier.at, "id"), 1)
@@ -39,7 +40,7 @@ def read_columns(top: JobTable, *, has_model: bool) -> tuple[JobColumn, ...]:
     return tuple(columns)
 
 
-def _column(table: JobTable, *, has_model: bool) -> JobColumn:
+def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
     table.allow(_COLUMN)
     table.require("id", 'id = "...", its Name, Tag, PieceMark or GlobalId in the model')
     name = table.text("id") or ""
@@ -60,6 +61,7 @@ def _column(table: JobTable, *, has_model: bool) -> JobColumn:
         rebars_up_deg=up if rebars_up is None else rebars_up,
         near=near_corner(table),
         design=design,
+        control_points=read_control_points(table, units=units, has_own_design=design is not None),
     )
 
 

@@ -42,13 +42,13 @@ def read_job(path: Path) -> Job:
     top.allow(_TOP)
     _check_schema(top)
     camera, depth_scale_mm = _camera(top)
-    model = _model(top)
+    model, units = _model(top), top.one_of("units", ("mm", "m"), "mm")
     return Job(
         source=str(path),
         folder=path.parent,
         sha256=hashlib.sha256(content).hexdigest(),
         name=top.text("name") or path.stem,
-        units=top.one_of("units", ("mm", "m"), "mm"),
+        units=units,
         profile=_profile(top, path.parent),
         decision=cast(Literal["guarded", "simple"], top.one_of("decision", ("guarded", "simple"), "guarded")),
         checks=_checks(top),
@@ -56,7 +56,7 @@ def read_job(path: Path) -> Job:
         model=model,
         camera=camera,
         depth_scale_mm=depth_scale_mm,
-        columns=read_columns(top, has_model=model is not None),
+        columns=read_columns(top, units=units, has_model=model is not None),
         capture=_capture(top),
     )
 

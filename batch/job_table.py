@@ -110,10 +110,12 @@ class JobTable:
             raise self.wrong(key, f"{key} must be a whole number above zero, it is {_shown(value)}")
         return value
 
-    def numbers(self, key: str, how_many: int) -> None:
-        """Check that a key, where present, is a list of so many finite numbers."""
-        if key in self.values:
-            self._numbers(key, self.values[key], how_many)
+    def numbers(self, key: str, how_many: int) -> tuple[float, ...]:
+        """A list of so many finite numbers; empty where the key is absent."""
+        if key not in self.values:
+            return ()
+        self._numbers(key, self.values[key], how_many)
+        return tuple(float(value) for value in self.values[key])
 
     def number_lists(self, key: str, how_many: int) -> None:
         """Check that a key, where present, is a list of lists of so many finite numbers."""
@@ -165,7 +167,8 @@ class JobTable:
 
     def _numbers(self, key: str, value: Any, how_many: int, *index: int) -> None:
         if not isinstance(value, list) or len(value) != how_many:
-            raise self.wrong(key, f"{key} must hold {how_many} numbers [x, y], it is {_shown(value)}", *index)
+            named = ", ".join("xyz"[:how_many])
+            raise self.wrong(key, f"{key} must hold {how_many} numbers [{named}], it is {_shown(value)}", *index)
         for place, item in enumerate(value):
             self._number(key, item, *index, place)
 

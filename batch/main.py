@@ -13,7 +13,7 @@ from typing import Protocol
 from aadm_workbench import __version__
 from aadm_workbench.errors import AadmError
 
-from .commands import check, design, doctor, extract, profiles, simulate
+from .commands import check, design, doctor, extract, match, profiles, simulate, study
 from .exit_codes import BAD_USAGE, INTERNAL, INTERRUPTED
 
 
@@ -28,7 +28,7 @@ class Command(Protocol):
         """Declare arguments, and the function that runs the command as ``run``."""
 
 
-COMMANDS: tuple[Command, ...] = (check, design, extract, simulate, profiles, doctor)
+COMMANDS: tuple[Command, ...] = (check, match, design, extract, simulate, study, profiles, doctor)
 
 _EXIT_CODES = """\
 exit codes:

@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from importlib.metadata import PackageNotFoundError, version
 
 from aadm_workbench import __version__
+from aadm_workbench.assembly.mould import assess_moulds
 from aadm_workbench.check import CheckSettings
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.read import read_model
 from aadm_workbench.errors import DesignError, JobError
 from aadm_workbench.model import ColumnReport, JobReport
 
-from .column_task import ColumnOutcome, ColumnTask, check_task
+from .column_task import ColumnOutcome, ColumnTask, check_task, killed
 from .job import Job, JobColumn
 from .job_table import did_you_mean
-from .spread import spread_tasks
+from .spread import in_any_order
 from .stopwatch import Stopwatch
 
 Finished = Callable[[ColumnReport], None]
@@ -67,15 +68,22 @@ def run_job(job: Job, options: RunOptions, started: Callable[[int], Finished]) -
     """
     watch = Stopwatch()
     with watch.stage("total"):
-        columns = _chosen(job, options.only)
-        with watch.stage("model"):
-            model = _model(job)
-        settings = CheckSettings(job.profile, options.method, job.decision, job.checks, job.turns)
-        tasks = [_task(job, column, model, settings) for column in columns]
+        model, settings, tasks = plan_tasks(job, options, watch)
         outcomes = _outcomes(tasks, options.processes, started(len(tasks)))
     seconds = {"columns": {outcome.report.id: outcome.seconds for outcome in outcomes}, **watch.seconds()}
     traces = {outcome.report.id: outcome.where for outcome in outcomes if outcome.where}
     return JobRun(_report(job, model, settings, outcomes), seconds, traces)
+
+
+def plan_tasks(
+    job: Job, options: RunOptions, watch: Stopwatch
+) -> tuple[ModelDesign | None, CheckSettings, list[ColumnTask]]:
+    """The job's model, the settings, and a task for each chosen column; errors as :func:`run_job`."""
+    columns = _chosen(job, options.only)
+    with watch.stage("model"):
+        model = _model(job)
+    settings = CheckSettings(job.profile, options.method, job.decision, job.checks, job.turns)
+    return model, settings, [_task(job, column, model, settings) for column in columns]
 
 
 def _chosen(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
@@ -107,37 +115,42 @@ def _task(job: Job, column: JobColumn, model: ModelDesign | None, settings: Chec
 
 def _outcomes(tasks: Sequence[ColumnTask], processes: int, finished: Finished) -> list[ColumnOutcome]:
     outcomes: dict[int, ColumnOutcome] = {}
-    for place, outcome in _in_any_order(tasks, processes):
+    for place, outcome in in_any_order(tasks, processes, check_task, killed):
         outcomes[place] = outcome
         finished(outcome.report)
     return [outcomes[place] for place in sorted(outcomes)]
 
 
-def _in_any_order(tasks: Sequence[ColumnTask], processes: int) -> Iterator[tuple[int, ColumnOutcome]]:
-    if min(processes, len(tasks)) > 1:
-        yield from spread_tasks(tasks, processes)
-    else:
-        yield from ((place, check_task(task)) for place, task in enumerate(tasks))
-
-
 def _report(
     job: Job, model: ModelDesign | None, settings: CheckSettings, outcomes: Sequence[ColumnOutcome]
 ) -> JobReport:
+    columns = tuple(outcome.report for outcome in outcomes)
     return JobReport(
-        tool={"name": "aadm", "version": __version__, **_versions()},
-        job={
-            "name": job.name,
-            "sha256": job.sha256,
-            "units": job.units,
-            "method": settings.method,
-            "decision": settings.decision,
-            "seed": str(settings.seed),
-        },
+        tool=tool_entry(),
+        job=job_entry(job, settings),
         capture=job.capture,
         model=None if model is None else {"source": model.source, "sha256": model.sha256},
         profile=job.profile,
-        columns=tuple(outcome.report for outcome in outcomes),
+        columns=columns,
+        mould_drift=assess_moulds(columns, job.profile),
     )
+
+
+def tool_entry() -> dict[str, str]:
+    """What reports say about the program: its version and those of the packages that the numbers come from."""
+    return {"name": "aadm", "version": __version__, **_versions()}
+
+
+def job_entry(job: Job, settings: CheckSettings) -> dict[str, str]:
+    """What reports say about the job, and how it was run."""
+    return {
+        "name": job.name,
+        "sha256": job.sha256,
+        "units": job.units,
+        "method": settings.method,
+        "decision": settings.decision,
+        "seed": str(settings.seed),
+    }
 
 
 def _versions() -> dict[str, str]:

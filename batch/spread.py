@@ -5,18 +5,41 @@ from __future__ import annotations
 import logging
 import signal
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
-from typing import Any
+from typing import Any, TypeVar
 
 from aadm_workbench.errors import MissingDependencyError
 
-from .column_task import ColumnOutcome, ColumnTask, check_task, error_report
+from .column_task import ColumnTask
+
+Outcome = TypeVar("Outcome")
+Work = Callable[[ColumnTask], Outcome]
+Lost = Callable[[ColumnTask, str], Outcome]
 
 
-def spread_tasks(tasks: Sequence[ColumnTask], processes: int) -> Iterator[tuple[int, ColumnOutcome]]:
-    """Check columns in several processes; yields the place of a task and its outcome as they finish.
+def in_any_order(
+    tasks: Sequence[ColumnTask], processes: int, work: Work[Outcome], lost: Lost[Outcome]
+) -> Iterator[tuple[int, Outcome]]:
+    """Work on columns one by one, or in several processes where there are several; as :func:`spread_tasks`."""
+    if min(processes, len(tasks)) > 1:
+        yield from spread_tasks(tasks, processes, work, lost)
+    else:
+        yield from ((place, work(task)) for place, task in enumerate(tasks))
+
+
+def spread_tasks(
+    tasks: Sequence[ColumnTask], processes: int, work: Work[Outcome], lost: Lost[Outcome]
+) -> Iterator[tuple[int, Outcome]]:
+    """Work on columns in several processes; yields the place of a task and its outcome as they finish.
+
+    Parameters
+    ----------
+    work
+        A function of a module, which catches what can go wrong.
+    lost
+        Makes the outcome of a task whose process was killed, from the task and the reason.
 
     Raises
     ------
@@ -37,11 +60,14 @@ def spread_tasks(tasks: Sequence[ColumnTask], processes: int) -> Iterator[tuple[
             silence_logs=logging.CRITICAL,
         )
     with cluster, distributed.Client(cluster) as client:
-        futures = client.map(check_task, tasks, pure=False)
+        futures = client.map(work, tasks, pure=False)
         place_of = {future.key: place for place, future in enumerate(futures)}
         for future in distributed.as_completed(futures):
             place = place_of[future.key]
-            yield place, _outcome(future, tasks[place])
+            death = future.exception()
+            # Everything else is caught in the worker, so this is a worker that died, several times.
+            reason = f"the process that checked it was killed ({type(death).__name__})"
+            yield place, future.result() if death is None else lost(tasks[place], reason)
 
 
 @contextmanager
@@ -55,12 +81,3 @@ def _interrupts_ignored() -> Iterator[None]:
         yield
     finally:
         signal.signal(signal.SIGINT, before)
-
-
-def _outcome(future: Any, task: ColumnTask) -> ColumnOutcome:
-    error = future.exception()
-    if error is None:
-        outcome: ColumnOutcome = future.result()
-        return outcome
-    # Everything else is caught in the worker, so this is a worker that died, several times.
-    return ColumnOutcome(error_report(task, f"the process that checked it was killed ({type(error).__name__})"))

@@ -1,6 +1,8 @@
-"""The table that ends a check: one line a column, the worst first."""
+"""The table that ends a check: one line a column, the worst first; under it what can be done about it."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 from rich.table import Table
 from rich.text import Text
@@ -41,6 +43,16 @@ def summary_line(report: JobReport) -> str:
     counted = [f"{number} {in_words(Verdict(name))}" for name, number in report.summary().items() if number]
     total = len(report.columns)
     return f"{total} column{'' if total == 1 else 's'}: {', '.join(counted)}"
+
+
+def advice_lines(report: JobReport) -> Iterator[str]:
+    """One line for each column that has advice on its repair, and for each mould that displaces sleeves."""
+    for column in worst_first(report.columns):
+        if column.repair is not None:
+            yield f"{column.id}: repair, {column.repair.advice}"
+    for mould in report.mould_drift:
+        if mould.drifting or any(sleeve.scatters_more for sleeve in mould.sleeves):
+            yield f"Mould of {mould.piece_mark or mould.columns[0]}: {mould.conclusion}"
 
 
 def _reason(column: ColumnReport, comparison: Comparison | None) -> str:

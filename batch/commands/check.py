@@ -62,13 +62,13 @@ def run(options: argparse.Namespace) -> int:
     from ..run import RunOptions, run_job
 
     folder = options.out or options.job.with_name(f"{options.job.stem}-report")
-    _make_folder(folder)
+    make_folder(folder)
     with ColumnProgress(quiet=options.quiet) as progress:
         done = run_job(job, RunOptions(options.method, tuple(options.only), options.jobs), progress.start)
     return _hand_over(done, folder, options)
 
 
-def _make_folder(folder: Path) -> None:
+def make_folder(folder: Path) -> None:
     """Before the work, not after it: a night's results must have a place."""
     from aadm_workbench.errors import JobError
 
@@ -84,7 +84,7 @@ def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:
     from aadm_workbench.report.json import encode, report_document, write_report
 
     from ..terminal import say, show, show_json
-    from ..verdict_table import summary_line, verdict_table
+    from ..verdict_table import advice_lines, summary_line, verdict_table
 
     if options.debug:
         for name, trace in done.traces.items():
@@ -100,5 +100,7 @@ def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:
     if options.json:
         show_json(encode(report_document(done.report)))
     elif not options.quiet:
-        show(verdict_table(done.report), "", summary_line(done.report), f"Report: {folder / 'report.json'}")
+        advice = list(advice_lines(done.report))
+        show(verdict_table(done.report), "", *advice, *([""] if advice else []))
+        show(summary_line(done.report), f"Report: {folder / 'report.json'}")
     return code

@@ -49,10 +49,22 @@ def write_job(tmp_path: Path) -> WriteJob:
 
 
 def offsets_mm(source: str, kind: Kind) -> Array:
-    """(12, 2) mm, measured minus design, by the file's name: ``4mm.ply`` holds a bar that is 4 mm off."""
+    """(12, 2) mm, measured minus design, by the file's name.
+
+    ``4mm.ply`` holds a bar that is 4 mm off; ``apart.ply`` two bars that are 9 mm too far apart; ``wide-a.ply`` a foot
+    and ``wide-b.ply`` bars that go together only with each other; ``mould-3.ply`` one of several feet whose second
+    sleeve stands 1 mm off.
+    """
     offsets = np.zeros((len(CENTRES), 2))
     if kind is Kind.REBAR and source.startswith("4mm"):
         offsets[4] = [4.0, 0.0]
+    if kind is Kind.REBAR and source.startswith("apart"):
+        offsets[0], offsets[6] = [-3.2, -3.2], [3.2, 3.2]
+    if source.startswith("wide"):
+        offsets += np.sign(CENTRES) * 2.6
+    if kind is Kind.SLEEVE and source.startswith("mould"):
+        offsets += np.random.default_rng(int(source[6])).normal(0.0, 0.1, offsets.shape)
+        offsets[1] += [1.0, 0.0]
     return offsets
 
 

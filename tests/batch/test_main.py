@@ -215,9 +215,11 @@ def test_methods_are_those_of_the_package() -> None:
 def test_command_names() -> None:
     assert [command.__name__.rpartition(".")[2] for command in COMMANDS] == [
         "check",
+        "match",
         "design",
         "extract",
         "simulate",
+        "study",
         "profiles",
         "doctor",
     ]

@@ -1,0 +1,96 @@
+"""Find out which column of a shipment goes on which bars.
+
+Columns with one piece mark, or with the same design in the job, are interchangeable. Each entry of the job gives a foot
+(its sleeves), a position (its rebars), or both; every foot is tried on every position, in all its symmetric turns where
+the job says turns = true. The best assignment lets as many columns go on as can, makes the smallest margin as large as
+possible, and then the sum of margins. A margin is what is left of the limit: 1 is perfect, below 0 it does not go on.
+
+Writes DIR/match.json; DIR is JOB-report beside the job unless --out says otherwise.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..exit_codes import INTERNAL, exit_code_of
+from ..one_thread import calculate_in_one_thread
+from ..switches import add_switches, whole_number
+from .check import METHODS, make_folder
+
+if TYPE_CHECKING:
+    from ..match_run import MatchRun
+
+SUMMARY = "find out which column goes on which bars"
+EXAMPLE = """\
+examples:
+  aadm match floor3.toml
+  aadm match floor3.toml --only C-301 C-302 C-305 --out tonight
+  aadm match floor3.toml --json > match.json"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    # Written out, because --only would take a job that follows it for one more id.
+    parser.usage = (
+        "aadm match JOB.toml [--out DIR] [--only ID ...] [--jobs N] [--method METHOD] [--json] [--quiet] [--debug] [-h]"
+    )
+    parser.add_argument("job", type=Path, metavar="JOB.toml", help="the job file")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder of match.json (default: JOB-report beside JOB)")
+    parser.add_argument("--only", nargs="+", action="extend", default=[], metavar="ID", help="these columns only")
+    parser.add_argument(
+        "--jobs", type=whole_number, default=1, metavar="N", help="measure N columns at a time (default: 1)"
+    )
+    parser.add_argument(
+        "--method",
+        choices=METHODS,
+        default="refined",
+        metavar="METHOD",
+        help=f"how centres are extracted: {', '.join(METHODS)} (default: refined)",
+    )
+    add_switches(parser, prints_json="match.json")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Match a job; the exit code is that of its worst assignment."""
+    calculate_in_one_thread()
+    from ..job_file import read_job
+
+    job = read_job(options.job)
+    from ..match_run import run_match
+    from ..progress import StepProgress
+    from ..run import RunOptions
+
+    folder = options.out or options.job.with_name(f"{options.job.stem}-report")
+    make_folder(folder)
+    with StepProgress("measuring", quiet=options.quiet) as progress:
+        done = run_match(job, RunOptions(options.method, tuple(options.only), options.jobs), progress.start)
+    return _hand_over(done, folder, options)
+
+
+def _hand_over(done: MatchRun, folder: Path, options: argparse.Namespace) -> int:
+    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.errors import AadmError
+    from aadm_workbench.report.json import encode, shipment_document
+
+    from ..match_table import match_tables
+    from ..terminal import say, show, show_json
+
+    if options.debug:
+        for name, trace in done.traces.items():
+            say(f"{name}: {trace}")
+    code = exit_code_of(done.report.verdicts)
+    content = encode(shipment_document(done.report))
+    try:
+        write_atomically(folder / "match.json", content)
+    except AadmError as error:
+        # Everything was matched, so this is not the "nothing was checked" that other errors mean.
+        say(f"aadm: {error}")
+        code = INTERNAL
+    if options.json:
+        show_json(content)
+    elif not options.quiet:
+        show(*match_tables(done.report), f"Report: {folder / 'match.json'}")
+    return code
