@@ -72,7 +72,10 @@ def _suggestion(ratio: float) -> str:
     if _is_plausible(ratio * 1000):
         if _is_plausible(ratio * _MM_PER_INCH):
             return 'it looks like metres or inches declared as mm: write units = "m" in the job, or convert the inches'
-        return 'it looks like metres declared as mm: write units = "m" in the job'
+        return (
+            'it looks like metres declared as mm: write units = "m" in the job, or for a 16-bit depth map the right '
+            "depth_scale_mm"
+        )
     if _is_plausible(ratio / 1000):
         return 'it looks like mm declared as metres: write units = "mm" in the job'
     return "no unit explains that: check that the scan shows this component, and crop what does not belong to it"
