@@ -53,6 +53,14 @@ def points_around(
     return _gathered(scan, plane, centres, reach_mm, find_borne)
 
 
+def with_places(centres: Array, places: Array, radius_mm: float) -> Array:
+    """What was found (k, 2) mm, and the places (m, 2) that lie on none of it."""
+    if len(centres) == 0:
+        return places
+    distance = np.hypot(*(places[:, None] - centres[None]).transpose(2, 0, 1)).min(axis=1)
+    return np.vstack([centres, places[distance > radius_mm]])
+
+
 def seen_at(points: Array, plane: Plane, viewpoint: Array | None) -> Array:
     """Where points (n, 3) of the scan frame appear on a plane, in its axes: (n, 2) mm."""
     local = in_plane(points, plane)

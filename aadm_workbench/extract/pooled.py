@@ -1,6 +1,6 @@
 """One fit for all features of a type: their centres and leans, with one radius pooled over them.
 
-Three witnesses are weighed against each other. *Brackets*: outline points held from both sides
+Three witnesses are weighed against each other. *Beyond*: crossings of rays that passed the edge
 (:mod:`~aadm_workbench.extract.bracket`). *Rims*: outline points, each somewhere between the true
 edge and a pixel or two away from it, always on the same side, more or less far as the camera drops
 pixels at depth steps. Their law (:mod:`~aadm_workbench.extract.edge_law`) does not depend on how many are lost.
@@ -137,6 +137,11 @@ class _Terms:
             system.add(jacobian, slope, slope**2 if knowledge else bend, points.owner)
         system.add_priors(state, priors, radius_mm)
         return system
+
+
+def owners_of(counts: list[int]) -> IntArray:
+    """Index of the feature (n,) that each point belongs to, for features that bring these numbers of points."""
+    return np.repeat(np.arange(len(counts)), counts)
 
 
 class _State:

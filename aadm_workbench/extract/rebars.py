@@ -11,15 +11,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.extract.around import Neighbourhood, points_around
+from aadm_workbench.extract.around import Neighbourhood, points_around, with_places
 from aadm_workbench.extract.bracket import Outlines, crossings, outlined
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_share, outline, settled_centre
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw, best_circles
-from aadm_workbench.extract.plane import axes_on, from_plane, in_plane
-from aadm_workbench.extract.pooled import PooledFit, Priors, Rims, Walls, fit_pooled
+from aadm_workbench.extract.found_point import found_point
+from aadm_workbench.extract.plane import in_plane
+from aadm_workbench.extract.pooled import PooledFit, Priors, Rims, Walls, fit_pooled, owners_of
 from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.extract.tops import Standing, find_standing, standing_along, top_plane
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Kind, Plane, Scan
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Scan
 
 _SAMPLE = 130_000
 _REACH_MM = 14.0
@@ -111,7 +112,7 @@ def _fitted(
     level = Plane(standing.vertical, standing.level_mm)
     centres = standing.centres
     if places is not None and len(places):
-        centres = _with_places(centres, in_plane(places, level)[:, :2], diameter_mm)
+        centres = with_places(centres, in_plane(places, level)[:, :2], diameter_mm / 2)
     tops = _tops(scan, sample, level, centres, diameter_mm, rng)
     if not tops:
         return [], None
@@ -133,11 +134,6 @@ def _fitted(
 
 def _nothing(reason: str) -> Extraction:
     return Extraction(Kind.REBAR, "refined", (), None, None, reason=reason)
-
-
-def _with_places(centres: Array, places: Array, diameter_mm: float) -> Array:
-    distance = np.hypot(*(places[:, None] - centres[None]).transpose(2, 0, 1)).min(axis=1)
-    return np.vstack([centres, places[distance > diameter_mm / 2]])
 
 
 def _tops(
@@ -192,23 +188,19 @@ def _goes_on(radius: Array, radius_mm: float) -> bool:
 
 def _evidence(tops: list[Top], beyond_law: RimLaw, rim_law: RimLaw, side_law: BracketLaw) -> tuple[Rims, Rims, Walls]:
     rims = Rims(
-        np.concatenate([t.outlines.rim for t in tops]), _owners([len(t.outlines.rim) for t in tops]), -1.0, rim_law
+        np.concatenate([t.outlines.rim for t in tops]), owners_of([len(t.outlines.rim) for t in tops]), -1.0, rim_law
     )
     beyond = Rims(
         np.concatenate([t.outlines.beyond for t in tops]),
-        _owners([len(t.outlines.beyond) for t in tops]),
+        owners_of([len(t.outlines.beyond) for t in tops]),
         1.0,
         beyond_law,
     )
-    side_owner = _owners([len(t.side_xy) for t in tops])
+    side_owner = owners_of([len(t.side_xy) for t in tops])
     side_xy = np.concatenate([t.side_xy for t in tops])
     depth = np.concatenate([t.side_depth for t in tops])
     walls = Walls(side_xy, depth, np.zeros_like(side_xy), side_owner, side_law)
     return beyond, rims, walls
-
-
-def _owners(counts: list[int]) -> IntArray:
-    return np.repeat(np.arange(len(counts)), counts)
 
 
 def _extraction(tops: list[Top], fit: PooledFit, standing: Standing, level: Plane, diameter_mm: float) -> Extraction:
@@ -240,21 +232,16 @@ def _extraction(tops: list[Top], fit: PooledFit, standing: Standing, level: Plan
 def _point(top: Top, fit: PooledFit, k: int, level: Plane) -> AssemblyPoint:
     x, y = fit.centre[k]
     z = (top.plane.offset - top.plane.normal[0] * x - top.plane.normal[1] * y) / top.plane.normal[2]
-    axes = axes_on(level)
-    axis = axes.T @ np.array([-fit.lean[k, 0], -fit.lean[k, 1], 1.0])
-    flat = np.zeros((3, 3))
-    flat[:2, :2] = fit.covariance[k] + np.eye(2) * _shape_u_mm(top, fit.centre[k], fit.outline_radius[k]) ** 2
-    flat[2, 2] = max(top.plane.residual_mm, 0.02) ** 2
-    evidence = f"{fit.edge_count[k]} edge and {fit.wall_count[k]} side points"
-    centre = from_plane(np.array([x, y, z]), level)
-    return AssemblyPoint(
-        label="",
-        kind=Kind.REBAR,
-        centre=centre,
-        axis=axis / np.linalg.norm(axis),
-        diameter_mm=2 * float(fit.outline_radius[k]),
-        covariance=axes.T @ flat @ axes,
-        why=evidence,
+    shape_u_mm = _shape_u_mm(top, fit.centre[k], fit.outline_radius[k])
+    return found_point(
+        Kind.REBAR,
+        level,
+        np.array([x, y, z]),
+        np.array([-fit.lean[k, 0], -fit.lean[k, 1], 1.0]),
+        fit.covariance[k] + np.eye(2) * shape_u_mm**2,
+        top.plane.residual_mm,
+        2 * float(fit.outline_radius[k]),
+        f"{fit.edge_count[k]} edge and {fit.wall_count[k]} side points",
     )
 
 

@@ -10,15 +10,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.extract.around import points_around
+from aadm_workbench.extract.around import points_around, with_places
 from aadm_workbench.extract.bracket import Outlines, outlined
 from aadm_workbench.extract.circle import AGREES_MM, bins_of, outline, settled_centre
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
+from aadm_workbench.extract.found_point import found_point
 from aadm_workbench.extract.holes import find_discs, rastered
-from aadm_workbench.extract.plane import axes_on, facing, find_planes, from_plane, in_plane, near, turned_over
-from aadm_workbench.extract.pooled import PooledFit, Priors, Rims, Walls, fit_pooled
+from aadm_workbench.extract.plane import facing, find_planes, from_plane, in_plane, near, turned_over
+from aadm_workbench.extract.pooled import PooledFit, Priors, Rims, Walls, fit_pooled, owners_of
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm, thinned
-from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, IntArray, Kind, Plane, Scan
+from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, Kind, Plane, Scan
 
 _SAMPLE = 90_000
 _FACE_BAND_MM = 1.5
@@ -79,7 +80,7 @@ def extract_sleeves(
         return Extraction(Kind.SLEEVE, "refined", (), None, None, reason="no flat foot face was found in the scan")
     face, centres, pitch_mm = found
     if places is not None and len(places):
-        centres = _with_places(centres, in_plane(places, face)[:, :2], diameter_mm / 2)
+        centres = with_places(centres, in_plane(places, face)[:, :2], diameter_mm / 2)
     if len(centres) == 0:
         reason = f"the face shows no round hole of {diameter_mm:g} mm"
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
@@ -110,14 +111,6 @@ def _face_with_holes(
         if len(centres) >= 3:
             break
     return best
-
-
-def _with_places(centres: Array, places: Array, radius_mm: float) -> Array:
-    """The holes that were found, and the places that lie on none of them."""
-    if len(centres) == 0:
-        return places
-    distance = np.hypot(*(places[:, None] - centres[None]).transpose(2, 0, 1)).min(axis=1)
-    return np.vstack([centres, places[distance > radius_mm]])
 
 
 def _facing_away_from_walls(face: Plane, parts: list[Array], centres: Array) -> tuple[Plane, list[Array], Array]:
@@ -271,39 +264,29 @@ def _tails(rims: Rims, fit: PooledFit, turned: Array, pitch_mm: float) -> Array:
 
 def _evidence(mouths: list[Mouth], law: RimLaw) -> tuple[Rims, Rims, Walls]:
     rims = Rims(
-        np.concatenate([m.outlines.rim for m in mouths]), _owners([len(m.outlines.rim) for m in mouths]), 1.0, law
+        np.concatenate([m.outlines.rim for m in mouths]), owners_of([len(m.outlines.rim) for m in mouths]), 1.0, law
     )
     nothing = Rims(np.empty((0, 2)), np.empty(0, np.int64), -1.0, law)  # inside a sleeve it is dark
     walls = Walls(
         np.concatenate([m.wall_xy for m in mouths]),
         np.concatenate([m.wall_depth for m in mouths]),
         np.concatenate([m.wall_slope for m in mouths]),
-        _owners([len(m.wall_xy) for m in mouths]),
+        owners_of([len(m.wall_xy) for m in mouths]),
         _WALL_LAW,
         side=1.0,
     )
     return nothing, rims, walls
 
 
-def _owners(counts: list[int]) -> IntArray:
-    return np.repeat(np.arange(len(counts)), counts)
-
-
 def _point(fit: PooledFit, k: int, face: Plane, pitch_mm: float) -> AssemblyPoint:
-    axes = axes_on(face)
-    centre = from_plane(np.array([*fit.centre[k], 0.0]), face)
-    # depth runs against the normal: an axis that gains `lean` per mm of depth points into the column
-    axis = axes.T @ np.array([*fit.lean[k], -1.0])
-    flat = np.zeros((3, 3))
-    flat[:2, :2] = fit.covariance[k] + np.eye(2) * (_WEAR_PITCHES * pitch_mm) ** 2
-    flat[2, 2] = max(face.residual_mm, 0.02) ** 2
-    evidence = f"{fit.wall_count[k]} wall and {fit.edge_count[k]} edge points at {pitch_mm:.2f} mm"
-    return AssemblyPoint(
-        label="",
-        kind=Kind.SLEEVE,
-        centre=centre,
-        axis=axis / np.linalg.norm(axis),
-        diameter_mm=2 * float(fit.radius[k]),
-        covariance=axes.T @ flat @ axes,
-        why=evidence,
+    return found_point(
+        Kind.SLEEVE,
+        face,
+        np.array([*fit.centre[k], 0.0]),
+        # depth runs against the normal: an axis that gains `lean` per mm of depth points into the column
+        np.array([*fit.lean[k], -1.0]),
+        fit.covariance[k] + np.eye(2) * (_WEAR_PITCHES * pitch_mm) ** 2,
+        face.residual_mm,
+        2 * float(fit.radius[k]),
+        f"{fit.wall_count[k]} wall and {fit.edge_count[k]} edge points at {pitch_mm:.2f} mm",
     )

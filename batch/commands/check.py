@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..exit_codes import INTERNAL, exit_code_of
+from ..job_command import add_job_arguments, report_folder
 from ..one_thread import calculate_in_one_thread
-from ..switches import add_switches, whole_number
 
 if TYPE_CHECKING:
     from ..run import JobRun
@@ -23,31 +23,11 @@ examples:
   aadm check floor3.toml
   aadm check floor3.toml --only C-301 C-302 --out tonight --jobs 4
   aadm check floor3.toml --method fusion --json > report.json"""
-METHODS = ("refined", "fusion", "pointcloud", "image")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    # Written out, because --only would take a job that follows it for one more id.
-    parser.usage = (
-        "aadm check JOB.toml [--out DIR] [--only ID ...] [--jobs N] [--method METHOD] [--json] [--quiet] [--debug] [-h]"
-    )
-    parser.add_argument("job", type=Path, metavar="JOB.toml", help="the job file")
-    parser.add_argument(
-        "--out", type=Path, metavar="DIR", help="folder of the reports (default: JOB-report beside JOB)"
-    )
-    parser.add_argument("--only", nargs="+", action="extend", default=[], metavar="ID", help="check these columns only")
-    parser.add_argument(
-        "--jobs", type=whole_number, default=1, metavar="N", help="check N columns at a time (default: 1)"
-    )
-    parser.add_argument(
-        "--method",
-        choices=METHODS,
-        default="refined",
-        metavar="METHOD",
-        help=f"how centres are extracted: {', '.join(METHODS)} (default: refined)",
-    )
-    add_switches(parser, prints_json="report.json")
+    add_job_arguments(parser, "check", verb="check", writes="the reports", prints_json="report.json")
     parser.set_defaults(run=run)
 
 
@@ -61,21 +41,10 @@ def run(options: argparse.Namespace) -> int:
     from ..progress import ColumnProgress
     from ..run import RunOptions, run_job
 
-    folder = options.out or options.job.with_name(f"{options.job.stem}-report")
-    make_folder(folder)
+    folder = report_folder(options)
     with ColumnProgress(quiet=options.quiet) as progress:
         done = run_job(job, RunOptions(options.method, tuple(options.only), options.jobs), progress.start)
     return _hand_over(done, folder, options)
-
-
-def make_folder(folder: Path) -> None:
-    """Before the work, not after it: a night's results must have a place."""
-    from aadm_workbench.errors import JobError
-
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise JobError(f"{folder}: the folder for the reports cannot be made ({error.strerror})") from error
 
 
 def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:

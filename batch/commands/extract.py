@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..exit_codes import ALL_PASS, UNDECIDED
+from ..job_command import METHODS
 from ..one_thread import calculate_in_one_thread
 from ..switches import add_switches, length, whole_number
-from .check import METHODS
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -15,9 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..exit_codes import INTERNAL, exit_code_of
+from ..job_command import add_job_arguments, report_folder
 from ..one_thread import calculate_in_one_thread
-from ..switches import add_switches, whole_number
-from .check import METHODS, make_folder
 
 if TYPE_CHECKING:
     from ..match_run import MatchRun
@@ -32,24 +31,7 @@ examples:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    # Written out, because --only would take a job that follows it for one more id.
-    parser.usage = (
-        "aadm match JOB.toml [--out DIR] [--only ID ...] [--jobs N] [--method METHOD] [--json] [--quiet] [--debug] [-h]"
-    )
-    parser.add_argument("job", type=Path, metavar="JOB.toml", help="the job file")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="folder of match.json (default: JOB-report beside JOB)")
-    parser.add_argument("--only", nargs="+", action="extend", default=[], metavar="ID", help="these columns only")
-    parser.add_argument(
-        "--jobs", type=whole_number, default=1, metavar="N", help="measure N columns at a time (default: 1)"
-    )
-    parser.add_argument(
-        "--method",
-        choices=METHODS,
-        default="refined",
-        metavar="METHOD",
-        help=f"how centres are extracted: {', '.join(METHODS)} (default: refined)",
-    )
-    add_switches(parser, prints_json="match.json")
+    add_job_arguments(parser, "match", verb="measure", writes="match.json", prints_json="match.json")
     parser.set_defaults(run=run)
 
 
@@ -63,8 +45,7 @@ def run(options: argparse.Namespace) -> int:
     from ..progress import StepProgress
     from ..run import RunOptions
 
-    folder = options.out or options.job.with_name(f"{options.job.stem}-report")
-    make_folder(folder)
+    folder = report_folder(options)
     with StepProgress("measuring", quiet=options.quiet) as progress:
         done = run_match(job, RunOptions(options.method, tuple(options.only), options.jobs), progress.start)
     return _hand_over(done, folder, options)

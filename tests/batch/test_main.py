@@ -15,8 +15,7 @@ import pytest
 from aadm_workbench import __version__
 from aadm_workbench.extract import method
 from aadm_workbench.report.json import report_schema
-from batch import column_task
-from batch.commands import check
+from batch import column_task, job_command
 from batch.main import COMMANDS, build_parser, main
 
 from .conftest import WriteJob, column_text
@@ -209,7 +208,7 @@ def test_interrupted(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch, capsy
 
 
 def test_methods_are_those_of_the_package() -> None:
-    assert set(check.METHODS) == set(method.METHODS)
+    assert set(job_command.METHODS) == set(method.METHODS)
 
 
 def test_command_names() -> None:
