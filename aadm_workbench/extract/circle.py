@@ -1,133 +1,142 @@
-"""Circles: the outline of a hole or a disc in angular bins, and a robust first fit to it."""
+"""First circles through the outlines of several features at once: robust, and steady where half of one is spoilt."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from aadm_workbench.model import Array, IntArray
+from aadm_workbench.extract.outlines import Outlines, outlines
+from aadm_workbench.extract.plan_points import PlanPoints
+from aadm_workbench.model import Array, BoolArray
+
+AGREES_MM = 0.8
+"""Outline points this near to a circle agree with it."""
 
 _SETTLED_MM = 5e-3
-AGREES_MM = 0.8
+_ROUNDS, _STEPS = 3, 8
 _AGREEING_SHARE, _SOUND_SHARE, _FEWEST = 0.75, 0.3, 12
 _MISFIT_MM = 0.5  # residual at which a point counts half in the first fit
+_CHORD_POINTS, _CHORD_PARTS = 48, (8, 6, 4)
 
 
-@dataclass(frozen=True, eq=False)
-class Outline:
-    """The outermost (or innermost) point of each angular bin around a centre.
-
-    ``index`` (m,) tells which of the points it is, ``bin`` (m,) which of the ``bins`` it stands for.
-    """
-
-    index: IntArray
-    bin: IntArray
-    bins: int
-
-    @property
-    def coverage(self) -> float:
-        """Share of the circle's bins that hold a point."""
-        return len(self.bin) / self.bins
-
-
-def bins_of(xy: Array, bins: int) -> IntArray:
-    """Angular bin (n,) of points (n, 2) about the origin."""
-    turn = np.arctan2(xy[:, 1], xy[:, 0]) / (2 * np.pi) + 0.5
-    return np.minimum((turn * bins).astype(np.int64), bins - 1)
-
-
-def outline(xy: Array, centre: Array, bins: int, *, innermost: bool) -> Outline:
-    """Take from points (n, 2) mm the one nearest to the centre in each bin, or the farthest one."""
-    about = xy - centre
-    radius = np.hypot(about[:, 0], about[:, 1])
-    place = bins_of(about, bins)
-    order = np.lexsort((radius if innermost else -radius, place))
-    first = np.ones(len(order), bool)
-    first[1:] = place[order[1:]] != place[order[:-1]]
-    chosen = order[first]
-    return Outline(chosen, place[chosen], bins)
-
-
-def circle_through(xy: Array, centre: Array, radius_mm: float) -> tuple[Array, float]:
-    """Robust circle of free radius through points (n, 2) mm: centre (2,) and radius.
+def circles_through(shape: Outlines, centre: Array, radius_mm: float) -> tuple[Array, Array]:
+    """Robust circles of free radius through outlines: centres (k, 2) and radii (k,) mm.
 
     Gauss-Newton on the distances with Cauchy weights, so that a chip, a rib or a tape on a small part of
-    the outline hardly pulls it.
+    an outline hardly pulls it. Outlines of less than five points stay where they are.
     """
-    if len(xy) < 5:
-        return centre, radius_mm
-    for _ in range(8):
-        about = xy - centre
-        distance = np.maximum(np.hypot(about[:, 0], about[:, 1]), 1e-9)
-        residual = distance - radius_mm
-        weight = 1.0 / (1.0 + ((residual - np.median(residual)) / _MISFIT_MM) ** 2)
-        jacobian = np.column_stack([about / distance[:, None], np.ones(len(xy))])
-        weighted = jacobian * weight[:, None]
-        normal = weighted.T @ jacobian + 1e-9 * len(xy) * np.eye(3)
-        step = np.linalg.solve(normal, weighted.T @ residual)
-        step[:2] = np.clip(step[:2], -radius_mm, radius_mm)
-        centre, radius_mm = centre + step[:2], radius_mm + float(step[2])
-        if np.abs(step).max() < _SETTLED_MM:
+    radius = np.full(len(centre), radius_mm)
+    enough = shape.seen.sum(axis=1) >= 5
+    for _ in range(_STEPS):
+        about = shape.xy - centre[:, None]
+        distance = np.maximum(np.sqrt(np.einsum("kmi,kmi->km", about, about)), 1e-9)
+        residual = distance - radius[:, None]
+        off = (residual - _middle(residual, shape.seen)[:, None]) / _MISFIT_MM
+        weight = shape.seen / (1.0 + off * off)
+        jacobian = np.concatenate([about / distance[..., None], np.ones((*distance.shape, 1))], axis=2)
+        weighted = (jacobian * weight[..., None]).transpose(0, 2, 1)
+        normal = weighted @ jacobian + (1e-9 * shape.bins + ~enough[:, None, None]) * np.eye(3)
+        step = np.linalg.solve(normal, weighted @ residual[..., None])[..., 0] * enough[:, None]
+        step[:, :2] = np.clip(step[:, :2], -radius_mm, radius_mm)
+        centre, radius = centre + step[:, :2], radius + step[:, 2]
+        if np.abs(step).max(initial=0.0) < _SETTLED_MM:
             break
-    return centre, radius_mm
+    return centre, radius
 
 
-def settled_centre(
-    points: Array, centre: Array, radius_mm: float, bins: int, zone_mm: tuple[float, float], *, innermost: bool
+def settled_centres(
+    points: PlanPoints, centre: Array, radius_mm: float, bins: int, zone_mm: tuple[float, float], *, innermost: bool
 ) -> Array:
-    """First centre (2,) of an outline among points (n, 2) mm, near a guess.
+    """First centres (k, 2) of outlines among points, near a guess (k, 2).
 
-    ``zone_mm``: the outline is sought between these distances from the centre. Where less than three quarters of
+    ``zone_mm``: an outline is sought between these distances from its centre. Where less than three quarters of
     it agree with the radius, something spoils a part of it, and the centre is that of the part that agrees.
     """
-    ring_xy = points[:0]
-    for _ in range(3):
-        within = np.hypot(*(points - centre).T)
-        candidates = points[(within > zone_mm[0]) & (within < zone_mm[1])]
-        if len(candidates) < _FEWEST:
-            return centre
-        ring_xy = candidates[outline(candidates, centre, bins, innermost=innermost).index]
-        moved, _ = circle_through(ring_xy, centre, radius_mm)
-        if np.hypot(*(moved - centre)) > radius_mm:
+    moving = np.ones(len(centre), bool)
+    shape = Outlines(np.zeros((len(centre), bins, 2)), np.zeros((len(centre), bins), bool))
+    for _ in range(_ROUNDS):
+        shape = _outlined(points, centre, bins, zone_mm, innermost=innermost)
+        moved, _ = circles_through(shape, centre, radius_mm)
+        step = np.hypot(*(moved - centre).T)
+        moving &= (step < radius_mm) & (shape.seen.sum(axis=1) >= _FEWEST)
+        centre = np.where(moving[:, None], moved, centre)
+        if step[moving].max(initial=0.0) < 10 * _SETTLED_MM:
             break
-        centre = moved
-    if agreeing_share(ring_xy, centre, radius_mm) > _AGREEING_SHARE:
-        return centre
-    for _ in range(2):
-        moved, share = circle_of_radius(ring_xy, radius_mm, AGREES_MM)
-        if share < _SOUND_SHARE or np.hypot(*(moved - centre)) > radius_mm:
-            return centre
-        centre = moved
-        ring_xy = candidates[outline(candidates, centre, bins, innermost=innermost).index]
+    shown = shape.seen.sum(axis=1) >= _FEWEST
+    spoilt = shown & (agreeing_shares(shape, centre, radius_mm) <= _AGREEING_SHARE)
+    if spoilt.any():
+        centre = _on_sound_parts(points, shape, centre, radius_mm, zone_mm, spoilt, innermost=innermost)
     return centre
 
 
-def agreeing_share(outline_xy: Array, centre: Array, radius_mm: float, within_mm: float = AGREES_MM) -> float:
-    """Share of outline points (n, 2) mm that lie on a circle, or that near to it."""
-    off_mm = np.hypot(*(outline_xy - centre).T) - radius_mm
-    return float((np.abs(off_mm) < within_mm).mean()) if len(off_mm) else 0.0
+def agreeing_shares(shape: Outlines, centre: Array, radius_mm: float | Array, within_mm: float = AGREES_MM) -> Array:
+    """Share (k,) of outline points that lie on a circle, or that near to it."""
+    off_mm = np.abs(shape.distance(centre) - np.reshape(radius_mm, (-1, 1)))
+    return np.asarray((shape.seen & (off_mm < within_mm)).sum(axis=1) / np.maximum(shape.seen.sum(axis=1), 1))
 
 
-def circle_of_radius(xy: Array, radius_mm: float, within_mm: float) -> tuple[Array, float]:
-    """Circle of a known radius that most points (n, 2) of an outline lie on: centre (2,) and their share.
+def circles_of_radius(shape: Outlines, radius_mm: float, within_mm: float) -> tuple[Array, Array]:
+    """Circles of a known radius that most of each outline lies on: centres (k, 2) and that share (k,).
 
     Each pair of points gives two circles; where a tape or a break spoils half of an outline, the other half agrees.
+    Every outline has to show a point.
     """
-    thin = xy[:: len(xy) // 90 + 1]
-    count = len(thin)
-    first = np.tile(np.arange(count), 3)
-    second = np.concatenate([np.roll(np.arange(count), -max(1, count // part)) for part in (8, 6, 4)])
-    chord = thin[second] - thin[first]
-    length = np.hypot(chord[:, 0], chord[:, 1])
+    count = shape.seen.sum(axis=1)
+    order = np.argsort(~shape.seen, axis=1, kind="stable")
+    rank = (np.arange(_CHORD_POINTS) * count[:, None]) // _CHORD_POINTS
+    chosen = np.take_along_axis(order, rank, axis=1)
+    thin = np.take_along_axis(shape.xy, chosen[..., None], axis=1)
+    other = np.concatenate([np.roll(thin, -_CHORD_POINTS // part, axis=1) for part in _CHORD_PARTS], axis=1)
+    first = np.tile(thin, (1, len(_CHORD_PARTS), 1))
+    chord = other - first
+    length = np.sqrt(np.einsum("kci,kci->kc", chord, chord))
     usable = (length > 1e-6) & (length < 2 * radius_mm)
-    if not usable.any():
-        return xy.mean(axis=0), 0.0
-    middle, chord, length = (thin[first] + 0.5 * chord)[usable], chord[usable], length[usable]
-    height = np.sqrt(radius_mm**2 - (0.5 * length) ** 2)
-    across = np.column_stack([-chord[:, 1], chord[:, 0]]) / length[:, None] * height[:, None]
-    centres = np.vstack([middle + across, middle - across])
-    distance = np.hypot(*(thin[None, :, :] - centres[:, None, :]).transpose(2, 0, 1))
-    agree = (np.abs(distance - radius_mm) < within_mm).sum(axis=1)
-    best = centres[int(agree.argmax())]
-    return best, float(agree.max() / count)
+    height = np.sqrt(np.where(usable, radius_mm**2 - (0.5 * length) ** 2, 0.0))
+    across = np.stack([-chord[..., 1], chord[..., 0]], -1) * (height / np.maximum(length, 1e-6))[..., None]
+    middle = first + 0.5 * chord
+    centres = np.concatenate([middle + across, middle - across], axis=1)
+    x, y = (np.float32(centres[..., axis, None]) - np.float32(thin[:, None, :, axis]) for axis in (0, 1))
+    agree = (np.abs(np.sqrt(x * x + y * y) - np.float32(radius_mm)) < within_mm).sum(axis=2)
+    agree = np.where(np.tile(usable, (1, 2)), agree, 0)
+    features = np.arange(len(centres))
+    best = agree.argmax(axis=1)
+    return centres[features, best], agree[features, best] / _CHORD_POINTS
+
+
+def _on_sound_parts(
+    points: PlanPoints,
+    shape: Outlines,
+    centre: Array,
+    radius_mm: float,
+    zone_mm: tuple[float, float],
+    spoilt: BoolArray,
+    *,
+    innermost: bool,
+) -> Array:
+    for _ in range(2):
+        moved, share = circles_of_radius(shape.of(spoilt), radius_mm, AGREES_MM)
+        better = (share >= _SOUND_SHARE) & (np.hypot(*(moved - centre[spoilt]).T) <= radius_mm)
+        spoilt = spoilt.copy()
+        spoilt[spoilt] = better
+        centre = centre.copy()
+        centre[spoilt] = moved[better]
+        if not spoilt.any():
+            break
+        shape = _outlined(points, centre, shape.bins, zone_mm, innermost=innermost)
+        spoilt &= shape.seen.any(axis=1)
+    return centre
+
+
+def _outlined(
+    points: PlanPoints, centre: Array, bins: int, zone_mm: tuple[float, float], *, innermost: bool
+) -> Outlines:
+    within = points.distance(centre)
+    return outlines(points.where((within > zone_mm[0]) & (within < zone_mm[1])), centre, bins, innermost=innermost)
+
+
+def _middle(values: Array, seen: BoolArray) -> Array:
+    """Median (k,) of what is there in each row; zero in empty ones."""
+    count = seen.sum(axis=1)
+    ordered = np.sort(np.where(seen, values, np.inf), axis=1)
+    places = np.stack([(count - 1) // 2, count // 2], axis=1).clip(0)
+    middle = np.take_along_axis(ordered, places, axis=1).mean(axis=1)
+    return np.where(count > 0, middle, 0.0)

@@ -14,6 +14,7 @@ _EMPTY_DISC = 0.75  # of the radius: this part of a hole holds no face points
 _RING = (1.15, 1.6)  # of the radius: this part around a hole holds face points
 _DISC_FILL_MAX = 0.45
 _RING_FILL_MIN = 0.55
+_EXTENT_FROM = 20_000  # points
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,14 +35,15 @@ class Raster:
 
 def rastered(xy: Array, cell_mm: float, margin_mm: float, cells_max: int = 4_000_000) -> Raster:
     """Raster of the cells that hold any of the points (n, 2) mm, with an empty margin around them."""
-    low = np.percentile(xy, 0.05, axis=0) - margin_mm
-    high = np.percentile(xy, 99.95, axis=0) + margin_mm
+    some = xy[:: len(xy) // _EXTENT_FROM + 1]
+    low, high = np.percentile(some, (0.1, 99.9), axis=0)
+    low, high = low - margin_mm, high + margin_mm
     cell_mm = max(cell_mm, float(np.sqrt(np.prod(high - low) / cells_max)))
     columns, rows = (np.ceil((high - low) / cell_mm)).astype(int) + 1
-    place = np.floor((xy - low) / cell_mm).astype(np.int64)
-    inside = ((place >= 0) & (place < (columns, rows))).all(axis=1)
+    x, y = (np.floor((xy[:, axis] - low[axis]) / cell_mm).astype(np.int32) for axis in (0, 1))
+    inside = (x >= 0) & (x < columns) & (y >= 0) & (y < rows)
     filled = np.zeros((rows, columns), np.float32)
-    filled[place[inside, 1], place[inside, 0]] = 1.0
+    filled[y[inside], x[inside]] = 1.0
     return Raster(filled, low, cell_mm)
 
 

@@ -6,18 +6,21 @@ sleeves' inner walls and pulls the plane by 0.2 to 0.8 mm.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
-from aadm_workbench.model import Array, BoolArray, Plane
+from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane
 
 INLIER_DISTANCE_MM = 1.2
 _HYPOTHESES = 400
-_SCORED = 2500
-_ENOUGH = 15_000  # points: noise averages out long before, and what remains is the camera's own warp
+_SCORED, _SCORED_AT_FIRST, _LIKELY = 2000, 300, 24
+_ENOUGH, _ENOUGH_AT_FIRST = 10_000, 2_500  # points: noise averages out long before; what remains is the camera's warp
+_ROUNDS_AT_FIRST, _ROUNDS = 3, 2
 
 
 def find_plane(
-    points: Array,
+    points: FloatArray,
     rng: np.random.Generator,
     inlier_distance_mm: float = INLIER_DISTANCE_MM,
     hypotheses: int = _HYPOTHESES,
@@ -29,7 +32,9 @@ def find_plane(
     if len(points) < 50:
         return None
     scored = points[rng.integers(0, len(points), _SCORED)] if len(points) > _SCORED else points
-    corners = scored[rng.integers(0, len(scored), (hypotheses, 3))]
+    middle = scored.mean(axis=0, dtype=np.float64)
+    scored = (scored - middle).astype(np.float32)  # near the origin single precision is enough
+    corners = scored[rng.integers(0, len(scored), (hypotheses, 3))].astype(np.float64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     lengths = np.linalg.norm(normals, axis=1)
     usable = lengths > 1e-9 * max(1.0, float(lengths.max(initial=0.0)))
@@ -37,43 +42,50 @@ def find_plane(
         return None
     normals = normals[usable] / lengths[usable, None]
     offsets = np.einsum("ij,ij->i", normals, corners[usable, 0])
-    inliers = (np.abs(scored @ normals.T - offsets) < 2.0 * inlier_distance_mm).sum(axis=0)
-    best = int(inliers.argmax())
-    return refined_plane(points, Plane(normals[best], float(offsets[best])), inlier_distance_mm)
+    within_mm = 2.0 * inlier_distance_mm
+    likely = np.argsort(-_counted(scored[:_SCORED_AT_FIRST], normals, offsets, within_mm), kind="stable")[:_LIKELY]
+    best = likely[_counted(scored, normals[likely], offsets[likely], within_mm).argmax()]
+    offset = float(offsets[best] + normals[best] @ middle)
+    return refined_plane(points, Plane(normals[best], offset), inlier_distance_mm)
 
 
-def refined_plane(points: Array, start: Plane, inlier_distance_mm: float = INLIER_DISTANCE_MM) -> Plane:
+def _counted(points: FloatArray, normals: Array, offsets: Array, within_mm: float) -> IntArray:
+    """How many points (n, 3) lie near each of some planes (m,)."""
+    distances = normals.astype(np.float32) @ points.T
+    distances -= offsets[:, None].astype(np.float32)
+    return np.asarray((np.abs(distances, out=distances) < within_mm).sum(axis=1))
+
+
+def refined_plane(points: FloatArray, start: Plane, inlier_distance_mm: float = INLIER_DISTANCE_MM) -> Plane:
     """Least squares on the inliers of a plane, repeated with a band that narrows to three robust sigmas."""
     plane, band = start, 2.5 * inlier_distance_mm
-    for _ in range(5):
-        inliers = points[np.abs(plane.height(points)) < band]
+    few = points[:: len(points) // _ENOUGH_AT_FIRST + 1]
+    for part in (few,) * _ROUNDS_AT_FIRST + (points,) * _ROUNDS:
+        inliers = part[np.abs(plane.height(part)) < band]
         if len(inliers) < 20:
             return plane
-        centre = inliers.mean(axis=0)
-        covariance = np.cov((inliers - centre).T)
-        normal = np.linalg.eigh(covariance)[1][:, 0]
+        centre = inliers.mean(axis=0, dtype=np.float64)
+        about = inliers - centre
+        normal = np.linalg.eigh(about.T @ about)[1][:, 0]
         normal = normal if normal @ plane.normal > 0 else -normal
-        plane = Plane(normal, float(normal @ centre))
-        residual = 1.4826 * float(np.median(np.abs(plane.height(inliers))))
-        plane = Plane(plane.normal, plane.offset, residual)
+        residual = 1.4826 * float(np.median(np.abs(about @ normal)))
+        plane = Plane(normal, float(normal @ centre), residual)
         band = min(2.5 * inlier_distance_mm, max(3.5 * residual, 0.1))
     return plane
 
 
-def find_planes(points: Array, rng: np.random.Generator, count: int) -> list[Plane]:
+def find_planes(points: FloatArray, rng: np.random.Generator, count: int) -> Iterator[Plane]:
     """Up to ``count`` planes, the one with most points first; each is searched among what the last ones left."""
-    planes: list[Plane] = []
     left = points[:: max(1, len(points) // _ENOUGH)]
-    points = left
+    all_of_them = len(left)
     for _ in range(count):
         plane = find_plane(left, rng)
         if plane is None:
-            break
-        planes.append(plane)
+            return
+        yield plane
         left = left[np.abs(plane.height(left)) > 3.0 * INLIER_DISTANCE_MM]
-        if len(left) < 0.02 * len(points):
-            break
-    return planes
+        if len(left) < 0.02 * all_of_them:
+            return
 
 
 def facing(plane: Plane, viewpoint: Array) -> Plane:
@@ -95,7 +107,7 @@ def axes_on(plane: Plane) -> Array:
     return np.vstack([first, np.cross(plane.normal, first), plane.normal])
 
 
-def in_plane(points: Array, plane: Plane) -> Array:
+def in_plane(points: FloatArray, plane: Plane) -> Array:
     """Points (n, 3) mm of the scan frame as (x, y, height) in the plane's own axes; see :func:`axes_on`."""
     local = points @ axes_on(plane).T
     local[:, 2] -= plane.offset
@@ -109,6 +121,6 @@ def from_plane(local: Array, plane: Plane) -> Array:
     return np.asarray(lifted @ axes_on(plane))
 
 
-def near(points: Array, plane: Plane, distance_mm: float) -> BoolArray:
+def near(points: FloatArray, plane: Plane, distance_mm: float) -> BoolArray:
     """Which points (n, 3) lie within a distance of the plane."""
     return np.asarray(np.abs(plane.height(points)) < distance_mm)

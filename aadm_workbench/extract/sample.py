@@ -6,21 +6,30 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.model import Array, FloatArray, IntArray, Scan
+from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Scan
+
+_CELLS_MAX = 4_000_000
+_CELL_MM, _ENOUGH = 12.0, 20_000
 
 
 @dataclass(frozen=True, eq=False)
 class Thinned:
     """A subset of a scan's points.
 
-    ``points`` (m, 3) float64, mm; for an organised scan ``pixels`` (m, 2) int64 holds row and column.
-    ``stride`` is the step between pixels that were taken (1 for clouds); ``share`` is m over all points.
+    ``points`` (m, 3) mm, in the precision of the scan; for an organised scan ``taken`` (rows, columns) tells which
+    pixels of the coarser grid they are. ``stride`` is the step between pixels that were taken (1 for clouds);
+    ``share`` is m over all points.
     """
 
-    points: Array
-    pixels: IntArray | None
+    points: FloatArray
+    taken: BoolArray | None
     stride: int
     share: float
+
+    def pixels(self) -> IntArray:
+        """Row and column (m, 2) of each point of an organised scan."""
+        assert self.taken is not None
+        return np.argwhere(self.taken) * self.stride
 
 
 def thinned(scan: Scan, wanted: int, rng: np.random.Generator) -> Thinned:
@@ -29,31 +38,35 @@ def thinned(scan: Scan, wanted: int, rng: np.random.Generator) -> Thinned:
     if points.ndim == 3:
         stride = max(1, int(np.sqrt(points.shape[0] * points.shape[1] / wanted)))
         coarse = points[::stride, ::stride]
-        rows, columns = np.nonzero(np.isfinite(coarse[..., 2]))
-        pixels = np.column_stack([rows, columns]) * stride
-        return Thinned(coarse[rows, columns].astype(np.float64), pixels, stride, 1.0 / stride**2)
+        taken = np.isfinite(coarse[..., 2])
+        return Thinned(coarse[taken], taken, stride, 1.0 / stride**2)
     if len(points) <= wanted:
         return Thinned(_finite(points), None, 1, 1.0)
     chosen = rng.integers(0, len(points), wanted)
     return Thinned(_finite(points[chosen]), None, 1, wanted / len(points))
 
 
-def point_pitch_mm(sample: Thinned, on_plane: Array) -> float:
+def point_pitch_mm(sample: Thinned, on_plane: FloatArray) -> float:
     """Mean distance, mm, between neighbouring points of the full scan on a surface.
 
     ``on_plane`` (k, 2) are the thinned points that lie on it, in its own coordinates.
     """
     if len(on_plane) < 50:
         return 1.0
-    cell = 12.0
-    filled = np.percentile(counts_in_cells(on_plane, cell), 75)
-    return float(cell * np.sqrt(sample.share / max(filled, 1.0)))
+    every = len(on_plane) // _ENOUGH + 1
+    filled = every * np.percentile(counts_in_cells(on_plane[::every], _CELL_MM), 75)
+    return float(_CELL_MM * np.sqrt(sample.share / max(filled, 1.0)))
 
 
-def counts_in_cells(xy: Array, cell_mm: float) -> IntArray:
+def counts_in_cells(xy: FloatArray, cell_mm: float) -> IntArray:
     """How many points (n, 2) mm each square cell holds, of the cells that hold any."""
-    cells = np.floor((xy - xy.min(axis=0)) / cell_mm).astype(np.int64)
-    return np.unique(cells[:, 0] * (int(cells[:, 1].max()) + 1) + cells[:, 1], return_counts=True)[1]
+    row, column = (((part - part.min()) / cell_mm).astype(np.int64) for part in (xy[:, 0], xy[:, 1]))
+    rows, columns = int(row.max()) + 1, int(column.max()) + 1
+    place = row * columns + column
+    if rows * columns > _CELLS_MAX:
+        return np.unique(place, return_counts=True)[1]
+    counts = np.bincount(place)
+    return counts[counts > 0]
 
 
 def _finite(points: FloatArray) -> Array:

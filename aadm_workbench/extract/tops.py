@@ -1,4 +1,4 @@
-"""Where bars stand in a scan, and the plane of each bar's top."""
+"""What the top of each bar shows: the plane it was cut in, the outline of the cut, and points of the bar's side."""
 
 from __future__ import annotations
 
@@ -6,117 +6,124 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.extract.holes import find_discs, rastered
-from aadm_workbench.extract.plane import axes_on, find_plane, find_planes
-from aadm_workbench.extract.sample import Thinned, counts_in_cells
-from aadm_workbench.model import Array, Plane
+from aadm_workbench.extract.circle import settled_centres
+from aadm_workbench.extract.outlines import Outlines, bins_for, outlines
+from aadm_workbench.extract.patches import Patches
+from aadm_workbench.extract.plan_points import PlanPoints, in_rows, thinned_rows
+from aadm_workbench.extract.top_planes import TopPlanes, top_planes
+from aadm_workbench.model import Array, BoolArray, FloatArray
 
-_FLOOR_SHARE = 0.2  # of the points: less is no floor
-_ABOVE_FLOOR_MM = 15.0
-_TOP_ZONE_MM = 8.0  # a cut of 15 degrees over a 28 mm bar
-_TOP_LEAN_COSINE = 0.85
-_TOP_COUNT_MIN = 20
-_ENOUGH = 700  # points of one top
+REACH_MM = 14.0
+"""How far around a bar points are taken, beyond its nominal radius."""
+
+_TOP_BAND_MM, _TOP_BAND_SIGMAS = 0.3, 4.0
+_OUTLINE_ZONE, _OUTLINE_BEYOND_MM = 0.3, 3.0  # of the radius; beyond it
+_RIM_BEYOND_MM = 2.5
+_GOES_ON_SHARE, _GOES_ON_RING, _GOES_ON_DISC = 0.3, (1.25, 1.5), 0.9
+_COVERAGE_MIN = 0.5
+_PASSED_FROM, _PASSED_BEYOND_MM = 0.75, 6.0
+_SIDE_DEPTH_MM = (0.8, 60.0)
+_SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
+_SIDE_POINTS_MAX = 350
 
 
 @dataclass(frozen=True, eq=False)
-class Standing:
-    """Bars that stand in a scan, seen along ``vertical`` (3,): their plan positions ``centres`` (k, 2) mm.
+class Tops:
+    """Evidence of k bars, mm, each about its own place ``place`` (k, 2) in plan axes whose z is the bars' vertical.
 
-    ``floor`` is the plane they stick out of; None where the scan does not show it. ``level_mm`` is the height
-    of most tops along the vertical.
+    ``normal`` (k, 3), ``offset`` (k,) and ``residual_mm`` (k,) are the planes of the cuts; ``pitch_mm`` (k,) the
+    distance of neighbouring points on them; ``centre`` (k, 2) first centres. ``rims`` lie on the cut, ``beyond`` are
+    crossings of rays that passed it. ``side_xy`` (k, m, 2) and ``side_depth`` (k, m) are points of the bars' sides,
+    those that are there ``side_seen`` (k, m).
     """
 
-    vertical: Array
-    floor: Plane | None
-    centres: Array
-    level_mm: float
+    place: Array
+    normal: Array
+    offset: Array
+    residual_mm: Array
+    pitch_mm: Array
+    centre: Array
+    rims: Outlines
+    beyond: Outlines
+    side_xy: Array
+    side_depth: Array
+    side_seen: BoolArray
 
 
-def find_standing(
-    sample: Thinned, radius_mm: float, viewpoint: Array | None, rng: np.random.Generator
-) -> Standing | None:
-    """Find upright discs of a radius: above the floor, or without one along the direction of the view."""
-    best: Standing | None = None
-    for floor in _floors(sample, viewpoint, rng):
-        above = sample.points[floor.height(sample.points) > _ABOVE_FLOOR_MM]
-        centres = _discs(above, floor.normal, sample, radius_mm)
-        if len(centres) and (best is None or len(centres) > len(best.centres)):
-            best = Standing(floor.normal, floor, centres, _level(above, floor.normal, centres, radius_mm))
-    if best is not None:
-        return best
-    return standing_along(sample, _towards(sample, viewpoint), radius_mm)
+def tops_in(patches: Patches, places: Array, radius_mm: float, rng: np.random.Generator) -> Tops:
+    """The tops of upright bars among patches around places (k, 2) mm."""
+    planes = top_planes(patches, radius_mm, rng)
+    height = planes.height(patches)
+    band_mm = np.maximum(_TOP_BAND_SIGMAS * planes.residual_mm, _TOP_BAND_MM).astype(np.float32)[:, None]
+    on_top = (np.abs(height) < band_mm) & planes.found[:, None]
+    pitch_mm = np.sqrt(np.pi * radius_mm**2 / np.maximum(on_top.sum(axis=1), 1))
+    bins = bins_for(radius_mm, float(np.median(pitch_mm[planes.found])) if planes.found.any() else radius_mm)
+    top = PlanPoints.of(patches.x, patches.y, np.flatnonzero(on_top))
+    zone_mm = _OUTLINE_ZONE * radius_mm, radius_mm + _OUTLINE_BEYOND_MM
+    centre = settled_centres(top, np.zeros((len(places), 2)), radius_mm, bins, zone_mm, innermost=False)
+    rims = outlines(top.where(top.distance(centre) < radius_mm + _RIM_BEYOND_MM), centre, bins, innermost=False)
+    kept = planes.found & ~_goes_on(top, centre, radius_mm) & (rims.coverage >= _COVERAGE_MIN)
+    passed = _passed(patches, planes, height < -band_mm, centre, radius_mm)
+    beyond = outlines(passed, centre, bins, innermost=True).only(rims.seen)  # no surface: nothing tells of its edge
+    side_xy, side_depth, side_seen = _sides(patches, height, centre, radius_mm, kept)
+    return Tops(
+        places[kept],
+        planes.normal[kept],
+        planes.offset[kept],
+        planes.residual_mm[kept],
+        pitch_mm[kept],
+        centre[kept],
+        rims.of(kept),
+        beyond.of(kept),
+        side_xy,
+        side_depth,
+        side_seen,
+    )
 
 
-def standing_along(sample: Thinned, vertical: Array, radius_mm: float) -> Standing | None:
-    """Find upright discs of a radius along a given vertical (3,), without a floor."""
-    centres = _discs(sample.points, vertical, sample, radius_mm)
-    if len(centres) == 0:
-        return None
-    return Standing(vertical, None, centres, _level(sample.points, vertical, centres, radius_mm))
+def _goes_on(top: PlanPoints, centre: Array, radius_mm: float) -> BoolArray:
+    """Where (k,) the surface goes on around where a top should end: a floor or a plate, no bar."""
+    radius = top.distance(centre) / radius_mm
+    low, high = _GOES_ON_RING
+    disc = top.counted(radius < _GOES_ON_DISC) / _GOES_ON_DISC**2
+    around = top.counted((radius > low) & (radius < high)) / (high**2 - low**2)
+    return np.asarray(around > _GOES_ON_SHARE * disc)
 
 
-def _level(points: Array, vertical: Array, centres: Array, radius_mm: float) -> float:
-    """Height of the tops: the median over the discs of a high quantile within each."""
-    local = points @ axes_on(Plane(vertical, 0.0)).T
-    inside = [local[np.hypot(*(local[:, :2] - centre).T) < 0.8 * radius_mm, 2] for centre in centres]
-    return float(np.median([np.percentile(heights, 90.0) for heights in inside if len(heights)]))
+def _passed(patches: Patches, planes: TopPlanes, behind: BoolArray, centre: Array, radius_mm: float) -> PlanPoints:
+    """Where rays that passed a top, and ended on something behind it, crossed its plane."""
+    if patches.eye is None:
+        nothing = np.zeros(0, np.int64)
+        return PlanPoints.of(patches.x, patches.y, nothing)
+    at = np.flatnonzero(behind & planes.found[:, None])
+    owner = at // patches.x.shape[1]
+    x, y, z = (part.ravel()[at] for part in (patches.x, patches.y, patches.height))
+    eye, normal = patches.eye.astype(np.float32), planes.normal.astype(np.float32)
+    offset = planes.offset.astype(np.float32)
+    over = np.einsum("ki,ki->k", normal, eye) - offset
+    under = x * normal[owner, 0] + y * normal[owner, 1] + z * normal[owner, 2] - offset[owner]
+    share = over[owner] / np.maximum(over[owner] - under, np.float32(1e-6))
+    x = eye[owner, 0] + (x - eye[owner, 0]) * share
+    y = eye[owner, 1] + (y - eye[owner, 1]) * share
+    crossed = PlanPoints(x, y, owner, len(centre))
+    radius = crossed.distance(centre)
+    close = (radius > _PASSED_FROM * radius_mm) & (radius < radius_mm + _PASSED_BEYOND_MM)
+    close[close] = patches.borne(at[close])
+    return crossed.where(close)
 
 
-def _floors(sample: Thinned, viewpoint: Array | None, rng: np.random.Generator) -> list[Plane]:
-    floors = []
-    for plane in find_planes(sample.points, rng, 2):
-        if (np.abs(plane.height(sample.points)) < 3.0).mean() < _FLOOR_SHARE:
-            continue
-        towards = plane.normal @ viewpoint - plane.offset if viewpoint is not None else None
-        if towards is None or towards >= 0:
-            floors.append(plane)
-        if towards is None or towards < 0:
-            floors.append(Plane(-plane.normal, -plane.offset, plane.residual_mm))
-    return floors
-
-
-def _towards(sample: Thinned, viewpoint: Array | None) -> Array:
-    """Direction from the scan to where it was taken from: the best guess of "up" without a floor."""
-    if viewpoint is None:
-        return np.array([0.0, 0.0, -1.0])
-    direction = viewpoint - np.median(sample.points, axis=0)
-    forward = np.array([0.0, 0.0, -1.0])
-    if np.allclose(viewpoint, 0.0):
-        return forward
-    return np.asarray(direction / np.linalg.norm(direction))
-
-
-def _discs(points: Array, vertical: Array, sample: Thinned, radius_mm: float) -> Array:
-    if len(points) < _TOP_COUNT_MIN:
-        return np.empty((0, 2))
-    plan = points @ axes_on(Plane(vertical, 0.0))[:2].T
-    spacing_mm = _spacing(plan, radius_mm)
-    raster = rastered(plan, max(radius_mm / 10, 1.2 * spacing_mm), 3 * radius_mm)
-    return find_discs(raster, radius_mm, holes=False)[0]
-
-
-def _spacing(plan: Array, radius_mm: float) -> float:
-    """Typical distance of neighbours in the plan where it is well filled."""
-    filled = float(np.percentile(counts_in_cells(plan, radius_mm), 80))
-    return float(radius_mm / np.sqrt(max(filled, 1.0)))
-
-
-def top_plane(local: Array, radius_mm: float, rng: np.random.Generator) -> Plane | None:
-    """Plane of the top among points (n, 3) mm around one bar, in axes whose z is up; None where there is none.
-
-    The plan is centred on the bar. Points that fly above the top are few, so the top is the highest
-    level that many points share.
-    """
-    core = local[np.hypot(local[:, 0], local[:, 1]) < 0.95 * radius_mm]
-    if len(core) < _TOP_COUNT_MIN:
-        return None
-    level = float(np.percentile(core[:, 2], 98.0))
-    zone = core[np.abs(core[:, 2] - level) < _TOP_ZONE_MM]
-    zone = zone[:: len(zone) // _ENOUGH + 1]
-    plane = find_plane(zone, rng, inlier_distance_mm=0.5, hypotheses=120)
-    if plane is None or abs(plane.normal[2]) < _TOP_LEAN_COSINE:
-        return None
-    if plane.normal[2] < 0:
-        plane = Plane(-plane.normal, -plane.offset, plane.residual_mm)
-    return plane
+def _sides(
+    patches: Patches, height: FloatArray, centre: Array, radius_mm: float, kept: BoolArray
+) -> tuple[Array, Array, BoolArray]:
+    """Plan (k, m, 2) and depth (k, m) of points of the kept bars' sides, and which are there."""
+    low, high = _SIDE_DEPTH_MM
+    at = np.flatnonzero((height < -low) & (height > -high) & kept[:, None])
+    points = PlanPoints.of(patches.x, patches.y, at)
+    off_mm = points.distance(centre) - radius_mm
+    in_band = (off_mm > _SIDE_BAND_MM[0]) & (off_mm < _SIDE_BAND_MM[1])
+    points, depth = points.where(in_band), -height.ravel()[at[in_band]]
+    some = thinned_rows(points.owner, points.features, _SIDE_POINTS_MAX)
+    owner = (np.cumsum(kept) - 1)[points.owner[some]]
+    values = np.column_stack([points.x[some], points.y[some], depth[some]])
+    rows, seen = in_rows(values, owner, int(kept.sum()))
+    return rows[..., :2], rows[..., 2], seen

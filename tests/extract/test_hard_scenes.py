@@ -13,19 +13,12 @@ from tests.extract.hard_scenes import SCENES, Outcome, Scene, outcome
 
 LARGEST_IN_U = 4.0  # a normal error in the plane is farther off once in 3000 times
 
-PLACE, HONEST, INVENTED = (
-    "test_what_is_spoilt_is_measured_at_its_place",
-    "test_no_error_hides_behind_its_uncertainty",
-    "test_nothing_is_invented",
-)
+PLACE, HONEST = "test_what_is_spoilt_is_measured_at_its_place", "test_no_error_hides_behind_its_uncertainty"
 NOT_YET = {
-    (PLACE, "sleeves plugged 6 mm inside"): "0.54 mm off",
-    (HONEST, "sleeves plugged 6 mm inside"): "5.5 u off",
-    (HONEST, "bores that appear beside their place"): "8.5 u off",
-    (HONEST, "foot with twice the noise"): "4.5 u off",
-    (PLACE, "bars with a piece of the top broken off"): "0.9 mm off",
-    (HONEST, "bars with a burr on one side"): "9.7 u off",
-    (INVENTED, "bars with a board, a box and a hose"): "a bar is found where there is none",
+    (HONEST, "bores that appear beside their place"): "7.6 u off",
+    (HONEST, "foot with twice the noise"): "4.1 u off",
+    (PLACE, "bars with a piece of the top broken off"): "0.55 mm off",
+    (HONEST, "bars with a burr on one side"): "8.5 u off",
 }
 
 

@@ -1,0 +1,146 @@
+"""What each sleeve's mouth shows: the edge of its rim, and points of its bore."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.extract.circle import settled_centres
+from aadm_workbench.extract.outlines import Outlines, bins_for, outlines
+from aadm_workbench.extract.patches import Patches
+from aadm_workbench.extract.plan_points import PlanPoints, in_rows, thinned_rows
+from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
+
+REACH_MM = 4.0
+"""How far around a mouth points are taken, beyond the nominal radius."""
+
+WALL_DEPTH_MM = (2.0, 120.0)
+"""Where behind the face a bore is looked for."""
+
+_FACE_BAND_MM = 1.5
+_RIM_DEPTH_MM = 2.5  # a chamfer ends less far behind the face
+_RIM_ZONE = 0.5  # of the radius
+_UPPER_WALL_MM = (1.0, 12.0)
+_WALL_BAND_MM = 2.0  # about the nominal radius
+_WALL_POINTS_MAX = 350
+_SECTORS, _OPEN_SECTORS, _CLOSED_SHARE, _INSIDE = 12, 4, 0.15, (0.2, 0.75)
+_OPPOSITE_COSINE = 0.3
+_COVERAGE_MIN = 0.35
+
+
+@dataclass(frozen=True, eq=False)
+class Mouths:
+    """Evidence of k mouths, mm, each about its own place ``place`` (k, 2) in the face's axes.
+
+    ``centre`` (k, 2) first centres; ``rims`` the edges of their rims, where they are no crease to a visible wall;
+    ``coverage`` (k,) the share of the circle that shows a rim; ``wall_xy`` (k, m, 2), ``wall_depth`` (k, m) and
+    ``wall_slope`` (k, m, 2) points of the bores, those that are there ``wall_seen`` (k, m).
+    """
+
+    place: Array
+    centre: Array
+    rims: Outlines
+    coverage: Array
+    wall_xy: Array
+    wall_depth: Array
+    wall_slope: Array
+    wall_seen: BoolArray
+
+    def wall_count(self) -> IntArray:
+        """Points of each bore (k,)."""
+        return np.asarray(self.wall_seen.sum(axis=1))
+
+
+def mouths_in(patches: Patches, places: Array, radius_mm: float, pitch_mm: float) -> Mouths:
+    """The open mouths among patches around places (k, 2) mm of the face."""
+    bins = bins_for(radius_mm, pitch_mm)
+    near = patches.x * patches.x + patches.y * patches.y < (radius_mm + 2 * REACH_MM) ** 2
+    front = near & (patches.height > -_RIM_DEPTH_MM)
+    rim = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front & (patches.height < _FACE_BAND_MM)))
+    zone_mm = _RIM_ZONE * radius_mm, radius_mm + REACH_MM
+    centre = settled_centres(rim, np.zeros((len(places), 2)), radius_mm, bins, zone_mm, innermost=True)
+    close = rim.where(np.abs(rim.distance(centre) - radius_mm) < _WALL_BAND_MM + 1.0)
+    shape = outlines(close, centre, bins, innermost=True)
+    inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front))
+    kept = (shape.coverage >= _COVERAGE_MIN) & ~_closed(inside, centre, radius_mm, pitch_mm)
+    bores = _bores(patches, centre, radius_mm, near)
+    upper = (bores.depth > _UPPER_WALL_MM[0]) & (bores.depth < _UPPER_WALL_MM[1])
+    rims = shape.only(~_shown(bores.points.where(upper), centre, bins))
+    deep = bores.where((bores.depth > WALL_DEPTH_MM[0]) & kept[bores.points.owner])
+    xy, depth, slope, seen = _rows(deep.where(_opposite(deep, centre)), np.flatnonzero(kept))
+    return Mouths(places[kept], centre[kept], rims.of(kept), shape.coverage[kept], xy, depth, slope, seen)
+
+
+@dataclass(frozen=True, eq=False)
+class _Bores:
+    """Points near the walls of all bores, their ``depth`` (n,) mm behind the face, and the view's ``slope`` (n, 2)."""
+
+    points: PlanPoints
+    depth: FloatArray
+    slope: FloatArray
+
+    def where(self, wanted: BoolArray) -> _Bores:
+        return _Bores(self.points.where(wanted), self.depth[wanted], self.slope[wanted])
+
+
+def _bores(patches: Patches, centre: Array, radius_mm: float, near: BoolArray) -> _Bores:
+    behind = near & (patches.height < -_UPPER_WALL_MM[0]) & (patches.height > -WALL_DEPTH_MM[1])
+    at = np.flatnonzero(behind)
+    points = PlanPoints.of(patches.x, patches.y, at)
+    on_wall = np.abs(points.distance(centre) - radius_mm) < _WALL_BAND_MM
+    points, depth = points.where(on_wall), -patches.height.ravel()[at[on_wall]]
+    return _Bores(points, depth, _slope(patches.eye, points, depth))
+
+
+def _slope(eye: Array | None, points: PlanPoints, depth: FloatArray) -> FloatArray:
+    """How far the line of sight moves in the plan per mm of depth (n, 2); zero where the viewpoint is unknown."""
+    if eye is None:
+        return np.zeros((len(depth), 2))
+    own = eye[points.owner]
+    return np.asarray(
+        np.column_stack([points.x - own[:, 0], points.y - own[:, 1]]) / np.abs(depth + own[:, 2])[:, None]
+    )
+
+
+def _opposite(bores: _Bores, centre: Array) -> BoolArray:
+    """Wall points (n,) that the camera looks at: towards the ends of what it sees, surfaces mix in its pixels."""
+    if not bores.slope.any():
+        return np.ones(len(bores.depth), bool)
+    own = centre[bores.points.owner]
+    about = np.column_stack([bores.points.x - own[:, 0], bores.points.y - own[:, 1]])
+    along = np.einsum("ij,ij->i", about, bores.slope)
+    return np.asarray(along > _OPPOSITE_COSINE * np.hypot(*about.T) * np.hypot(*bores.slope.T))
+
+
+def _rows(bores: _Bores, kept: IntArray) -> tuple[Array, Array, Array, BoolArray]:
+    """Plan, depth and slope of at most so many points of each kept bore, a row for each, and which are there."""
+    points = bores.points
+    some = thinned_rows(points.owner, points.features, _WALL_POINTS_MAX)
+    values = np.column_stack([points.x[some], points.y[some], bores.depth[some], bores.slope[some]])
+    rows, seen = in_rows(values, np.searchsorted(kept, points.owner[some]), len(kept))
+    return rows[..., :2], rows[..., 2], rows[..., 3:], seen
+
+
+def _closed(inside: PlanPoints, centre: Array, radius_mm: float, pitch_mm: float) -> BoolArray:
+    """Where (k,) the face goes on where the mouth should be: plugged, covered, or no sleeve at all.
+
+    A tape over half of a mouth leaves whole sectors of it open; a plug leaves none.
+    """
+    radius = inside.distance(centre)
+    low, high = _INSIDE
+    inside = inside.where((radius > low * radius_mm) & (radius < high * radius_mm))
+    cells = inside.owner * _SECTORS + inside.bins(centre, _SECTORS)
+    counts = np.bincount(cells, minlength=inside.features * _SECTORS).reshape(-1, _SECTORS)
+    expected = np.pi * (high**2 - low**2) * (radius_mm / pitch_mm) ** 2 / _SECTORS
+    return np.asarray((counts > _CLOSED_SHARE * expected).sum(axis=1) > _SECTORS - _OPEN_SECTORS)
+
+
+def _shown(points: PlanPoints, centre: Array, bins: int, reach: int = 2) -> BoolArray:
+    """Angular bins (k, bins) that hold any of some points, or lie next to one that does."""
+    marked = np.zeros((points.features, bins), bool)
+    marked[points.owner, points.bins(centre, bins)] = True
+    wide = marked.copy()
+    for shift in range(1, reach + 1):
+        wide |= np.roll(marked, shift, axis=1) | np.roll(marked, -shift, axis=1)
+    return wide

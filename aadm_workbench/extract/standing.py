@@ -1,0 +1,99 @@
+"""Where bars stand in a scan."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.extract.holes import find_discs, rastered
+from aadm_workbench.extract.plane import axes_on, find_planes
+from aadm_workbench.extract.sample import Thinned, counts_in_cells
+from aadm_workbench.model import Array, FloatArray, Plane
+
+_FLOOR_SHARE = 0.2  # of the points: less is no floor
+_ABOVE_FLOOR_MM = 15.0
+_TOP_COUNT_MIN = 20
+
+
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """Bars that stand in a scan, seen along ``vertical`` (3,): their plan positions ``centres`` (k, 2) mm.
+
+    ``floor`` is the plane they stick out of; None where the scan does not show it. ``level_mm`` is the height
+    of most tops along the vertical.
+    """
+
+    vertical: Array
+    floor: Plane | None
+    centres: Array
+    level_mm: float
+
+
+def find_standing(
+    sample: Thinned, radius_mm: float, viewpoint: Array | None, rng: np.random.Generator
+) -> Standing | None:
+    """Find upright discs of a radius: above the floor, or without one along the direction of the view."""
+    best: Standing | None = None
+    for floor in _floors(sample, viewpoint, rng):
+        above = sample.points[floor.height(sample.points) > _ABOVE_FLOOR_MM]
+        centres = _discs(above, floor.normal, sample, radius_mm)
+        if len(centres) and (best is None or len(centres) > len(best.centres)):
+            best = Standing(floor.normal, floor, centres, _level(above, floor.normal, centres, radius_mm))
+    if best is not None:
+        return best
+    return standing_along(sample, _towards(sample, viewpoint), radius_mm)
+
+
+def standing_along(sample: Thinned, vertical: Array, radius_mm: float) -> Standing | None:
+    """Find upright discs of a radius along a given vertical (3,), without a floor."""
+    centres = _discs(sample.points, vertical, sample, radius_mm)
+    if len(centres) == 0:
+        return None
+    return Standing(vertical, None, centres, _level(sample.points, vertical, centres, radius_mm))
+
+
+def _level(points: FloatArray, vertical: Array, centres: Array, radius_mm: float) -> float:
+    """Height of the tops: the median over the discs of a high quantile within each."""
+    local = points @ axes_on(Plane(vertical, 0.0)).T
+    inside = [local[np.hypot(*(local[:, :2] - centre).T) < 0.8 * radius_mm, 2] for centre in centres]
+    return float(np.median([np.percentile(heights, 90.0) for heights in inside if len(heights)]))
+
+
+def _floors(sample: Thinned, viewpoint: Array | None, rng: np.random.Generator) -> list[Plane]:
+    floors = []
+    for plane in find_planes(sample.points, rng, 2):
+        if (np.abs(plane.height(sample.points)) < 3.0).mean() < _FLOOR_SHARE:
+            continue
+        towards = plane.normal @ viewpoint - plane.offset if viewpoint is not None else None
+        if towards is None or towards >= 0:
+            floors.append(plane)
+        if towards is None or towards < 0:
+            floors.append(Plane(-plane.normal, -plane.offset, plane.residual_mm))
+    return floors
+
+
+def _towards(sample: Thinned, viewpoint: Array | None) -> Array:
+    """Direction from the scan to where it was taken from: the best guess of "up" without a floor."""
+    if viewpoint is None:
+        return np.array([0.0, 0.0, -1.0])
+    direction = viewpoint - np.median(sample.points, axis=0)
+    forward = np.array([0.0, 0.0, -1.0])
+    if np.allclose(viewpoint, 0.0):
+        return forward
+    return np.asarray(direction / np.linalg.norm(direction))
+
+
+def _discs(points: FloatArray, vertical: Array, sample: Thinned, radius_mm: float) -> Array:
+    if len(points) < _TOP_COUNT_MIN:
+        return np.empty((0, 2))
+    plan = points @ axes_on(Plane(vertical, 0.0))[:2].T
+    spacing_mm = _spacing(plan, radius_mm)
+    raster = rastered(plan, max(radius_mm / 10, 1.2 * spacing_mm), 3 * radius_mm)
+    return find_discs(raster, radius_mm, holes=False)[0]
+
+
+def _spacing(plan: Array, radius_mm: float) -> float:
+    """Typical distance of neighbours in the plan where it is well filled."""
+    filled = float(np.percentile(counts_in_cells(plan, radius_mm), 80))
+    return float(radius_mm / np.sqrt(max(filled, 1.0)))
