@@ -21,13 +21,15 @@ from aadm_workbench.twin.surface import Surface, moved
 class TrueScan:
     """A synthetic scan, with the true points in the column frame and the true pose of the camera.
 
-    ``depth`` (h, w) float32, mm. ``T_column_scan`` (4, 4).
+    ``depth`` (h, w) float32, mm. ``T_column_scan`` (4, 4). ``scale``: the camera's lengths are this much too long,
+    relatively.
     """
 
     depth: npt.NDArray[np.float32]
     camera: Camera
     points: tuple[AssemblyPoint, ...]
     T_column_scan: Array
+    scale: float = 0.0
 
     def scan(self, source: str = "") -> Scan:
         """The scan as the readers would give it."""
@@ -61,7 +63,7 @@ def shot(
 ) -> TrueScan:
     """Scan any surface, given in the column frame."""
     view = look(moved(surface, np.asarray(np.linalg.inv(T_column_scan), np.float64)), camera)
-    return TrueScan(captured(view, camera, noise, rng), camera, truth, T_column_scan)
+    return TrueScan(captured(view, camera, noise, rng), camera, truth, T_column_scan, noise.scale)
 
 
 def truth_of(part: Foot | BarGroup) -> tuple[AssemblyPoint, ...]:

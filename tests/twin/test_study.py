@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -63,6 +64,19 @@ def test_an_error_has_the_length_and_the_directions_it_was_made_with(looking_up:
     assert second.diameter_error_mm == pytest.approx(0.3)
     assert second.u_mm is None
     assert result.false == 0
+
+
+def test_the_scale_error_of_a_camera_is_not_a_methods_but_its_uncertainty_has_to_cover_it() -> None:
+    """All lengths 0.1 % too long: no error, but up to 0.07 mm in the plane for u to cover."""
+    long = replace(square_truth((0.0, 0.0)), scale=1e-3)
+    shift = 1e-3 * long.points_scan() @ long.T_column_scan[:3, :3].T
+    bold, careful = (compared(found_at(long, shift, u_mm), long, SQUARE, 13.0) for u_mm in (0.001, 0.05))
+    for feature in (*bold.features, *careful.features):
+        assert feature.distance_mm == pytest.approx(0.0, abs=1e-9)
+        assert feature.along_mm == pytest.approx(0.0, abs=1e-9)
+    assert [spacing.error_mm for spacing in bold.spacings] == pytest.approx([0.0] * 4, abs=1e-9)
+    assert not any(feature.covered for feature in bold.features)
+    assert all(feature.covered for feature in careful.features)
 
 
 def test_x_and_y_are_right_and_down_in_the_image() -> None:

@@ -1,5 +1,8 @@
 """What a method made of each true point of a scan: errors in the scan frame, without any fit to the truth.
 
+A camera's scale error is no error of a method: the true points are taken as far from the camera as it would have them.
+It counts where a method's uncertainty is held against the truth, since that uncertainty has to cover it.
+
 Errors lie in the plane across the true vertical. Their x and y are the image's right and down, laid into that plane;
 ``radial`` points away from the camera's foot point, which is where an edge seen from one side is pushed to.
 """
@@ -23,8 +26,8 @@ WITHIN_95 = 5.991
 class FeatureError:
     """One true point; what was not found of it is None.
 
-    ``error_mm`` (x, y), ``along_mm`` along the vertical, ``u_mm`` per axis (k = 1), the camera's scale error
-    included; ``covered`` whether the true centre lies in the 95 % region of the found one.
+    ``error_mm`` (x, y), ``along_mm`` along the vertical, both without the camera's scale error; ``u_mm`` per axis
+    (k = 1) includes it; ``covered`` whether the true centre lies in the 95 % region of the found one.
     """
 
     label: str
@@ -79,11 +82,11 @@ def compared(found: Extraction, truth: TrueScan, design_centres: Array, reach_mm
     features = tuple(
         FeatureError(point.label)
         if number < 0
-        else _feature(point, found.points[number], true[k], centres[number], axes, truth.camera.scale_error)
+        else _feature(point, found.points[number], true[k], centres[number], axes, truth)
         for k, (point, number) in enumerate(zip(truth.points, partner.tolist(), strict=True))
     )
     spacings = tuple(
-        _spacing(truth.points, (i, j), true[:, :2], centres[:, :2], partner.tolist())
+        _spacing(truth.points, (i, j), true[:, :2] * (1.0 + truth.scale), centres[:, :2], partner.tolist())
         for i, j in adjacent(design_centres)
     )
     return Comparison(features, spacings, len(centres) - int((partner >= 0).sum()))
@@ -99,16 +102,18 @@ def _image_axes(truth: TrueScan) -> Array:
 
 
 def _feature(
-    true_point: AssemblyPoint, point: AssemblyPoint, true: Array, centre: Array, axes: Array, scale_error: float
+    true_point: AssemblyPoint, point: AssemblyPoint, true: Array, centre: Array, axes: Array, truth: TrueScan
 ) -> FeatureError:
     """Errors of one point whose true and found centres are given as (x, y, along) with the camera at the origin."""
-    error = centre - true
+    error = centre - true * (1.0 + truth.scale)
     spoke = true[:2] / max(float(np.linalg.norm(true[:2])), 1e-9)
     u_mm, covered = None, None
     if point.covariance is not None:
-        covariance = axes[:2] @ point.covariance @ axes[:2].T + scale_error**2 * np.outer(true[:2], true[:2])
+        scale = truth.camera.scale_error * true[:2]
+        covariance = axes[:2] @ point.covariance @ axes[:2].T + np.outer(scale, scale)
         u_mm = math.sqrt(float(np.trace(covariance)) / 2.0)
-        covered = bool(error[:2] @ np.linalg.solve(covariance, error[:2]) <= WITHIN_95)
+        off = (centre - true)[:2]
+        covered = bool(off @ np.linalg.solve(covariance, off) <= WITHIN_95)
     return FeatureError(
         true_point.label,
         (float(error[0]), float(error[1])),
