@@ -13,7 +13,7 @@ import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
-from aadm_workbench.extract.found_point import found_point
+from aadm_workbench.extract.found_points import found_points
 from aadm_workbench.extract.patches import patches_around, with_places
 from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.pooled import Evidence, PooledFit, fit_pooled
@@ -109,9 +109,7 @@ def _measured(
     if len(tops.place) == 0:
         return None
     fit = _fit(tops, diameter_mm / 2, priors)
-    shape_u_mm = _shape_u_mm(tops, fit)
-    points = tuple(_point(tops, fit, k, level, float(shape_u_mm[k])) for k in range(len(tops.place)))
-    return _Bars(tops, fit, points)
+    return _Bars(tops, fit, _points(tops, fit, level))
 
 
 def _fit(tops: Tops, radius_mm: float, priors: Priors) -> PooledFit:
@@ -157,19 +155,22 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
     return Extraction(Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality)
 
 
-def _point(tops: Tops, fit: PooledFit, k: int, level: Plane, shape_u_mm: float) -> AssemblyPoint:
-    x, y = fit.centre[k]
-    normal = tops.normal[k]
-    z = (tops.offset[k] - normal[0] * x - normal[1] * y) / normal[2]
-    return found_point(
+def _points(tops: Tops, fit: PooledFit, level: Plane) -> tuple[AssemblyPoint, ...]:
+    over = np.einsum("ki,ki->k", tops.normal[:, :2], fit.centre)
+    height = (tops.offset - over) / tops.normal[:, 2]
+    shape = _shape_u_mm(tops, fit)[:, None, None] ** 2 * np.eye(2)
+    return found_points(
         Kind.REBAR,
         level,
-        np.array([x + tops.place[k, 0], y + tops.place[k, 1], z]),
-        np.array([-fit.lean[k, 0], -fit.lean[k, 1], 1.0]),
-        fit.covariance[k] + np.eye(2) * shape_u_mm**2,
-        float(tops.residual_mm[k]),
-        2 * float(fit.outline_radius[k]),
-        f"{fit.edge_count[k]} edge and {fit.wall_count[k]} side points",
+        np.column_stack([tops.place + fit.centre, height]),
+        np.column_stack([-fit.lean, np.ones(len(height))]),
+        fit.covariance + shape,
+        tops.residual_mm,
+        2 * fit.outline_radius,
+        [
+            f"{edges} edge and {sides} side points"
+            for edges, sides in zip(fit.edge_count.tolist(), fit.wall_count.tolist(), strict=True)
+        ],
     )
 
 

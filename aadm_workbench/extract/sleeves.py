@@ -12,7 +12,7 @@ import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
-from aadm_workbench.extract.found_point import found_point
+from aadm_workbench.extract.found_points import found_points
 from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouths_in
 from aadm_workbench.extract.patches import patches_around, with_places
@@ -114,7 +114,7 @@ def _measured(mouths: Mouths, face: Plane, diameter_mm: float, pitch_mm: float) 
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
     fit = _fit(mouths, diameter_mm, pitch_mm)
     sound = (np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT) & _are_round(mouths, fit, pitch_mm)
-    points = tuple(_point(mouths, fit, k, face, pitch_mm) for k in np.flatnonzero(sound).tolist())
+    points = tuple(point for point, kept in zip(_points(mouths, fit, face, pitch_mm), sound, strict=True) if kept)
     if not points:
         reason = f"the openings in the face are no round mouths of {diameter_mm:g} mm"
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
@@ -179,15 +179,20 @@ def _tails(mouths: Mouths, state: State, pitch_mm: float) -> Array:
     return np.asarray(_TAIL_TO_KEPT * pitch_mm / np.clip(kept, 0.15, 1.2))[side]
 
 
-def _point(mouths: Mouths, fit: PooledFit, k: int, face: Plane, pitch_mm: float) -> AssemblyPoint:
-    return found_point(
+def _points(mouths: Mouths, fit: PooledFit, face: Plane, pitch_mm: float) -> tuple[AssemblyPoint, ...]:
+    count = len(mouths.place)
+    wear = np.eye(2) * (_WEAR_PITCHES * pitch_mm) ** 2
+    return found_points(
         Kind.SLEEVE,
         face,
-        np.array([*(mouths.place[k] + fit.centre[k]), 0.0]),
+        np.column_stack([mouths.place + fit.centre, np.zeros(count)]),
         # depth runs against the normal: an axis that gains `lean` per mm of depth points into the column
-        np.array([*fit.lean[k], -1.0]),
-        fit.covariance[k] + np.eye(2) * (_WEAR_PITCHES * pitch_mm) ** 2,
-        face.residual_mm,
-        2 * float(fit.radius[k]),
-        f"{fit.wall_count[k]} wall and {fit.edge_count[k]} edge points at {pitch_mm:.2f} mm",
+        np.column_stack([fit.lean, -np.ones(count)]),
+        fit.covariance + wear,
+        np.full(count, face.residual_mm),
+        2 * fit.radius,
+        [
+            f"{walls} wall and {edges} edge points at {pitch_mm:.2f} mm"
+            for walls, edges in zip(fit.wall_count.tolist(), fit.edge_count.tolist(), strict=True)
+        ],
     )

@@ -14,6 +14,7 @@ from aadm_workbench.model import Array, FloatArray, Plane
 _FLOOR_SHARE = 0.2  # of the points: less is no floor
 _ABOVE_FLOOR_MM = 15.0
 _TOP_COUNT_MIN = 20
+_HIGH = 0.9  # of the points of a disc lie lower than its top
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,9 +56,15 @@ def standing_along(sample: Thinned, vertical: Array, radius_mm: float) -> Standi
 
 def _level(points: FloatArray, vertical: Array, centres: Array, radius_mm: float) -> float:
     """Height of the tops: the median over the discs of a high quantile within each."""
-    local = points @ axes_on(Plane(vertical, 0.0)).T
-    inside = [local[np.hypot(*(local[:, :2] - centre).T) < 0.8 * radius_mm, 2] for centre in centres]
-    return float(np.median([np.percentile(heights, 90.0) for heights in inside if len(heights)]))
+    local = points @ axes_on(Plane(vertical, 0.0)).T.astype(points.dtype)
+    x, y, heights = local.T
+    tops = []
+    for centre in centres.astype(points.dtype):
+        inside = heights[(x - centre[0]) ** 2 + (y - centre[1]) ** 2 < (0.8 * radius_mm) ** 2]
+        if len(inside):
+            place = int(_HIGH * (len(inside) - 1))
+            tops.append(np.partition(inside, place)[place])
+    return float(np.median(tops))
 
 
 def _floors(sample: Thinned, viewpoint: Array | None, rng: np.random.Generator) -> list[Plane]:
