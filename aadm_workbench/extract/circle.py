@@ -15,6 +15,7 @@ _SETTLED_MM = 5e-3
 _ROUNDS, _STEPS = 3, 8
 _AGREEING_SHARE, _SOUND_SHARE, _FEWEST = 0.75, 0.3, 12
 _MISFIT_MM = 0.5  # residual at which a point counts half in the first fit
+_ROUND_WITHIN_MM, _ROUND_SHARE = 0.5, 0.5
 _CHORD_POINTS, _CHORD_PARTS = 48, (8, 6, 4)
 
 
@@ -44,18 +45,27 @@ def circles_through(shape: Outlines, centre: Array, radius_mm: float) -> tuple[A
 
 
 def settled_centres(
-    points: PlanPoints, centre: Array, radius_mm: float, bins: int, zone_mm: tuple[float, float], *, innermost: bool
-) -> Array:
-    """First centres (k, 2) of outlines among points, near a guess (k, 2).
+    points: PlanPoints,
+    centre: Array,
+    radius_mm: float,
+    bins: int,
+    zone_mm: tuple[float, float],
+    *,
+    innermost: bool,
+    others_mm: tuple[float, ...] = (),
+) -> tuple[Array, BoolArray]:
+    """First centres (k, 2) of outlines among points, near a guess (k, 2), and which are round with another radius (k,).
 
     ``zone_mm``: an outline is sought between these distances from its centre. Where less than three quarters of
-    it agree with the radius, something spoils a part of it, and the centre is that of the part that agrees.
+    it agree with the radius, something spoils a part of it, and the centre is that of the part that agrees. What is
+    round with a radius that is nearer to one of ``others_mm`` is a feature of another size.
     """
-    moving = np.ones(len(centre), bool)
+    moving, other = np.ones(len(centre), bool), np.zeros(len(centre), bool)
     shape = Outlines(np.zeros((len(centre), bins, 2)), np.zeros((len(centre), bins), bool))
     for _ in range(_ROUNDS):
         shape = _outlined(points, centre, bins, zone_mm, innermost=innermost)
-        moved, _ = circles_through(shape, centre, radius_mm)
+        moved, radius = circles_through(shape, centre, radius_mm)
+        other = _of_another_size(shape, moved, radius, radius_mm, others_mm)
         step = np.hypot(*(moved - centre).T)
         moving &= (step < radius_mm) & (shape.seen.sum(axis=1) >= _FEWEST)
         centre = np.where(moving[:, None], moved, centre)
@@ -65,7 +75,18 @@ def settled_centres(
     spoilt = shown & (agreeing_shares(shape, centre, radius_mm) <= _AGREEING_SHARE)
     if spoilt.any():
         centre = _on_sound_parts(points, shape, centre, radius_mm, zone_mm, spoilt, innermost=innermost)
-    return centre
+    return centre, other
+
+
+def _of_another_size(
+    shape: Outlines, centre: Array, radius: Array, radius_mm: float, others_mm: tuple[float, ...]
+) -> BoolArray:
+    """Which (k,) outlines are those of round things whose radius is nearer to another size than to this one."""
+    if not others_mm:
+        return np.zeros(len(centre), bool)
+    off = np.abs(np.log(np.maximum(radius[:, None], 1e-3) / np.array([radius_mm, *others_mm])))
+    round_ = agreeing_shares(shape, centre, radius, _ROUND_WITHIN_MM) > _ROUND_SHARE
+    return np.asarray((off.argmin(axis=1) > 0) & round_)
 
 
 def agreeing_shares(shape: Outlines, centre: Array, radius_mm: float | Array, within_mm: float = AGREES_MM) -> Array:

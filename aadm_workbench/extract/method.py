@@ -9,7 +9,7 @@ import numpy as np
 
 from aadm_workbench.model import Array, Extraction, Kind, Scan
 
-Recipe: TypeAlias = Callable[[Scan, float, np.random.Generator, Array | None], Extraction]
+Recipe: TypeAlias = Callable[..., Extraction]
 
 
 def _refined(kind: Kind) -> Recipe:
@@ -53,6 +53,7 @@ def extract(
     method: str,
     rng: np.random.Generator,
     places: Array | None = None,
+    others_mm: tuple[float, ...] = (),
 ) -> Extraction:
     """Find the sleeves, or the bars, of one diameter in a scan with the method of a name.
 
@@ -70,6 +71,8 @@ def extract(
         All that is drawn comes from it: the same scan and seed give the same points.
     places
         (k, 3) mm, scan frame: where else to look for a point that the search did not find; ``refined`` alone does.
+    others_mm
+        Diameters of other points in the same scan: ``refined`` leaves out what is nearer to one of these.
 
     Raises
     ------
@@ -80,4 +83,7 @@ def extract(
     """
     if method not in METHODS:
         raise ValueError(f"unknown method {method!r}; write one of: {', '.join(METHODS)}")
-    return METHODS[method](kind)(scan, diameter_mm, rng, places)
+    recipe = METHODS[method](kind)
+    if method == "refined":
+        return recipe(scan, diameter_mm, rng, places, others_mm)
+    return recipe(scan, diameter_mm, rng, places)

@@ -52,18 +52,21 @@ class Mouths:
         return np.asarray(self.wall_seen.sum(axis=1))
 
 
-def mouths_in(patches: Patches, places: Array, radius_mm: float, pitch_mm: float) -> Mouths:
-    """The open mouths among patches around places (k, 2) mm of the face."""
+def mouths_in(
+    patches: Patches, places: Array, radius_mm: float, pitch_mm: float, others_mm: tuple[float, ...] = ()
+) -> Mouths:
+    """The open mouths of a radius among patches around places (k, 2) mm of the face, but for those of other radii."""
     bins = bins_for(radius_mm, pitch_mm)
     near = patches.x * patches.x + patches.y * patches.y < (radius_mm + 2 * REACH_MM) ** 2
     front = near & (patches.height > -_RIM_DEPTH_MM)
     rim = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front & (patches.height < _FACE_BAND_MM)))
     zone_mm = _RIM_ZONE * radius_mm, radius_mm + REACH_MM
-    centre = settled_centres(rim, np.zeros((len(places), 2)), radius_mm, bins, zone_mm, innermost=True)
+    start = np.zeros((len(places), 2))
+    centre, other = settled_centres(rim, start, radius_mm, bins, zone_mm, innermost=True, others_mm=others_mm)
     close = rim.where(np.abs(rim.distance(centre) - radius_mm) < _WALL_BAND_MM + 1.0)
     shape = outlines(close, centre, bins, innermost=True)
     inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front))
-    kept = (shape.coverage >= _COVERAGE_MIN) & ~_closed(inside, centre, radius_mm, pitch_mm)
+    kept = ~other & (shape.coverage >= _COVERAGE_MIN) & ~_closed(inside, centre, radius_mm, pitch_mm)
     bores = _bores(patches, centre, radius_mm, near)
     upper = (bores.depth > _UPPER_WALL_MM[0]) & (bores.depth < _UPPER_WALL_MM[1])
     rims = shape.only(~_shown(bores.points.where(upper), centre, bins))

@@ -49,7 +49,13 @@ class _Bars:
     points: tuple[AssemblyPoint, ...]
 
 
-def extract_rebars(scan: Scan, diameter_mm: float, rng: np.random.Generator, places: Array | None = None) -> Extraction:
+def extract_rebars(
+    scan: Scan,
+    diameter_mm: float,
+    rng: np.random.Generator,
+    places: Array | None = None,
+    others_mm: tuple[float, ...] = (),
+) -> Extraction:
     """Centres of the tops of all bars of one diameter.
 
     Parameters
@@ -62,28 +68,30 @@ def extract_rebars(scan: Scan, diameter_mm: float, rng: np.random.Generator, pla
         Draws the thinned sample and the plane hypotheses.
     places
         (k, 3) mm, scan frame: where else to look for a bar that the search did not find.
+    others_mm
+        Diameters of other bars in the same group: what is nearer to one of these is left out.
     """
-    sample = thinned(scan, _SAMPLE, rng)
+    sample, sizes_mm = thinned(scan, _SAMPLE, rng), (diameter_mm, *others_mm)
     standing = find_standing(sample, diameter_mm / 2, scan.viewpoint, rng)
     if standing is not None and standing.floor is None:
-        standing = _turned_to_the_bars(scan, sample, standing, diameter_mm, rng)
+        standing = _turned_to_the_bars(scan, sample, standing, sizes_mm, rng)
     if standing is None:
         return _nothing(f"the scan shows no upright bar of {diameter_mm:g} mm")
-    bars = _measured(scan, sample, standing, places, diameter_mm, _BAR_PRIORS, rng)
+    bars = _measured(scan, sample, standing, places, sizes_mm, _BAR_PRIORS, rng)
     if bars is None:
         return _nothing(f"no bar of {diameter_mm:g} mm has a top that could be measured")
     return _extraction(bars, standing, diameter_mm)
 
 
 def _turned_to_the_bars(
-    scan: Scan, sample: Thinned, standing: Standing, diameter_mm: float, rng: np.random.Generator
+    scan: Scan, sample: Thinned, standing: Standing, sizes_mm: tuple[float, ...], rng: np.random.Generator
 ) -> Standing | None:
     """Without a floor the vertical is the bars' own: seen along a first guess, it comes from their sides."""
     for _ in range(_TURNS):
-        bars = _measured(scan, sample, standing, None, diameter_mm, _TURNING_PRIORS, rng)
+        bars = _measured(scan, sample, standing, None, sizes_mm, _TURNING_PRIORS, rng)
         if bars is None:
             return standing
-        turned = standing_along(sample, _mean_axis(bars.points), diameter_mm / 2)
+        turned = standing_along(sample, _mean_axis(bars.points), sizes_mm[0] / 2)
         if turned is None:
             return standing
         standing = turned
@@ -95,20 +103,21 @@ def _measured(
     sample: Thinned,
     standing: Standing,
     places: Array | None,
-    diameter_mm: float,
+    sizes_mm: tuple[float, ...],
     priors: Priors,
     rng: np.random.Generator,
 ) -> _Bars | None:
-    """The bars seen along one vertical; None where no top was found."""
+    """The bars of the first of some diameters, seen along one vertical; None where no top was found."""
+    radius_mm, *others_mm = (size / 2 for size in sizes_mm)
     level = Plane(standing.vertical, standing.level_mm)
     centres = standing.centres
     if places is not None and len(places):
-        centres = with_places(centres, in_plane(places, level)[:, :2], diameter_mm / 2)
-    patches = patches_around(scan, sample, level, centres, diameter_mm / 2 + REACH_MM)
-    tops = tops_in(patches, centres, diameter_mm / 2, rng)
+        centres = with_places(centres, in_plane(places, level)[:, :2], radius_mm)
+    patches = patches_around(scan, sample, level, centres, radius_mm + REACH_MM)
+    tops = tops_in(patches, centres, radius_mm, rng, tuple(others_mm))
     if len(tops.place) == 0:
         return None
-    fit = _fit(tops, diameter_mm / 2, priors)
+    fit = _fit(tops, radius_mm, priors)
     return _Bars(tops, fit, _points(tops, fit, level))
 
 

@@ -38,7 +38,11 @@ _RADIUS_MISFIT = 0.08  # relative: a hole this much larger or smaller than nomin
 
 
 def extract_sleeves(
-    scan: Scan, diameter_mm: float, rng: np.random.Generator, places: Array | None = None
+    scan: Scan,
+    diameter_mm: float,
+    rng: np.random.Generator,
+    places: Array | None = None,
+    others_mm: tuple[float, ...] = (),
 ) -> Extraction:
     """Centres of all sleeves of one diameter in the scan of a foot.
 
@@ -52,6 +56,8 @@ def extract_sleeves(
         Draws the thinned sample and the plane hypotheses.
     places
         (k, 3) mm, scan frame: where else to look for a sleeve that the search did not find.
+    others_mm
+        Diameters of other sleeves in the same foot: what is nearer to one of these is left out.
 
     Returns
     -------
@@ -71,7 +77,7 @@ def extract_sleeves(
     if scan.viewpoint is None:
         face, centres = _facing_away_from_walls(face, centres, sample, diameter_mm / 2)
     patches = patches_around(scan, sample, face, centres, diameter_mm / 2 + REACH_MM)
-    mouths = mouths_in(patches, centres, diameter_mm / 2, pitch_mm)
+    mouths = mouths_in(patches, centres, diameter_mm / 2, pitch_mm, tuple(other / 2 for other in others_mm))
     return _measured(mouths, face, diameter_mm, pitch_mm)
 
 

@@ -50,8 +50,10 @@ class Tops:
     side_seen: BoolArray
 
 
-def tops_in(patches: Patches, places: Array, radius_mm: float, rng: np.random.Generator) -> Tops:
-    """The tops of upright bars among patches around places (k, 2) mm."""
+def tops_in(
+    patches: Patches, places: Array, radius_mm: float, rng: np.random.Generator, others_mm: tuple[float, ...] = ()
+) -> Tops:
+    """The tops of upright bars of a radius among patches around places (k, 2) mm, but for those of other radii."""
     planes = top_planes(patches, radius_mm, rng)
     height = planes.height(patches)
     band_mm = np.maximum(_TOP_BAND_SIGMAS * planes.residual_mm, _TOP_BAND_MM).astype(np.float32)[:, None]
@@ -60,9 +62,10 @@ def tops_in(patches: Patches, places: Array, radius_mm: float, rng: np.random.Ge
     bins = bins_for(radius_mm, float(np.median(pitch_mm[planes.found])) if planes.found.any() else radius_mm)
     top = PlanPoints.of(patches.x, patches.y, np.flatnonzero(on_top))
     zone_mm = _OUTLINE_ZONE * radius_mm, radius_mm + _OUTLINE_BEYOND_MM
-    centre = settled_centres(top, np.zeros((len(places), 2)), radius_mm, bins, zone_mm, innermost=False)
+    start = np.zeros((len(places), 2))
+    centre, other = settled_centres(top, start, radius_mm, bins, zone_mm, innermost=False, others_mm=others_mm)
     rims = outlines(top.where(top.distance(centre) < radius_mm + _RIM_BEYOND_MM), centre, bins, innermost=False)
-    kept = planes.found & ~_goes_on(top, centre, radius_mm) & (rims.coverage >= _COVERAGE_MIN)
+    kept = planes.found & ~other & ~_goes_on(top, centre, radius_mm) & (rims.coverage >= _COVERAGE_MIN)
     passed = _passed(patches, planes, height < -band_mm, centre, radius_mm)
     beyond = outlines(passed, centre, bins, innermost=True).only(rims.seen)  # no surface: nothing tells of its edge
     side_xy, side_depth, side_seen = _sides(patches, height, centre, radius_mm, kept)

@@ -121,7 +121,7 @@ def test_outline_takes_the_innermost_of_each_bin() -> None:
 
 def test_centres_settle_beside_their_guess_and_without_points_stay() -> None:
     face = np.vstack([ring((1.2, -0.8), 13 + 0.1 * step, 200) for step in range(20)])
-    settled = settled_centres(plan(face, np.zeros((0, 2))), np.zeros((2, 2)), 13.0, 120, (6.0, 17.0), innermost=True)
+    settled, _ = settled_centres(plan(face, np.zeros((0, 2))), np.zeros((2, 2)), 13.0, 120, (6.0, 17.0), innermost=True)
     assert settled == pytest.approx(np.array([[1.2, -0.8], [0.0, 0.0]]), abs=0.01)
 
 
