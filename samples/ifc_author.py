@@ -71,11 +71,13 @@ class Model:
 
     def axes(self, origin: Point = (0.0, 0.0, 0.0), turn_deg: float = 0.0) -> Any:
         """Axes at a point, turned about z."""
-        x = None
+        z = x = None
         if turn_deg:
             turn = math.radians(turn_deg)
+            # The schema wants both directions or none.
+            z = self.direction(0.0, 0.0, 1.0)
             x = self.direction(round(math.cos(turn), 15), round(math.sin(turn), 15), 0.0)
-        return self.new("IfcAxis2Placement3D", Location=self.point(*origin), RefDirection=x)
+        return self.new("IfcAxis2Placement3D", Location=self.point(*origin), Axis=z, RefDirection=x)
 
     def placement(self, parent: Any, origin: Point = (0.0, 0.0, 0.0), turn_deg: float = 0.0) -> Any:
         """A placement relative to another."""
