@@ -27,6 +27,10 @@ class CameraError(AadmError):
     """Intrinsics are missing or cannot belong to the scan."""
 
 
+class ReportError(AadmError):
+    """A report.json cannot be used: broken, of another schema, or not what the schema describes."""
+
+
 class MissingDependencyError(AadmError):
     """A package that this command needs is not installed; the message holds the command that installs it."""
 

@@ -1,9 +1,9 @@
 #!/bin/sh
 # All checks: sh tests/run.sh [pytest's options, e.g. -k plane]
 #
-# Lint, format, types, tests. Needs FreeCAD, Xvfb and the graphics libraries that open3d loads; root, or sudo without a
-# password, installs them. AADM_SKIP_FREECAD=1 leaves out the tests that need FreeCAD. Writes into this tree, the folder
-# for temporary files and the caches of pip and apt alone.
+# Lint, format, types, tests. Needs FreeCAD, Xvfb, Chromium and the graphics libraries that open3d loads; root, or sudo
+# without a password, installs them. AADM_SKIP_FREECAD=1 and AADM_SKIP_CHROMIUM=1 leave out the tests that need these.
+# Writes into this tree, the folder for temporary files and the caches of pip and apt alone.
 set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P)
 . "$root/batch/setup.sh"
@@ -18,6 +18,9 @@ has_library libEGL.so.1 || missing="$missing libegl1"
 has_library libGL.so.1 || missing="$missing libgl1"
 has_library libusb-1.0.so.0 || missing="$missing libusb-1.0-0"
 has_library libX11.so.6 || missing="$missing libx11-6"
+if [ "${AADM_SKIP_CHROMIUM:-0}" != 1 ]; then
+    has_command chromium || missing="$missing chromium"
+fi
 if [ "${AADM_SKIP_FREECAD:-0}" != 1 ]; then
     has_command freecadcmd || has_command FreeCADCmd || missing="$missing freecad"
     has_command Xvfb || missing="$missing xvfb"

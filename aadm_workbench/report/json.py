@@ -9,8 +9,8 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import fields, is_dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -43,6 +43,9 @@ _RATIOS = {
 _NUMBER = r"\n\s+(?:[-+.\deE]+|null)"
 _BROKEN_VECTOR = re.compile(rf"(?<=\[){_NUMBER}(?:,{_NUMBER})*\n\s+(?=\])")
 
+# Names come from the files of others, and JSON is shown in terminals: these signs steer one, or turn a line around.
+_STEERING = re.compile("[\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]")
+
 Json: TypeAlias = "dict[str, Json] | list[Json] | str | int | float | bool | None"
 
 
@@ -61,7 +64,19 @@ def write_report(report: JobReport, path: Path) -> None:
     AadmError
         Where the file cannot be written.
     """
-    write_atomically(path, encode(report_document(report)))
+    write_atomically(path, _encoded_parts(report))
+
+
+def _encoded_parts(report: JobReport) -> Iterator[bytes]:
+    """The bytes of report.json, column by column: a shipment's document need not fit into memory."""
+    mark = ' "columns": [],\n'
+    before, _, after = _text(report_document(replace(report, columns=()), report.summary())).partition(mark)
+    yield _bytes(before + mark[: -len("],\n")])
+    for number, column in enumerate(report.columns):
+        # As the only item of its list, so that it is indented as it has to be.
+        item = _text({"columns": [_column(column)]})[len('{\n "columns": [') : -len("\n ]\n}\n")]
+        yield _bytes("," * bool(number) + item)
+    yield _bytes(("\n " if report.columns else "") + "],\n" + after)
 
 
 def encode(document: Any) -> bytes:
@@ -72,12 +87,21 @@ def encode(document: Any) -> bytes:
     document
         Mappings, lists, arrays, dataclasses and plain values. Names of keys say the unit, and with it the rounding.
     """
-    text = json.dumps(_plain("", document), ensure_ascii=False, indent=1, allow_nan=False)
-    return (_BROKEN_VECTOR.sub(lambda vector: " ".join(vector[0].split()), text) + "\n").encode(errors="replace")
+    return _bytes(_text(_plain("", document)))
 
 
-def report_document(report: JobReport) -> dict[str, Json]:
-    """A job's report as report.json holds it."""
+def _text(document: Json) -> str:
+    text = json.dumps(document, ensure_ascii=False, indent=1, allow_nan=False)
+    text = _STEERING.sub(lambda sign: f"\\u{ord(sign[0]):04x}", text)
+    return _BROKEN_VECTOR.sub(lambda vector: " ".join(vector[0].split()), text) + "\n"
+
+
+def _bytes(text: str) -> bytes:
+    return text.encode(errors="replace")
+
+
+def report_document(report: JobReport, summary: dict[str, int] | None = None) -> dict[str, Json]:
+    """A job's report as report.json holds it; ``summary`` instead of that of its columns."""
     return {
         "schema": SCHEMA,
         "tool": _plain("", report.tool),
@@ -85,7 +109,7 @@ def report_document(report: JobReport) -> dict[str, Json]:
         "capture": _plain("", report.capture),
         "model": _plain("", report.model),
         "profile": profile_document(report.profile),
-        "summary": _plain("", report.summary()),
+        "summary": _plain("", summary or report.summary()),
         "columns": [_column(column) for column in report.columns],
         "mould_drift": _plain("", report.mould_drift),
     }

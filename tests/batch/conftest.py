@@ -75,7 +75,7 @@ def exact_extraction(monkeypatch: pytest.MonkeyPatch) -> None:
     def extract(
         scan: Scan,
         kind: Kind,
-        diameter_mm: float,
+        diameters_mm: list[float],
         method: str,
         rng: np.random.Generator,
         places: Array | None = None,
@@ -83,8 +83,8 @@ def exact_extraction(monkeypatch: pytest.MonkeyPatch) -> None:
         up = np.array([0.0, 0.0, 1.0])
         points = tuple(
             AssemblyPoint("", kind, np.array([*xy, 0.0]), up, diameter_mm, 0.01**2 * np.eye(3))
-            for xy in CENTRES + offsets_mm(scan.source, kind)
+            for xy, diameter_mm in zip(CENTRES + offsets_mm(scan.source, kind), diameters_mm, strict=True)
         )
         return Extraction(kind, method, points, None, up, "exact", quality={"points": len(scan.points)})
 
-    monkeypatch.setattr(check, "extract", extract)
+    monkeypatch.setattr(check, "extract_sizes", extract)

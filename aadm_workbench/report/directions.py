@@ -1,0 +1,220 @@
+"""Directions in a worker's words: towards grid axis D, towards the top of the plan, towards the side of bars R4 to R7.
+
+A vector of the column frame is told in the best words that the report allows: grid axes where the columns of the report
+show how they run, else the directions of the plan where the model places the column, else the sides of the column,
+named by the bars that stand there.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+from aadm_workbench.report.read import Report
+from aadm_workbench.report.sketch import Point
+from aadm_workbench.report.sketch_plan import grid_tags, place_mm
+from aadm_workbench.report.words import Phrase
+
+SMALLEST_MM = 0.05
+"""A component below this is left out: it would print as 0.0 mm."""
+
+_PARALLEL_SINE = 0.5
+_AGREEING = 0.95
+_SNAP_DEG = 6.0
+_TAG = re.compile(r"(\d+)|(\D+)")
+
+
+class Heading(NamedTuple):
+    """A direction (2,) unit in the column frame, and what people call the way along it and against it."""
+
+    unit: Point
+    along: Phrase
+    against: Phrase
+
+
+@dataclass(frozen=True)
+class Compass:
+    """Two directions that any vector of the column frame is told in.
+
+    Parameters
+    ----------
+    headings
+        Not parallel.
+    turn_deg
+        By how much the column frame is turned against the plan, counter-clockwise; 0 where that is not known.
+    placed
+        Whether the model says how the column stands in the plan.
+    """
+
+    headings: tuple[Heading, Heading]
+    turn_deg: float
+    placed: bool
+
+    def parts(self, vector_mm: Sequence[float]) -> list[tuple[float, Phrase]]:
+        """How far to go, mm, each time in a direction; the parts add up to the vector."""
+        (ax, ay), (bx, by) = self.headings[0].unit, self.headings[1].unit
+        x, y = vector_mm
+        determinant = ax * by - ay * bx
+        shares = ((x * by - y * bx) / determinant, (ax * y - ay * x) / determinant)
+        return [
+            (abs(share), heading.along if share > 0.0 else heading.against)
+            for share, heading in zip(shares, self.headings, strict=True)
+            if abs(share) >= SMALLEST_MM
+        ]
+
+    def in_words(self, vector_mm: Sequence[float]) -> Phrase:
+        """``3.8 mm towards grid 4 and 3.2 mm towards grid E``; empty where nothing is left to move."""
+        parts = self.parts(vector_mm)
+        return Phrase(
+            " and ".join(f"{length:.1f} mm {way.en}" for length, way in parts),
+            ",".join(f"{way.zh} {length:.1f} mm" for length, way in parts),
+        )
+
+
+def compass_of(report: Report, column: dict[str, Any]) -> Compass:
+    """How directions at a column are called."""
+    if column["T_model_column"] is None:
+        return Compass(_by_sides(column), 0.0, placed=False)
+    T = column["T_model_column"]
+    turn = math.atan2(T[1][0], T[0][0])
+    families = _grid_headings(report, column)
+    plan = (
+        Heading((1.0, 0.0), _plan("right", "右"), _plan("left", "左")),
+        Heading((0.0, 1.0), _plan("top", "上"), _plan("bottom", "下")),
+    )
+    chosen = _two(families, plan)
+    first, second = (heading._replace(unit=_turned(heading.unit, -turn)) for heading in chosen)
+    return Compass((first, second), math.degrees(turn), placed=True)
+
+
+def _two(families: list[Heading], plan: tuple[Heading, Heading]) -> tuple[Heading, Heading]:
+    """The grid's directions, filled up with the direction of the plan that is least parallel to them."""
+    if len(families) >= 2:
+        return families[0], families[1]
+    if not families:
+        return plan
+    across = min(plan, key=lambda heading: abs(_dot(heading.unit, families[0].unit)))
+    return families[0], across
+
+
+def _plan(en: str, zh: str) -> Phrase:
+    return Phrase(f"towards the {en} of the plan", f"向平面图{zh}方")
+
+
+def _grid_headings(report: Report, column: dict[str, Any]) -> list[Heading]:
+    """For letters and for numbers of the grid, the direction in which they count up, model frame."""
+    own = grid_tags(column)
+    if len(own) != 2:
+        return []
+    crossings = {
+        tags: place_mm(other)
+        for other in report["columns"]
+        if other["T_model_column"] is not None and len(tags := grid_tags(other)) == 2
+    }
+    found: list[Heading] = []
+    for family in (0, 1):
+        unit = _counting_up(crossings, family)
+        if unit is None or any(abs(_cross(unit, other.unit)) < _PARALLEL_SINE for other in found):
+            continue
+        known = sorted({tags[family] for tags in crossings}, key=_order)
+        after = next((tag for tag in known if _order(tag) > _order(own[family])), None)
+        before = next((tag for tag in reversed(known) if _order(tag) < _order(own[family])), None)
+        unit = _snapped(unit, column["T_model_column"])
+        found.append(Heading(unit, _towards(after, before), _towards(before, after)))
+    return found
+
+
+def _counting_up(crossings: dict[tuple[str, ...], Point], family: int) -> Point | None:
+    """Mean direction from a crossing to the next of the same other axis; None where there is none, or they differ."""
+    lines: dict[str, list[tuple[str, Point]]] = defaultdict(list)
+    for tags, place in crossings.items():
+        lines[tags[1 - family]].append((tags[family], place))
+    units = []
+    for line in lines.values():
+        line.sort(key=lambda item: _order(item[0]))
+        for (_, start), (_, end) in pairwise(line):
+            length = math.hypot(end[0] - start[0], end[1] - start[1])
+            if length > 1.0:
+                units.append(((end[0] - start[0]) / length, (end[1] - start[1]) / length))
+    if not units:
+        return None
+    x, y = sum(unit[0] for unit in units), sum(unit[1] for unit in units)
+    length = math.hypot(x, y)
+    return (x / length, y / length) if length > _AGREEING * len(units) else None
+
+
+def _snapped(unit: Point, T: Sequence[Sequence[float]]) -> Point:
+    """The side of the column that a direction runs along, where it does: columns stand beside their axes, too."""
+    sides = [(sign * T[0][k], sign * T[1][k]) for k in (0, 1) for sign in (1.0, -1.0)]
+    nearest = max(sides, key=lambda side: _dot(side, unit))
+    return nearest if _dot(nearest, unit) > math.cos(math.radians(_SNAP_DEG)) else unit
+
+
+def _towards(ahead: str | None, behind: str | None) -> Phrase:
+    """Grid axes are named; beyond the last one only the way back has a name."""
+    if ahead is not None:
+        return Phrase(f"towards grid {ahead}", f"向 {ahead} 轴")
+    return Phrase(f"away from grid {behind}", f"远离 {behind} 轴")
+
+
+def _by_sides(column: dict[str, Any]) -> tuple[Heading, Heading]:
+    """The sides of the column, named by the bars that stand there."""
+    points: list[dict[str, Any]] = next((column[kind]["points"] for kind in ("rebars", "sleeves") if column[kind]), [])
+    names = {
+        side: side_name(points, unit)
+        for side, unit in (("+x", (1.0, 0.0)), ("-x", (-1.0, 0.0)), ("+y", (0.0, 1.0)), ("-y", (0.0, -1.0)))
+    }
+    return Heading((1.0, 0.0), names["+x"], names["-x"]), Heading((0.0, 1.0), names["+y"], names["-y"])
+
+
+_SKETCH = {
+    (1.0, 0.0): Phrase("right in the sketch", "图中右侧"),
+    (-1.0, 0.0): Phrase("left in the sketch", "图中左侧"),
+    (0.0, 1.0): Phrase("top of the sketch", "图中上方"),
+    (0.0, -1.0): Phrase("bottom of the sketch", "图中下方"),
+}
+
+
+def side_name(points: Sequence[dict[str, Any]], unit: Point) -> Phrase:
+    """``towards the side of R4 to R7 (right in the sketch)``."""
+    where = _SKETCH[unit]
+    ends = side_labels(points, unit)
+    if ends is None:
+        return Phrase(f"towards the {where.en}", f"向{where.zh}")
+    first, last = ends
+    return Phrase(f"towards the side of {first} to {last} ({where.en})", f"向 {first} 至 {last} 一侧({where.zh})")
+
+
+def side_labels(points: Sequence[dict[str, Any]], unit: Point) -> tuple[str, str] | None:
+    """First and last label of the points on one side of the pattern, as they stand in the row; None below two."""
+    if not points:
+        return None
+    reach = [_dot((point["design_mm"][0], point["design_mm"][1]), unit) for point in points]
+    span = max(reach) - min(reach)
+    row = [point for point, value in zip(points, reach, strict=True) if value > max(reach) - 0.05 * span - 1.0]
+    along = (-unit[1], unit[0])
+    row.sort(key=lambda point: _dot((point["design_mm"][0], point["design_mm"][1]), along))
+    return (row[0]["label"], row[-1]["label"]) if len(row) > 1 else None
+
+
+def _order(tag: str) -> tuple[tuple[int, int, str], ...]:
+    """1, 2, 10, A, B, AA: as people count."""
+    return tuple((int(digits or -1), len(rest), rest) for digits, rest in _TAG.findall(tag))
+
+
+def _turned(vector: Point, angle: float) -> Point:
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return cosine * vector[0] - sine * vector[1], sine * vector[0] + cosine * vector[1]
+
+
+def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return float(a[0] * b[0] + a[1] * b[1])
+
+
+def _cross(a: Point, b: Point) -> float:
+    return a[0] * b[1] - a[1] * b[0]

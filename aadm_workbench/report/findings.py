@@ -1,0 +1,46 @@
+"""What a report says of each column, worst first, and of its reasons the decisive ones first."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from aadm_workbench.report.hoist import Hoist, hoist_of, worst_first
+from aadm_workbench.report.read import Report
+from aadm_workbench.report.words import Phrase
+from aadm_workbench.report.words_reasons import in_both_languages
+
+_SHOWN = 2
+
+
+@dataclass(frozen=True)
+class Finding:
+    """A column, the name of its place in the document, whether it may be hoisted, and its decisive reasons."""
+
+    column: dict[str, Any]
+    anchor: str
+    hoist: Hoist
+    key_reasons: tuple[Phrase, ...]
+    more: int
+
+
+def findings(report: Report) -> list[Finding]:
+    """One for each column, the worst first."""
+    found = []
+    for number, column in enumerate(worst_first(report), start=1):
+        reasons = _decisive(column)
+        shown = tuple(in_both_languages(text) for text in reasons[:_SHOWN])
+        found.append(Finding(column, f"column-{number}", hoist_of(column), shown, max(0, len(reasons) - _SHOWN)))
+    return found
+
+
+def _decisive(column: dict[str, Any]) -> list[str]:
+    """The column's reasons; those of the trial first where it is the trial that fails."""
+    reasons: list[str] = list(column["reasons"])
+    # "not measured: S7" of the trial says less than "S7 not measured: the mouth is plugged" of the foot.
+    if any(" not measured: " in reason for reason in reasons):
+        reasons = [reason for reason in reasons if not reason.startswith("not measured: ")]
+    if column["goes_on"] == "fail":
+        of_trial = set((column["trial_assembly"] or {}).get("reasons", ()))
+        reasons.sort(key=lambda reason: reason not in of_trial)
+    return reasons

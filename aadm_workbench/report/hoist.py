@@ -1,0 +1,63 @@
+"""May this column be hoisted: the one question that a report is opened for.
+
+A column may be hoisted where everything that was asked for passed and its trial assembly says that it goes on. A pass
+without a trial (sleeves checked in the yard, before the bars exist) is not cleared yet. All else must not be hoisted.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+from aadm_workbench.report.read import Report
+from aadm_workbench.report.words import Phrase, phrase
+from aadm_workbench.report.words_reasons import in_both_languages
+
+HoistState: TypeAlias = Literal["no", "not_yet", "yes"]
+
+_WORST_FIRST = ("error", "fail", "not_measured", "inconclusive", "pass")
+
+
+@dataclass(frozen=True)
+class Hoist:
+    """Whether a column may be hoisted, its cause in a few words, and the sentences of the check behind it."""
+
+    state: HoistState
+    cause: Phrase
+    reasons: tuple[Phrase, ...]
+
+
+def hoist_of(column: dict[str, Any]) -> Hoist:
+    """Whether one column of a report may be hoisted."""
+    state, cause = _state(column["verdict"], column["goes_on"])
+    return Hoist(state, phrase(f"cause.{cause}"), tuple(in_both_languages(text) for text in column["reasons"]))
+
+
+def _state(verdict: str, goes_on: str) -> tuple[HoistState, str]:
+    if verdict == "pass":
+        return ("yes", "all_good") if goes_on == "pass" else ("not_yet", "no_trial")
+    if verdict == "fail":
+        return "no", "goes_not_on" if goes_on == "fail" else "out_of_tolerance"
+    return "no", {"error": "not_checked", "not_measured": "not_seen"}.get(verdict, "undecided")
+
+
+def worst_first(report: Report) -> list[dict[str, Any]]:
+    """Columns by verdict, the worst first; what does not go on before what does; those alike in the job's order."""
+    return sorted(report["columns"], key=lambda column: (_rank(column["verdict"]), column["goes_on"] != "fail"))
+
+
+def in_state(report: Report, state: HoistState) -> list[dict[str, Any]]:
+    """The columns of a report that may (not) be hoisted, the worst first."""
+    return [column for column in worst_first(report) if hoist_of(column).state == state]
+
+
+def _rank(verdict: str) -> int:
+    # What passes without a trial stands before what may be hoisted only by its goes_on; the verdict alone ranks here.
+    return _WORST_FIRST.index(verdict)
+
+
+def headline(report: Report) -> Phrase:
+    """``4 of 8 columns must not be hoisted``."""
+    number, total = len(in_state(report, "no")), len(report["columns"])
+    name = {0: "none_forbidden", 1: "one_forbidden"}.get(number, "forbidden")
+    return phrase(f"headline.{name}").filled(number=number, total=total)

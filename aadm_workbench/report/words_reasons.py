@@ -1,0 +1,107 @@
+"""The sentences of a check in Chinese.
+
+report.json says in English why something is no pass. Each fragment that a sentence is made of has its Chinese; what is
+not known stays as it is, so that nothing is lost.
+"""
+
+from __future__ import annotations
+
+import re
+
+from aadm_workbench.report.words import Phrase
+
+_NUMBER = r"[-+±]?[\d.]+"
+_LABEL = r"[SR]\d+"
+
+# Longer fragments stand before those that they contain.
+_FRAGMENTS: tuple[tuple[str, str], ...] = (
+    (rf"({_LABEL}) is ({_NUMBER}) mm from the centre of ({_LABEL})", r"\1 距 \3 中心 \2 mm"),
+    (rf"({_LABEL}) is ({_NUMBER}) mm from its place in the building", r"\1 偏离建筑中的应有位置 \2 mm"),
+    (rf"({_LABEL}) is ({_NUMBER}) mm from design", r"\1 偏离设计位置 \2 mm"),
+    (rf"({_LABEL}) then is ({_NUMBER}) mm from design", r"处理后 \1 偏离设计位置 \2 mm"),
+    (rf"({_LABEL})–({_LABEL}) are spaced ({_NUMBER}) mm from design", r"\1–\2 间距与设计相差 \3 mm"),
+    (rf"({_LABEL}) sticks out ({_NUMBER}) mm, ({_NUMBER}) mm from design", r"\1 外露 \2 mm,与设计相差 \3 mm"),
+    (
+        rf"({_LABEL}) collides with ({_LABEL}): ({_NUMBER}) mm of room are missing over the ribs",
+        r"\1 与 \2 碰撞:肋外净空差 \3 mm",
+    ),
+    (
+        rf"({_LABEL}) is ({_NUMBER}) mm off the place that the other sleeves give it, ({_LABEL}) is not",
+        r"\1 偏离其余套筒给出的位置 \2 mm,\3 未偏离",
+    ),
+    (
+        rf": too close to it for an uncertainty of ({_NUMBER}) mm, rescan closer",
+        r":不确定度 \1 mm,过于接近限值,请靠近重新扫描",
+    ),
+    (rf": too close to it for an uncertainty of ({_NUMBER}) mm", r":不确定度 \1 mm,过于接近限值"),
+    (
+        r", too close to the limit for the uncertainty: rescan closer",
+        ",不确定度下过于接近限值,请靠近重新扫描",
+    ),
+    (rf"the probability that a pose exists is ({_NUMBER}) %", r"可就位概率 \1 %"),
+    (r"no pose brings every rebar into its sleeve", "不存在使全部钢筋进入套筒的位置"),
+    (rf"largest distance ({_NUMBER}) mm", r"最大中心距 \1 mm"),
+    (rf", limit ({_NUMBER}) mm", r",限值 \1 mm"),
+    (rf", limit ({_NUMBER} … {_NUMBER}) mm", r",限值 \1 mm"),
+    (rf"({_LABEL}) not measured: ", r"\1 未测到:"),
+    (rf"not measured: ((?:{_LABEL}(?:, )?)+)", r"未测到:\1"),
+    (r"no opening: the mouth is plugged or covered", "没有开口:套筒口被堵塞或遮盖"),
+    (r"too little of the mouth's rim is seen to measure it", "套筒口边缘可见部分太少,无法测量"),
+    (r"outside of what the scan shows of the foot", "在扫描到的柱底范围之外"),
+    (r"outside of what the scan shows", "在扫描范围之外"),
+    (r"no bar stands there, or it is hidden from the camera", "该处没有钢筋,或被遮挡"),
+    (r"its top could not be measured: too little of its outline is seen", "钢筋顶面轮廓可见部分太少,无法测量"),
+    (
+        r"the verdict depends on how the column is turned, which the scan does not show",
+        "结论取决于柱的转位,扫描中看不出",
+    ),
+    (r"the pattern fits in (\d+) turns", r"布置在 \1 种转位下都吻合"),
+    (r"declare up to settle which", "请在任务中指定 up"),
+    (r"in the first of these turns: ", "按第一种转位:"),
+    (r"the pattern contradicts the declared up of ", "布置与指定的 up 矛盾:"),
+    (r"absolute position not checked: the job gives no control points", "未检查绝对位置:任务没有控制点"),
+    (r"absolute position not checked", "未检查绝对位置"),
+    (r"the design gives no exposed length", "设计没有给出外露长度"),
+    (r"the scan does not show the floor", "扫描中看不到楼面"),
+    (r"the job names no scan of its sleeves or rebars", "任务没有给出套筒或钢筋的扫描文件"),
+    (r"ends or breaks off within its header", "文件在文件头中断"),
+    (r"breaks off", "文件不完整"),
+    (r"; copy it again", ";请重新拷贝"),
+    (r"diameter over the ribs after ", "肋外径取自 "),
+    (r"in none of the (\d+) views", r"\1 个视角中都未见"),
+    (r"neither a limit of the distance nor the room over the ribs is known", "既无中心距限值,也不知肋外净空"),
+    (r"bend (R\d+) by \((\S+), (\S+)\) mm", r"将 \1 弯移 (\2, \3) mm"),
+    (r"subject to the engineer's release: ", "须经工程师批准:"),
+    (r" and set it upright", ",并扶直"),
+    (rf"\. Then the largest distance is ({_NUMBER}) mm", r"。处理后最大中心距 \1 mm"),
+    (r"reject the position of (S\d+): ", r"不接受 \1 的位置:"),
+    (r"rescan closer; if that confirms it, ", "靠近重新扫描;若结果相同,"),
+    (
+        r"rescan closer: at the measured values the column goes in, no bar has to be bent",
+        "靠近重新扫描:按实测值可以就位,无需弯筋",
+    ),
+    (
+        r"no bend can be advised; a disposal plan \(特殊处理方案\) agreed with the designer is needed",
+        "不能建议弯筋;须与设计单位商定特殊处理方案",
+    ),
+    (r"a disposal plan \(特殊处理方案\) agreed with the designer is needed", "须与设计单位商定特殊处理方案"),
+    (r"no set of bars was found whose bending would let the column in: ", "没有找到弯筋后可就位的方案:"),
+    (r", unverified", ",未核对"),
+    (r"displaced alike in (\d+) columns: ", r"\1 根柱中一致偏移:"),
+    (rf"(S\d+) by \(({_NUMBER}), ({_NUMBER})\) mm", r"\1 偏移 (\2, \3) mm"),
+    (r"; look at the mould", ";请检查模具"),
+    (r"no sleeve is displaced alike in these (\d+) columns", r"这 \1 根柱中没有一致偏移的套筒"),
+    (r"\. scatters more than the others: ", "。离散大于其他套筒:"),
+    (r"; look at its fixing", ";请检查其固定"),
+    (rf"\(scatter ({_NUMBER}) mm per axis\)", r"(每轴离散 \1 mm)"),
+    (r"not found in the scan", "扫描中未找到"),
+)
+_COMPILED = [(re.compile(pattern), chinese) for pattern, chinese in _FRAGMENTS]
+
+
+def in_both_languages(sentence: str) -> Phrase:
+    """A sentence of report.json, and its Chinese as far as its fragments are known."""
+    chinese = sentence
+    for pattern, replacement in _COMPILED:
+        chinese = pattern.sub(replacement, chinese)
+    return Phrase(sentence, chinese)

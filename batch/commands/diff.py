@@ -1,0 +1,141 @@
+"""Say what changed between two inspections: A.json is the earlier report, B.json the later one.
+
+Lists columns that are new or missing, verdicts that changed, and sleeves and bars that moved: those whose offset from
+design differs by more than 2.45 times the standard uncertainty of the difference, which 95 % of the points that did not
+move stay within.
+
+Exit codes: 0 nothing changed, 11 something changed and no column is worse than before, 10 some column is worse.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..exit_codes import ALL_PASS, FAILS, UNDECIDED
+from ..switches import add_switches
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from aadm_workbench.report.changes import Changes, ColumnChange, PointChange
+
+SUMMARY = "say what changed between two inspections"
+EXAMPLE = """\
+examples:
+  aadm diff monday/report.json tuesday/report.json
+  aadm diff before-repair/report.json after-repair/report.json --json > changes.json"""
+
+NO_CHANGE, CHANGED, WORSE = ALL_PASS, UNDECIDED, FAILS
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("before", type=Path, metavar="A.json", help="report.json of the earlier check")
+    parser.add_argument("after", type=Path, metavar="B.json", help="report.json of the later check")
+    add_switches(parser, prints_json="the changes")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Compare two reports."""
+    from aadm_workbench.report.changes import compare_reports
+    from aadm_workbench.report.read import read_report
+
+    from ..terminal import show, show_json
+
+    changes = compare_reports(read_report(options.before), read_report(options.after))
+    if options.json:
+        from aadm_workbench.report.json import encode
+
+        show_json(encode(_document(changes)))
+    elif not options.quiet:
+        show(*_parts(changes))
+    if changes.any_worse:
+        return WORSE
+    return CHANGED if changes.any_change else NO_CHANGE
+
+
+def _document(changes: Changes) -> dict[str, Any]:
+    """The changes as --json prints them."""
+    document = asdict(changes)
+    for entry, change in zip(document["changed"], changes.changed, strict=True):
+        entry["trend"] = change.trend
+    return document | {"any_change": changes.any_change, "any_worse": changes.any_worse}
+
+
+def _parts(changes: Changes) -> Iterator[Table | str]:
+    """Tables and lines for people."""
+    if changes.changed:
+        yield _columns(changes)
+        points = [(change, point) for change in changes.changed for point in change.points]
+        if points:
+            yield _points(points)
+    if changes.new:
+        yield f"New: {', '.join(changes.new)}"
+    if changes.missing:
+        yield f"Missing: {', '.join(changes.missing)}"
+    yield from (f"Note: {text}" for text in changes.inputs)
+    total = len(changes.changed) + len(changes.unchanged)
+    counted = {trend: sum(change.trend == trend for change in changes.changed) for trend in ("worse", "better")}
+    if not changes.any_change:
+        yield f"Nothing changed in {total} columns."
+        return
+    yield (
+        f"{total} columns compared: {counted['worse']} worse, {counted['better']} better, "
+        f"{len(changes.changed) - sum(counted.values())} with moved points alone, {len(changes.unchanged)} unchanged"
+    )
+
+
+def _columns(changes: Changes) -> Table:
+    from rich.text import Text
+
+    from ..terminal import new_table
+
+    table = new_table("Column", "Trend", "Verdict", "Goes on", "Largest distance", "New reason")
+    for change in changes.changed:
+        table.add_row(
+            Text(change.id),
+            change.trend,
+            _step(change.from_verdict, change.to_verdict),
+            _step(change.from_goes_on, change.to_goes_on),
+            _distances(change),
+            Text(change.new_reasons[0] if change.new_reasons and change.trend == "worse" else ""),
+        )
+    return table
+
+
+def _points(points: list[tuple[ColumnChange, PointChange]]) -> Table:
+    from rich.text import Text
+
+    from ..terminal import new_table
+
+    table = new_table("Column", "Point", "From", "To", "Moved", "u", "Verdict", numbers=("From", "To", "Moved", "u"))
+    for change, point in points:
+        table.add_row(
+            Text(change.id),
+            point.label,
+            _offset(point.from_mm),
+            _offset(point.to_mm),
+            "" if point.moved_mm is None else f"{point.moved_mm:.2f} mm",
+            "" if point.u_mm is None else f"{point.u_mm:.2f} mm",
+            _step(point.from_verdict, point.to_verdict),
+        )
+    return table
+
+
+def _step(before: str, after: str) -> str:
+    said = [word.replace("_", " ") for word in (before, after)]
+    return said[0] if before == after else f"{said[0]} → {said[1]}"
+
+
+def _distances(change: ColumnChange) -> str:
+    said = ["–" if value is None else f"{value:.2f} mm" for value in (change.from_largest_mm, change.to_largest_mm)]
+    return "" if said[0] == said[1] == "–" else f"{said[0]} → {said[1]}"
+
+
+def _offset(vector: tuple[float, float] | None) -> str:
+    return "–" if vector is None else f"({vector[0]:+.2f}, {vector[1]:+.2f})"

@@ -1,0 +1,129 @@
+"""Make reports from the report.json of a check, at any later time.
+
+Writes into the folder of report.json unless --out says otherwise; without a format, report.html. A report.bcf that is
+there already is updated: its topics keep their ids, and those of columns that now pass are closed. Scan cards can also
+be made from a job, before anything is scanned: aadm report floor3.toml --scan-card
+
+The exit code is 0 when the files are written, whatever the verdicts are.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..exit_codes import ALL_PASS
+from ..report_files import add_format_switches, chosen_formats, require_packages
+from ..switches import add_switches
+
+if TYPE_CHECKING:
+    from aadm_workbench.report.read import Report
+
+SUMMARY = "make HTML, PDF, XLSX, CSV, BCF, crew pages and scan cards from a report"
+EXAMPLE = """\
+examples:
+  aadm report floor3-report/report.json --html --pdf --xlsx
+  aadm report floor3-report/report.json --crew --only C-302 C-307 --out for-the-crew
+  aadm report floor3-report/report.json --html --pdf --language zh
+  aadm report floor3.toml --scan-card"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.usage = (
+        "aadm report REPORT.json [--out DIR] [--html] [--pdf] [--xlsx] [--csv] [--bcf] [--bcf-pairs]\n"
+        "                   [--crew] [--scan-card] [--fcstd]\n"
+        "                   [--language en|zh] [--only ID ...] [--json] [--quiet]\n"
+        "       aadm report JOB.toml --scan-card [--out DIR] [--only ID ...]"
+    )
+    parser.add_argument("report", type=Path, metavar="REPORT.json", help="the report of a check, or a job (JOB.toml)")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder of the files (default: that of REPORT.json)")
+    add_format_switches(parser)
+    parser.add_argument("--only", nargs="+", action="extend", default=[], metavar="ID", help="these columns only")
+    add_switches(parser, prints_json="which files were written")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Write the reports that were asked for."""
+    is_job = options.report.suffix.lower() == ".toml"
+    files = _cards_of_job(options) if is_job else _reports(options)
+    _say(files, options)
+    return ALL_PASS
+
+
+def _reports(options: argparse.Namespace) -> dict[str, Path]:
+    from aadm_workbench.report.read import read_report
+
+    from ..report_files import write_reports
+
+    formats = chosen_formats(options) or ("html",)
+    require_packages(formats)
+    report = only_columns(read_report(options.report), options.only, options.report)
+    return write_reports(report, formats, _folder(options, options.report.parent), options.language)
+
+
+def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
+    """Scan cards of columns that were not scanned yet: all that a job alone can give."""
+    from aadm_workbench.errors import JobError
+
+    from ..job_cards import job_cards
+    from ..job_file import read_job
+    from ..report_files import FORMATS
+
+    if chosen_formats(options) != ("scan_card",):
+        raise JobError(
+            f"{options.report}: of a job only --scan-card can be made; check it first (aadm check {options.report}), "
+            "then name its report.json"
+        )
+    require_packages(("scan_card",))
+    from aadm_workbench.report.scan_card_page import write_scan_cards
+
+    job = read_job(options.report)
+    path = _folder(options, options.report.parent) / FORMATS["scan_card"][0]
+    write_scan_cards(job_cards(job, tuple(options.only)), path, options.language or "zh", title=job.name)
+    return {"scan_card": path}
+
+
+def only_columns(report: Report, ids: list[str], source: Path) -> Report:
+    """A report of some of its columns alone; all of them where none is named.
+
+    Raises
+    ------
+    ReportError
+        Where it has no such column.
+    """
+    from aadm_workbench.errors import ReportError
+
+    from ..job_table import did_you_mean
+
+    known = [column["id"] for column in report["columns"]]
+    for name in ids:
+        if name not in known:
+            raise ReportError(f'{source} has no column "{name}" (--only); {did_you_mean(name, known)}')
+    kept = [column for column in report["columns"] if not ids or column["id"] in ids]
+    counted = {verdict: sum(column["verdict"] == verdict for column in kept) for verdict in report["summary"]}
+    return report | {"columns": kept, "summary": counted}
+
+
+def _folder(options: argparse.Namespace, otherwise: Path) -> Path:
+    from aadm_workbench.errors import ReportError
+
+    folder: Path = options.out or otherwise
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ReportError(f"{folder}: the folder for the reports cannot be made ({error.strerror})") from error
+    return folder
+
+
+def _say(files: dict[str, Path], options: argparse.Namespace) -> None:
+    from ..terminal import show, show_json
+
+    if options.json:
+        from aadm_workbench.report.json import encode
+
+        show_json(encode({"files": {name: str(path) for name, path in files.items()}}))
+    elif not options.quiet:
+        show(*(f"Written: {path}" for path in files.values()))

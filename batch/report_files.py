@@ -1,0 +1,130 @@
+"""Which reports can be made from report.json, and how: what ``aadm report`` and ``aadm check`` have in common."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from aadm_workbench.report.read import Report
+
+FORMATS = {
+    "html": ("report.html", "one page to read in a browser, offline; prints well"),
+    "pdf": ("report.pdf", "the same on A4, to sign and to file"),
+    "xlsx": ("report.xlsx", "a workbook with a sheet for each question"),
+    "csv": ("report.csv", "all values with their limits, a line each"),
+    "bcf": ("report.bcf", "a BCF 2.1 topic for each column that is not a pass"),
+    "bcf_pairs": ("report-pairs.bcf", "the same with a topic for each pair of sleeve and bar"),
+    "crew": ("crew.pdf", "a page for the crew for each column: what to do"),
+    "scan_card": ("scan-card.pdf", "a card for each column: how to scan it"),
+    "fcstd": ("report.FCStd", "a FreeCAD document with the results on the columns"),
+}
+"""By the name of their switch: file, and what it is."""
+
+_PACKAGES = {
+    "html": ("jinja2", "fontTools"),
+    "pdf": ("reportlab",),
+    "xlsx": ("xlsxwriter",),
+    "crew": ("reportlab",),
+    "scan_card": ("reportlab",),
+}
+_NAMES = {"fontTools": "fonttools"}
+
+
+def add_format_switches(parser: argparse.ArgumentParser, *, also: str = "") -> None:
+    """``--html`` to ``--scan-card``, and the language; ``also`` begins what is said of each."""
+    for name, (file, what) in FORMATS.items():
+        switch = f"--{name.replace('_', '-')}"
+        parser.add_argument(switch, action="store_true", help=f"{also}DIR/{file}: {what}")
+    parser.add_argument(
+        "--language",
+        choices=("en", "zh"),
+        metavar="LANGUAGE",
+        help="en or zh: language of the reports (default: en; crew pages and scan cards have both, Chinese first)",
+    )
+
+
+def chosen_formats(options: argparse.Namespace) -> tuple[str, ...]:
+    """The formats that were asked for."""
+    return tuple(name for name in FORMATS if getattr(options, name))
+
+
+def require_packages(formats: Sequence[str]) -> None:
+    """Make sure that what the formats need is installed, before a night's work and not after it.
+
+    Raises
+    ------
+    MissingDependencyError
+        Naming the first package that is missing.
+    """
+    from aadm_workbench.errors import MissingDependencyError
+
+    for name in formats:
+        for package in _PACKAGES.get(name, ()):
+            if find_spec(package) is None:
+                shown = _NAMES.get(package, package)
+                raise MissingDependencyError(shown, FORMATS[name][0], "pip install 'aadm-workbench[reports]'")
+
+
+def write_reports(
+    report: Report, formats: Sequence[str], folder: Path, language: Literal["en", "zh"] | None = None
+) -> dict[str, Path]:
+    """Write reports into a folder; the files by the names of their formats.
+
+    Raises
+    ------
+    MissingDependencyError
+        Where a package is missing.
+    AadmError
+        Where a file cannot be written.
+    """
+    files = {name: folder / FORMATS[name][0] for name in formats}
+    for name, path in files.items():
+        _write(name, report, path, language)
+    return files
+
+
+def _write(name: str, report: Report, path: Path, language: Literal["en", "zh"] | None) -> None:
+    """One report; the packages of a format are imported only where it is asked for."""
+    if name == "html":
+        from aadm_workbench.report.html import write_html
+
+        write_html(report, path, language or "en")
+    elif name == "pdf":
+        from aadm_workbench.report.pdf import write_pdf
+
+        write_pdf(report, path, language or "en")
+    elif name == "xlsx":
+        from aadm_workbench.report.xlsx import write_xlsx
+
+        write_xlsx(report, path, language or "en")
+    elif name == "csv":
+        from aadm_workbench.report.csv import write_csv
+
+        write_csv(report, path)
+    elif name == "fcstd":
+        from .fcstd import write_fcstd
+
+        write_fcstd(report, path)
+    elif name in ("bcf", "bcf_pairs"):
+        from aadm_workbench.report.bcf import write_bcf
+
+        per: Literal["column", "pair"] = "pair" if name == "bcf_pairs" else "column"
+        write_bcf(report, path, existing=path if path.exists() else None, per=per)
+    else:
+        _write_pages(name, report, path, language)
+
+
+def _write_pages(name: str, report: Report, path: Path, language: Literal["en", "zh"] | None) -> None:
+    if name == "crew":
+        from aadm_workbench.report.crew_page import write_crew_pages
+
+        write_crew_pages(report, path, language or "zh")
+    else:
+        from aadm_workbench.report.scan_card import scan_cards
+        from aadm_workbench.report.scan_card_page import write_scan_cards
+
+        write_scan_cards(scan_cards(report), path, language or "zh", title=report["job"]["name"])

@@ -1,0 +1,138 @@
+"""``aadm report`` and ``aadm diff``: files where they belong, slips that are named, exit codes as documented."""
+
+import json
+import sys
+import zipfile
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from batch.main import main
+from tests.report.checked_floor import CASES, floor_report
+
+from .conftest import WriteJob, column_text
+
+Output = pytest.CaptureFixture[str]
+SAMPLE = Path(__file__).resolve().parents[2] / "samples" / "floor" / "job.toml"
+FILES = {
+    "--html": "report.html",
+    "--pdf": "report.pdf",
+    "--xlsx": "report.xlsx",
+    "--csv": "report.csv",
+    "--bcf": "report.bcf",
+    "--crew": "crew.pdf",
+    "--scan-card": "scan-card.pdf",
+}
+
+
+@pytest.fixture(scope="module")
+def small() -> dict[str, Any]:
+    """A pass and a fail."""
+    return floor_report(CASES[0], CASES[2])
+
+
+@pytest.fixture
+def report(small: dict[str, Any], tmp_path: Path) -> Path:
+    """Its file."""
+    path = tmp_path / "report.json"
+    path.write_text(json.dumps(small), encoding="utf-8")
+    return path
+
+
+def test_every_format_in_its_file(report: Path, tmp_path: Path, capsys: Output) -> None:
+    out = tmp_path / "deep" / "out"
+    assert main(["report", str(report), *FILES, "--out", str(out)]) == 0
+    assert {path.name for path in out.iterdir()} == set(FILES.values())
+    for name in FILES.values():
+        start = (out / name).read_bytes()[:20]
+        kinds = {"html": b"<!doctype html>", "pdf": b"%PDF", "csv": b"\xef\xbb\xbfcolumn"}
+        assert start.startswith(kinds.get(name.rpartition(".")[2], b"PK"))
+    assert zipfile.is_zipfile(out / "report.bcf")
+    assert capsys.readouterr().out.count("Written: ") == len(FILES)
+
+
+def test_html_beside_the_report_is_the_default(report: Path, capsys: Output) -> None:
+    assert main(["report", str(report), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == {"files": {"html": str(report.with_name("report.html"))}}
+    assert report.with_name("report.html").exists()
+
+
+def test_some_columns_in_chinese(report: Path) -> None:
+    assert main(["report", str(report), "--only", "C-3", "--language", "zh", "--quiet"]) == 0
+    text = report.with_name("report.html").read_text(encoding="utf-8")
+    assert "1 根柱中有 1 根不得吊装" in text
+    assert ">C-1<" not in text
+
+
+def test_run_again_updates_the_topics(report: Path, small: dict[str, Any]) -> None:
+    assert main(["report", str(report), "--bcf", "--quiet"]) == 0
+    names = zipfile.ZipFile(report.with_name("report.bcf")).namelist()
+    assert main(["report", str(report), "--bcf", "--quiet"]) == 0
+    assert zipfile.ZipFile(report.with_name("report.bcf")).namelist() == names
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["report", "none.json"], "none.json: cannot be read"),
+        (["report", "REPORT", "--only", "C-4"], 'has no column "C-4" (--only); did you mean'),
+        (["report", str(SAMPLE), "--html"], "of a job only --scan-card can be made; check it first (aadm check"),
+        (["report", str(SAMPLE), "--scan-card", "--only", "C-31"], "did you mean"),
+        (["diff", "REPORT", "none.json"], "none.json: cannot be read"),
+    ],
+)
+def test_slips_are_named(report: Path, capsys: Output, words: list[str], said: str) -> None:
+    assert main([str(report) if word == "REPORT" else word for word in words]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_missing_package_is_named_before_anything_is_written(
+    report: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "reportlab", None)
+    assert main(["report", str(report), "--html", "--pdf"]) == 2
+    assert "report.pdf needs the package reportlab" in capsys.readouterr().err
+    assert not report.with_name("report.html").exists()
+
+
+def test_scan_cards_before_any_scan(tmp_path: Path) -> None:
+    assert main(["report", str(SAMPLE), "--scan-card", "--only", "C-301", "C-308", "--out", str(tmp_path)]) == 0
+    assert (tmp_path / "scan-card.pdf").read_bytes().startswith(b"%PDF")
+    assert [path.name for path in tmp_path.iterdir()] == ["scan-card.pdf"]
+
+
+def test_diff(report: Path, small: dict[str, Any], tmp_path: Path, capsys: Output) -> None:
+    """0 nothing changed, 11 changed, 10 worse."""
+    better = json.loads(json.dumps(small))
+    better["columns"][1] |= {"verdict": "pass", "goes_on": "pass", "reasons": []}
+    later = tmp_path / "later.json"
+    later.write_text(json.dumps(better), encoding="utf-8")
+    assert main(["diff", str(report), str(report)]) == 0
+    assert capsys.readouterr().out == "Nothing changed in 2 columns.\n"
+    assert main(["diff", str(report), str(later)]) == 11
+    assert "fail → pass" in capsys.readouterr().out
+    assert main(["diff", str(later), str(report), "--json"]) == 10
+    printed = json.loads(capsys.readouterr().out)
+    assert printed["changed"][0]["id"] == "C-3"
+    assert printed["changed"][0]["trend"] == "worse"
+    assert printed["any_worse"] is True
+
+
+@pytest.mark.usefixtures("exact_extraction")
+def test_reports_after_a_check(write_job: WriteJob, tmp_path: Path) -> None:
+    path = write_job(column_text("C-1", "foot.ply", "4mm.ply"), clouds=("foot.ply", "4mm.ply"))
+    out = tmp_path / "out"
+    assert main(["check", str(path), "--out", str(out), "--quiet", *FILES, "--language", "zh"]) == 10
+    assert {"report.json", *FILES.values()} <= {entry.name for entry in out.iterdir()}
+    assert "1 根柱中有 1 根不得吊装" in (out / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_check_without_the_packages_does_not_start(
+    write_job: WriteJob, capsys: Output, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "xlsxwriter", None)
+    path = write_job(column_text("C-1", "foot.ply"), clouds=("foot.ply",))
+    assert main(["check", str(path), "--xlsx"]) == 2
+    assert "pip install 'aadm-workbench[reports]'" in capsys.readouterr().err
+    assert not path.with_name("job-report").exists()

@@ -1,0 +1,42 @@
+"""May it be hoisted: only what passed everything and goes on; a foot checked alone is not cleared."""
+
+from typing import Any
+
+import pytest
+
+from aadm_workbench.report.findings import findings
+from aadm_workbench.report.hoist import headline, hoist_of, in_state
+from tests.report.checked_floor import HOSTILE
+
+
+def test_every_column_has_its_state(floor: dict[str, Any]) -> None:
+    states = {column["id"]: hoist_of(column).state for column in floor["columns"]}
+    assert states == {
+        "C-1": "yes",
+        "C-2": "no",
+        "C-3": "no",
+        "C-4": "no",
+        "C-5": "no",
+        "C-6": "not_yet",
+        "C-7": "no",
+        HOSTILE: "yes",
+    }
+    assert headline(floor).en == "5 of 8 columns must not be hoisted"
+    assert headline(floor).zh == "8 根柱中有 5 根不得吊装"
+    assert [column["id"] for column in in_state(floor, "no")] == ["C-5", "C-3", "C-2", "C-4", "C-7"]
+
+
+@pytest.mark.parametrize("verdict", ["pass", "fail", "inconclusive", "not_measured", "error"])
+@pytest.mark.parametrize("goes_on", ["pass", "fail", "inconclusive", "not_measured", "error", "not_assessed"])
+def test_only_two_passes_clear_a_column(verdict: str, goes_on: str) -> None:
+    state = hoist_of({"verdict": verdict, "goes_on": goes_on, "reasons": []}).state
+    assert (state == "yes") == (verdict == goes_on == "pass")
+    assert state != "not_yet" or verdict == "pass"
+
+
+def test_cause_of_a_failed_trial_comes_first(floor: dict[str, Any]) -> None:
+    first = next(finding for finding in findings(floor) if finding.column["id"] == "C-3")
+    assert "from the centre of" in first.key_reasons[0].en
+    assert first.hoist.cause.en == "it does not go on its bars"
+    unseen = next(finding for finding in findings(floor) if finding.column["id"] == "C-4")
+    assert [reason.en for reason in unseen.key_reasons] == ["S8 not measured: not found in the scan"]
