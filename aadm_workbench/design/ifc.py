@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from time import perf_counter
 
 import numpy as np
 
 from aadm_workbench.design import ifc_names
-from aadm_workbench.design.ifc_bars import FoundBars, find_bars
+from aadm_workbench.design.ifc_attributes import Contradictions
+from aadm_workbench.design.ifc_bars import BarEnd, FoundBars, find_bars
 from aadm_workbench.design.ifc_columns import ColumnBody, find_columns, not_a_column
 from aadm_workbench.design.ifc_design import design_of, with_ids
 from aadm_workbench.design.ifc_file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc_grid import crossings
+from aadm_workbench.design.ifc_hints import explain
 from aadm_workbench.design.ifc_search import FoundFoot, SleeveSearch
 from aadm_workbench.design.ifc_shapes import Shapes, evaluator
-from aadm_workbench.design.ifc_sleeves import Candidate, left_out, loose_point, named_candidates
+from aadm_workbench.design.ifc_sleeves import MOUTH_TO_FOOT_MM, Candidate, left_out, loose_point, named_candidates
 from aadm_workbench.design.ifc_under import bars_under
+from aadm_workbench.design.ifc_walls import ends_in_walls
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
@@ -51,15 +54,16 @@ def read_ifc(
     """
     began = perf_counter()
     opened = open_ifc(path)
-    shapes = evaluator(opened.mm, opened.radians)
+    shapes = evaluator(opened.mm, opened.radians, coarse=opened.draws_coarsely)
     bodies, unreadable = find_columns(opened, shapes, columns)
     named, excluded = named_candidates(opened, shapes, sleeves)
     bars = find_bars(opened, shapes, rebars)
-    search = SleeveSearch(opened, shapes, named, selected=sleeves is not None)
-    feet = [(body, search.on(body)) for body in bodies]
-    loose_sleeves, refused = _loose_sleeves(named, feet)
+    search = SleeveSearch(opened, shapes, named, selected=sleeves is not None, bodies=bodies)
+    feet, doubles = _one_column_each([(body, search.on(body)) for body in bodies])
+    loose_sleeves, refused = loose_sleeves_of(named, feet)
     designs, used_bars = _designs(opened, shapes, feet, bars)
-    loose_rebars, inside = _loose_rebars(bars, used_bars, feet)
+    loose_rebars, inside = loose_rebars_of(bars, used_bars, feet, lambda ends: ends_in_walls(opened, shapes, ends))
+    not_taken = (*unreadable, *doubles, *_bare(feet), *excluded, *refused, *bars.not_taken, *inside)
     return ModelDesign(
         source=opened.source,
         sha256=opened.sha256,
@@ -67,12 +71,32 @@ def read_ifc(
         columns=with_ids(designs),
         loose_sleeves=loose_sleeves,
         loose_rebars=loose_rebars,
-        warnings=(*opened.warnings, *bars.warnings, *_problems(shapes)),
-        not_taken=(*unreadable, *_bare(feet), *excluded, *refused, *bars.not_taken, *inside),
+        warnings=(*opened.warnings, *bars.warnings, *_sleeve_sizes(opened, feet, named), *_problems(shapes)),
+        not_taken=not_taken,
         holdings=ifc_names.holdings(opened.file),
+        hint=explain(opened, feet, search, not_taken, len(loose_sleeves), len(loose_rebars)),
         T_model_file=_world(opened, shapes),
-        seconds=perf_counter() - began,
+        seconds=perf_counter() - began - opened.seconds,
+        parse_seconds=opened.seconds,
     )
+
+
+def _one_column_each(
+    feet: Sequence[tuple[ColumnBody, FoundFoot]],
+) -> tuple[list[tuple[ColumnBody, FoundFoot]], list[NotTaken]]:
+    """Columns without those whose sleeves another one has: a column is drawn twice, or a part is called like it."""
+    owners: dict[int, ColumnBody] = {}
+    doubles: dict[int, str] = {}
+    for body, found in sorted(feet, key=lambda item: not item[0].element.is_a("IfcColumn")):
+        claimed = [id(mouth.candidate) for mouth in found.mouths]
+        other = next((owners[candidate] for candidate in claimed if candidate in owners), None)
+        if other is not None:
+            doubles[id(body)] = f"has sleeves that belong to column {_called(other)}, which stands in the same place"
+            continue
+        owners.update((candidate, body) for candidate in claimed)
+    kept = [(body, found) for body, found in feet if id(body) not in doubles]
+    left = [not_a_column(body.element, doubles[id(body)]) for body, _ in feet if id(body) in doubles]
+    return kept, left
 
 
 def _designs(
@@ -91,7 +115,7 @@ def _designs(
     return designs, used
 
 
-def _loose_sleeves(
+def loose_sleeves_of(
     named: Sequence[Candidate], feet: Sequence[tuple[ColumnBody, FoundFoot]]
 ) -> tuple[tuple[AssemblyPoint, ...], list[NotTaken]]:
     """Named sleeves that open in no foot face, and those that are none, with the reason."""
@@ -122,24 +146,53 @@ def _hosts(points: Sequence[Array], feet: Sequence[tuple[ColumnBody, FoundFoot]]
     return hosts
 
 
-def _loose_rebars(
-    bars: FoundBars, used: set[int], feet: Sequence[tuple[ColumnBody, FoundFoot]]
+def loose_rebars_of(
+    bars: FoundBars,
+    used: set[int],
+    feet: Sequence[tuple[ColumnBody, FoundFoot]],
+    walls: Callable[[Sequence[BarEnd]], Mapping[int, str]] = lambda ends: {},
 ) -> tuple[tuple[AssemblyPoint, ...], list[NotTaken]]:
-    """Upright bars under no column of the model; those that end inside a column's concrete are its own."""
-    loose: list[AssemblyPoint] = []
-    inside: list[NotTaken] = []
+    """Upright bars under no column of the model; those that end inside a column's concrete or a wall's are its own.
+
+    ``walls`` tells which of the ends that are left stand in a wall, and in which.
+    """
     left = [end for number, end in enumerate(bars.ends) if number not in used]
-    for end, host in zip(left, _hosts([end.top for end in left], feet), strict=True):
-        if host is None:
-            loose.append(end.point("upright, under no column with sleeves"))
-        else:
-            reason = f"ends inside column {_called(host)}: its own reinforcement"
-            inside.append(
-                NotTaken(
-                    "rebar", end.ifc_class, end.global_id, end.name, reason, end.top, end.diameter_mm, end.length_mm
-                )
-            )
+    hosts = _hosts([end.top for end in left], feet)
+    reasons = [
+        f"ends inside column {_called(host)}: its own reinforcement" if host and _begins_in(end, host) else ""
+        for end, host in zip(left, hosts, strict=True)
+    ]
+    outside = [number for number, reason in enumerate(reasons) if not reason]
+    for place, wall in walls([left[number] for number in outside]).items():
+        reasons[outside[place]] = f"stands in wall {wall}: a dowel of a wall"
+    loose = [
+        end.point("upright, under no sleeve of a column") for end, why in zip(left, reasons, strict=True) if not why
+    ]
+    inside = [
+        NotTaken("rebar", end.ifc_class, end.global_id, end.name, why, end.top, end.diameter_mm, end.length_mm)
+        for end, why in zip(left, reasons, strict=True)
+        if why
+    ]
     return tuple(loose), inside
+
+
+def _begins_in(end: BarEnd, host: ColumnBody) -> bool:
+    """Whether a bar that ends in a column begins there too; else it comes from below and only has no sleeve."""
+    return not host.feet[0].stands or end.lowest_mm > float(host.feet[0].T_model_foot[2, 3]) - MOUTH_TO_FOOT_MM
+
+
+def _sleeve_sizes(
+    opened: OpenedIfc, feet: Sequence[tuple[ColumnBody, FoundFoot]], named: Sequence[Candidate]
+) -> list[str]:
+    """What sizes written on fasteners say against those drawn; of the sleeves of columns and of the loose ones."""
+    contradictions = Contradictions(opened)
+    taken = [mouth.candidate for _, found in feet for mouth in found.mouths]
+    for candidate in {id(candidate): candidate for candidate in (*taken, *named)}.values():
+        if candidate.element.is_a("IfcMechanicalFastener"):
+            tube = candidate.tube
+            drawn_mm = [size for size in (*tube.bore_mm, tube.outer_mm) if size is not None]
+            contradictions.compare_sleeve(candidate.element, drawn_mm, tube.length_mm)
+    return contradictions.lines()
 
 
 def _called(body: ColumnBody) -> str:

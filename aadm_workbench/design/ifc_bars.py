@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -11,12 +10,13 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.design import ifc_names
-from aadm_workbench.design.bar_sizes import nominal_of_over_ribs
+from aadm_workbench.design.bar_courses import Course
+from aadm_workbench.design.ifc_attributes import Contradictions, written_diameter_mm
 from aadm_workbench.design.ifc_file import OpenedIfc
 from aadm_workbench.design.ifc_shapes import Shapes
+from aadm_workbench.design.ifc_words import NOT_REBAR, REBAR, SLEEVE
 from aadm_workbench.design.model_design import NotTaken
-from aadm_workbench.design.paths import Leg, Straight, joined
-from aadm_workbench.design.shapes import SweptDisk
+from aadm_workbench.design.paths import Leg, Straight
 from aadm_workbench.model import Array, AssemblyPoint, Kind
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -27,9 +27,16 @@ _SHORTEST_MM = 100.0
 
 _HIGHEST_MM = 1.0
 _NOT_CONNECTING = frozenset({"LIGATURE", "SHEAR", "STUD", "RING", "SPACEBAR", "PUNCHING"})
-_OTHER_CLASSES = ("IfcBuildingElementProxy", "IfcElementComponent", "IfcMember", "IfcFastener", "IfcMechanicalFastener")
-_UNITS_MM = {"feet": 304.8, "inches": 25.4, "metres": 1000.0}
-_SHOWN = 6
+_OTHER_CLASSES = (
+    "IfcBuildingElementProxy",
+    "IfcElementComponent",
+    "IfcMember",
+    "IfcBeam",
+    "IfcColumn",
+    "IfcFastener",
+    "IfcMechanicalFastener",
+)
+_THICKEST_MM = 80.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,19 +95,29 @@ def find_bars(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> FoundB
     """
     ends: list[BarEnd] = []
     left: list[NotTaken] = []
-    contradictions: Counter[str] = Counter()
+    contradictions = Contradictions(opened)
     for element, evidence in _candidates(opened, selector):
-        said = ifc_names.texts(element)
-        refused = None if selector else _refused_by_kind(element, said)
-        bars = _bars_of(element, shapes)
-        _compare_length(element, bars, opened.mm, contradictions)
-        for legs, drawn_mm in bars:
-            sizes = _sizes(element, drawn_mm, opened.mm, contradictions)
-            tops = [] if refused else _upright_ends(legs)
-            ends += [_end(element, said, evidence, legs, sizes, top) for top in tops]
+        refused = None if selector else _refused_by_kind(opened, element)
+        bars, drawn = _bars_of(opened, element, shapes)
+        if not bars:
+            left += _without_bars(element, shapes, refused)
+        lengths_mm = [bar.length_mm for bar in bars]
+        for bar in bars:
+            sizes = contradictions.compare_bar(element, bar.diameter_mm, lengths_mm)
+            reason = refused or _not_a_bar(bar)
+            tops = [] if reason else upright_ends(list(bar.legs))
+            ends += [_end(opened, element, f"{evidence}{drawn}", bar, sizes, top) for top in tops]
             if not tops:
-                left.append(_left_out(element, legs, sizes[0], refused or _geometric_reason(legs)))
-    return FoundBars(tuple(ends), tuple(left), tuple(_counted(contradictions)))
+                left.append(_left_out(element, bar, sizes[0], reason or geometric_reason(list(bar.legs))))
+    return FoundBars(tuple(ends), tuple(left), tuple(contradictions.lines()))
+
+
+def _not_a_bar(bar: Course) -> str | None:
+    if bar.hollow:
+        return "is hollow: a pipe or a sleeve"
+    if bar.diameter_mm > _THICKEST_MM:
+        return f"is {bar.diameter_mm:g} mm thick: no reinforcing bar"
+    return None
 
 
 def _candidates(opened: OpenedIfc, selector: str | None) -> Iterable[tuple[Any, str]]:
@@ -112,35 +129,46 @@ def _candidates(opened: OpenedIfc, selector: str | None) -> Iterable[tuple[Any, 
     seen: set[int] = set()
     for ifc_class in _OTHER_CLASSES:
         for element in opened.file.by_type(ifc_class):
-            if element.id() in seen or element.is_a("IfcReinforcingBar"):
+            if element.id() in seen or element.is_a() == "IfcReinforcingBar":
                 continue
             seen.add(element.id())
-            said = ifc_names.texts(element)
-            if ifc_names.REBAR.search(said) and not ifc_names.SLEEVE.search(said):
+            if opened.naming.find(REBAR, element) and not opened.naming.find(SLEEVE, element):
                 yield element, element.is_a()
 
 
-def _refused_by_kind(element: Any, said: str) -> str | None:
-    kind = ifc_names.predefined_type(element)
+def _refused_by_kind(opened: OpenedIfc, element: Any) -> str | None:
+    kind = opened.naming.predefined_type(element)
     if kind in _NOT_CONNECTING:
         return f"is a {kind} by its PredefinedType"
-    named = ifc_names.NOT_REBAR.search(said)
-    if named and not ifc_names.REBAR.search(said):
-        return f"is called {named.group()!r}: a stirrup, tie or spiral"
+    named = opened.naming.find(NOT_REBAR, element)
+    if named and not opened.naming.find(REBAR, element):
+        return f"is called {named!r}: a stirrup, tie or spiral"
     return None
 
 
-def _bars_of(element: Any, shapes: Shapes) -> list[tuple[list[Leg], float]]:
-    """Bars of one element: their course and diameter, mm. Bars of other solids than swept disks are straight."""
-    drawn = shapes.of_product(element)
-    swept = [(joined(shape.legs), 2.0 * shape.radius_mm) for shape in drawn if isinstance(shape, SweptDisk)]
-    if len(swept) == len(drawn):
-        return [(legs, diameter_mm) for legs, diameter_mm in swept if legs]
-    solid = shapes.tubes_of_product(element)
-    return [([Straight(tube.start, tube.end)], tube.outer_mm) for tube in solid if tube.outer_mm is not None]
+def _bars_of(opened: OpenedIfc, element: Any, shapes: Shapes) -> tuple[Sequence[Course], str]:
+    """Bars of one element, from its body, else from its axis; and what is to be said about how it is drawn."""
+    bars = shapes.bars_of_product(element)
+    if bars:
+        return bars, ""
+    lines = shapes.axes_of_product(element)
+    diameter_mm = written_diameter_mm(opened, element) if lines else None
+    if diameter_mm is None:
+        return (), ""
+    return [Course(legs, diameter_mm) for legs in lines], ", drawn as its axis alone"
 
 
-def _upright_ends(legs: list[Leg]) -> list[tuple[Array, Array]]:
+def _without_bars(element: Any, shapes: Shapes, refused: str | None) -> Iterable[NotTaken]:
+    if shapes.axes_of_product(element):
+        reason = "is drawn as its axis alone, and neither it nor its type says its diameter"
+    elif shapes.of_product(element):
+        reason = "is drawn as a body without two round ends: no straight bar"
+    else:
+        reason = "has no geometry that could be evaluated"
+    yield NotTaken("rebar", element.is_a(), element.GlobalId, element.Name or "", refused or reason)
+
+
+def upright_ends(legs: list[Leg]) -> list[tuple[Array, Array]]:
     """(top, axis) of each end that rises straight and to which no other part of the bar comes up."""
     highest_mm = _highest(legs)
     found = []
@@ -152,7 +180,8 @@ def _upright_ends(legs: list[Leg]) -> list[tuple[Array, Array]]:
     return found
 
 
-def _geometric_reason(legs: list[Leg]) -> str:
+def geometric_reason(legs: list[Leg]) -> str:
+    """Why a bar of this course has no upright end that a column could come down on."""
     length_mm = sum(leg.length_mm for leg in legs)
     if length_mm < _SHORTEST_MM:
         return f"is {length_mm:.2f} mm long: a fragment"
@@ -165,30 +194,31 @@ def _geometric_reason(legs: list[Leg]) -> str:
 
 
 def _end(
+    opened: OpenedIfc,
     element: Any,
-    said: str,
     evidence: str,
-    legs: list[Leg],
-    sizes: tuple[float, float | None],
+    bar: Course,
+    sizes: tuple[float, float | None, tuple[str, ...]],
     top: tuple[Array, Array],
 ) -> BarEnd:
+    said = opened.naming.said(element)
     return BarEnd(
         global_id=element.GlobalId,
         name=element.Name or "",
         ifc_class=element.is_a(),
         top=top[0],
         axis=top[1],
-        lowest_mm=min(float(leg.points[:, 2].min()) for leg in legs),
+        lowest_mm=float(bar.points[:, 2].min()),
         diameter_mm=sizes[0],
-        length_mm=sum(leg.length_mm for leg in legs),
+        length_mm=bar.length_mm,
         over_ribs_mm=sizes[1],
         wholes=frozenset(whole.GlobalId for whole in ifc_names.wholes(element)),
-        why=f'{evidence} "{said}"' if said else evidence,
+        why="; ".join([f'{evidence} "{said}"' if said else evidence, *sizes[2]]),
     )
 
 
-def _left_out(element: Any, legs: list[Leg], diameter_mm: float, reason: str) -> NotTaken:
-    points = np.vstack([leg.points for leg in legs])
+def _left_out(element: Any, bar: Course, diameter_mm: float, reason: str) -> NotTaken:
+    points = bar.points
     return NotTaken(
         what="rebar",
         ifc_class=element.is_a(),
@@ -197,64 +227,9 @@ def _left_out(element: Any, legs: list[Leg], diameter_mm: float, reason: str) ->
         reason=reason,
         point=points[int(points[:, 2].argmax())],
         diameter_mm=diameter_mm,
-        length_mm=sum(leg.length_mm for leg in legs),
+        length_mm=bar.length_mm,
     )
 
 
 def _highest(legs: list[Leg]) -> float:
     return max(float(leg.points[:, 2].max()) for leg in legs)
-
-
-def _sizes(element: Any, drawn_mm: float, mm: float, found: Counter[str]) -> tuple[float, float | None]:
-    """Nominal diameter of a bar and, where the model gives it, the one over its ribs, mm.
-
-    The drawn diameter is believed, not the attribute; only where what is drawn is the diameter over the ribs of
-    the very size that the attribute names, that size is nominal.
-    """
-    written_mm = _attribute(element, "NominalDiameter", mm)
-    if written_mm is None or abs(written_mm - drawn_mm) < 0.1:
-        return drawn_mm, None
-    if nominal_of_over_ribs(drawn_mm) == round(written_mm, 3):
-        found[f"drawn over the ribs, {drawn_mm:g} mm; the NominalDiameter of {written_mm:g} mm was taken"] += 1
-        return written_mm, drawn_mm
-    over_ribs = nominal_of_over_ribs(written_mm) == round(drawn_mm, 3)
-    note = " (over the ribs)" if over_ribs else _unit_slip(written_mm, drawn_mm)
-    found[f"NominalDiameter is {written_mm:g} mm{note}, drawn is {drawn_mm:g} mm, which was believed"] += 1
-    return drawn_mm, written_mm if over_ribs else None
-
-
-def _compare_length(element: Any, bars: list[tuple[list[Leg], float]], mm: float, found: Counter[str]) -> None:
-    """Note a BarLength that is neither the length of one of the element's bars nor of all together."""
-    written_mm = _attribute(element, "BarLength", mm)
-    lengths = [sum(leg.length_mm for leg in legs) for legs, _ in bars]
-    if written_mm is None or not lengths:
-        return
-    if any(abs(written_mm - drawn) < max(0.02 * drawn, 1.0) for drawn in (*lengths, sum(lengths))):
-        return
-    slip = _unit_slip(written_mm, lengths[0])
-    found[f"BarLength is {written_mm:g} mm{slip}, drawn is {lengths[0]:.1f} mm, which was believed"] += 1
-
-
-def _attribute(element: Any, name: str, mm: float) -> float | None:
-    from ifcopenshell.util.element import get_type
-
-    for holder in (element, get_type(element)):
-        value = getattr(holder, name, None)
-        if value:
-            return mm * float(value)
-    return None
-
-
-def _unit_slip(written_mm: float, drawn_mm: float) -> str:
-    """The unit in which an attribute must have been written to mean what is drawn."""
-    for name, factor in _UNITS_MM.items():
-        if abs(written_mm * factor / drawn_mm - 1.0) < 0.01:
-            return f" (it is in {name})"
-    return ""
-
-
-def _counted(contradictions: Counter[str]) -> list[str]:
-    shown = contradictions.most_common(_SHOWN)
-    lines = [f"{times} bar element{'s' if times > 1 else ''}: {text}" for text, times in shown]
-    rest = sum(contradictions.values()) - sum(times for _, times in shown)
-    return [*lines, f"{rest} more bar elements have attributes that contradict what is drawn"] if rest else lines

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from aadm_workbench.design import ifc_names
 from aadm_workbench.design.ifc_bars import UP
+from aadm_workbench.design.ifc_entity import optional
 from aadm_workbench.design.ifc_file import OpenedIfc
 from aadm_workbench.design.ifc_placement import UnreadableGeometryError, frame
 from aadm_workbench.design.ifc_shapes import Shapes
@@ -17,8 +18,14 @@ from aadm_workbench.design.model_design import NotTaken
 from aadm_workbench.design.shapes import Prism, Shape, edges
 from aadm_workbench.model import Array, BoolArray
 
-_AT_FOOT_MM = 10.0
-"""Corners of the concrete this near to the foot face give its size; corbels and heads are further up."""
+_AT_FOOT_MM = 60.0
+"""Corners of the concrete this near to the foot face give its size: above its chamfers, below corbels and heads."""
+
+_NAMED_CLASSES = ("IfcBuildingElementProxy", "IfcMember", "IfcBeam", "IfcElementAssembly", "IfcBuildingElementPart")
+"""Classes that programs export columns as which they do not know to be columns."""
+
+_THINNEST_MM = 200.0
+"""No column is thinner; no sleeve and no bar is thicker."""
 
 _ON_FACE_MM = 1e-3
 _STANDING_COS = 0.7
@@ -32,12 +39,13 @@ class Foot:
     """One end face of a column. ``T_model_foot`` (4, 4): z into the column along its axis, x as the column frame's.
 
     Its origin is the middle of the face; ``half_size_mm`` (2,) its reach along x and y, ``height_mm`` the length of
-    the column.
+    the column, ``sides_mm`` the sides of the smallest rectangle around the face.
     """
 
     T_model_foot: Array
     half_size_mm: Array
     height_mm: float
+    sides_mm: tuple[float, float]
 
     def local(self, points: Array) -> Array:
         """Points (..., 3) of the model frame in this frame; large map coordinates cancel before they are turned."""
@@ -84,10 +92,12 @@ def find_columns(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> tup
     found: list[ColumnBody] = []
     left: list[NotTaken] = []
     for element in _elements(opened, selector):
-        drawn = [element] if shapes.of_product(element) else _concrete_parts(element)
+        if selector is None and _is_sleeve_or_bar(opened, shapes, element):
+            continue
+        drawn = [element] if shapes.of_product(element) else _concrete_parts(opened, element)
         body = [shape for part in drawn for shape in shapes.of_product(part)]
         try:
-            feet = _feet(shapes.placements.of_product(element), body)
+            feet = feet_of(shapes.placements.of_product(element), body)
         except UnreadableGeometryError:
             feet = ()
         if feet:
@@ -113,7 +123,7 @@ def names(element: Any) -> tuple[str, ...]:
     """All that a job may call a column by: Tag, PieceMark, Name, GlobalId, its assembly's too."""
     called: list[str | None] = []
     for holder in (element, *ifc_names.wholes(element)):
-        called += [getattr(holder, "Tag", None), ifc_names.piece_mark(holder), holder.Name, holder.GlobalId]
+        called += [optional(holder, "Tag"), ifc_names.piece_mark(holder), holder.Name, holder.GlobalId]
     return tuple(dict.fromkeys(name.strip() for name in called if name and name.strip()))
 
 
@@ -122,8 +132,8 @@ def _elements(opened: OpenedIfc, selector: str | None) -> Iterator[Any]:
         chosen = ifc_names.select(opened.file, opened.source, "columns", selector)
     else:
         chosen = list(opened.file.by_type("IfcColumn"))
-        for ifc_class in ("IfcBuildingElementProxy", "IfcMember", "IfcElementAssembly", "IfcBuildingElementPart"):
-            named = [e for e in opened.file.by_type(ifc_class) if ifc_names.COLUMN.search(ifc_names.texts(e))]
+        for ifc_class in _NAMED_CLASSES:
+            named = [e for e in opened.file.by_type(ifc_class) if _is_called_column(opened, e)]
             # Columns inside an assembly speak for themselves.
             chosen += [e for e in named if not any(part.is_a("IfcColumn") for part in ifc_names.parts(e))]
     columns = {column.id(): column for column in (_column_in(element) or element for element in chosen)}
@@ -131,6 +141,23 @@ def _elements(opened: OpenedIfc, selector: str | None) -> Iterator[Any]:
         # The parts of a column are often called like it.
         if not any(whole.id() in columns for whole in ifc_names.wholes(column)):
             yield column
+
+
+def _is_sleeve_or_bar(opened: OpenedIfc, shapes: Shapes, element: Any) -> bool:
+    """Whether a thin round body is called a sleeve or a bar: a program exports whatever stands upright as a column."""
+    called = opened.naming.find(ifc_names.SLEEVE, element) or opened.naming.find(ifc_names.REBAR, element)
+    if not called:
+        return False
+    outer_mm = [tube.outer_mm for tube in shapes.tubes_of_product(element, coarse=True) if tube.outer_mm is not None]
+    return bool(outer_mm) and max(outer_mm) < _THINNEST_MM
+
+
+def _is_called_column(opened: OpenedIfc, element: Any) -> bool:
+    return bool(
+        opened.naming.find(ifc_names.COLUMN, element)
+        and not opened.naming.find(ifc_names.NOT_COLUMN, element)
+        and not opened.naming.find(ifc_names.SLEEVE, element)
+    )
 
 
 def _column_in(element: Any) -> Any:
@@ -141,7 +168,7 @@ def _column_in(element: Any) -> Any:
     return columns[0] if len(columns) == 1 else None
 
 
-def _concrete_parts(element: Any) -> list[Any]:
+def _concrete_parts(opened: OpenedIfc, element: Any) -> list[Any]:
     no_concrete = (
         "IfcDiscreteAccessory",
         "IfcFastener",
@@ -152,12 +179,12 @@ def _concrete_parts(element: Any) -> list[Any]:
     return [
         part
         for part in ifc_names.parts(element)
-        if not any(part.is_a(ifc_class) for ifc_class in no_concrete)
-        and not ifc_names.SLEEVE.search(ifc_names.texts(part))
+        if not any(part.is_a(ifc_class) for ifc_class in no_concrete) and not opened.naming.find(ifc_names.SLEEVE, part)
     ]
 
 
-def _feet(T_model_element: Array, body: Sequence[Shape]) -> tuple[Foot, ...]:
+def feet_of(T_model_element: Array, body: Sequence[Shape]) -> tuple[Foot, ...]:
+    """Faces that a column may stand on: its lower end, or both ends where it is drawn lying; none without a body."""
     corners = edges(body).reshape(-1, 3)
     if not len(corners):
         return ()
@@ -187,4 +214,40 @@ def _foot(T_model_element: Array, corners: Array, axis: Array) -> Foot:
     face = local[local[:, 2] < foot_mm + _AT_FOOT_MM, :2]
     low, high = face.min(axis=0), face.max(axis=0)
     T[:3, 3] = corners[0] + T[:3, :3] @ np.array([*(low + high) / 2.0, foot_mm])
-    return Foot(T, (high - low) / 2.0, float(np.ptp(local[:, 2])))
+    return Foot(T, (high - low) / 2.0, float(np.ptp(local[:, 2])), _sides(face))
+
+
+def _sides(face: Array) -> tuple[float, float]:
+    """Sides of the smallest rectangle around a face (n, 2) mm, the one that runs more along x first.
+
+    Exporters without placements leave the face turned in its frame.
+    """
+    outline = _outline(face)
+    ways = np.roll(outline, -1, axis=0) - outline
+    ways = ways[np.linalg.norm(ways, axis=1) > 1.0]
+    turns = np.mod(np.arctan2(ways[:, 1], ways[:, 0]) + np.pi / 4.0, np.pi / 2.0) - np.pi / 4.0
+    turns = np.concatenate([[0.0], turns])
+    across = np.ptp(outline @ np.array([np.cos(turns), np.sin(turns)]), axis=0)
+    along = np.ptp(outline @ np.array([-np.sin(turns), np.cos(turns)]), axis=0)
+    areas = across * along
+    best = int(np.flatnonzero(areas < areas.min() * (1.0 + 1e-6))[0])
+    return float(across[best]), float(along[best])
+
+
+def _outline(face: Array) -> Array:
+    """Corners (k, 2) of the convex outline of points (n, 2), in order (Andrew's monotone chain)."""
+    points = np.unique(np.round(face, 6), axis=0).tolist()
+
+    def chain(ordered: Iterable[list[float]]) -> list[list[float]]:
+        kept: list[list[float]] = []
+        for x, y in ordered:
+            while len(kept) > 1 and _turns_right(kept[-2], kept[-1], (x, y)):
+                kept.pop()
+            kept.append([x, y])
+        return kept[:-1]
+
+    return np.array(chain(points) + chain(reversed(points)) or points)
+
+
+def _turns_right(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> bool:
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) <= 0.0

@@ -54,7 +54,25 @@ class Curves:
             first = 0.0 if begin is None else begin * self.radians
             last = _FULL_TURN if stop is None else stop * self.radians
             return [self._conic(curve, first, last)]
-        return cut(self.legs(curve), begin, stop)
+        legs = self.legs(curve)
+        return legs if self._is_whole(curve, legs, begin, stop) else cut(legs, begin, stop)
+
+    def _is_whole(self, curve: Any, legs: Sequence[Leg], begin: float | None, stop: float | None) -> bool:
+        """Whether a range is the whole curve in another parameter than the curve's own.
+
+        Exporters count from 0 to 1, in lengths, or, on a trimmed curve, in the parameter of what was trimmed.
+        """
+        if begin is None or stop is None:
+            return False
+        length = sum(leg.length_mm for leg in legs) / self.placements.mm
+        if begin == 0.0 and (stop == 1.0 or math.isclose(stop, length, rel_tol=1e-4)):
+            return True
+        if curve.is_a("IfcTrimmedCurve"):
+            trims = [_parameter(trim) for trim in (curve.Trim1, curve.Trim2)]
+            return all(
+                t is not None and math.isclose(t, v, abs_tol=1e-9) for t, v in zip(trims, (begin, stop), strict=True)
+            )
+        return False
 
     def _indexed(self, curve: Any) -> list[Leg]:
         points = [self.placements.coordinates(point) for point in curve.Points.CoordList]

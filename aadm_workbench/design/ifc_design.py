@@ -22,9 +22,28 @@ from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Kind
 _MACHINE_TAG = re.compile(r"\d+|ID[0-9a-f-]{30,}", re.IGNORECASE)
 """Tags that programs give (Revit's element number, Tekla's GUID) and nobody on site says."""
 
+_PAIR_LIMIT_MM = 3.0
+"""Between the centre lines of a bar and its sleeve: GB/T 51231-2016, 10.4."""
+
+_OFF_AXIS_MM = 1.0
+
 
 def design_of(body: ColumnBody, found: FoundFoot, under: Under, grid: Sequence[Crossing]) -> ColumnDesign:
     """The as-designed points of one column, labelled and paired, in its column frame."""
+    design = points_of(found, under)
+    assert design.T_model_column is not None
+    return replace(
+        design,
+        global_id=body.element.GlobalId,
+        piece_mark=_piece_mark(body),
+        storey=next((name for name in map(ifc_names.storey_name, (body.element, *body.wholes)) if name), None),
+        grid=grid_position(grid, design.T_model_column[:2, 3]),
+        names=names(body.element),
+    )
+
+
+def points_of(found: FoundFoot, under: Under) -> ColumnDesign:
+    """Sleeves and bars of one column in its column frame, labelled and paired; the column still without a name."""
     foot = found.foot
     xy = np.array([mouth.centre for mouth in found.mouths])
     middle = xy.mean(axis=0)
@@ -34,23 +53,38 @@ def design_of(body: ColumnBody, found: FoundFoot, under: Under, grid: Sequence[C
     T = foot.T_model_foot.copy()
     T[:3, 3] = T[:3, 3] + T[:3, :3] @ np.array([*middle, 0.0])
     sleeves = tuple(_sleeve(number, mouth, middle) for number, mouth in enumerate(mouths, start=1))
-    storey = next((name for name in map(ifc_names.storey_name, (body.element, *body.wholes)) if name), None)
-    width_mm = 2.0 * foot.half_size_mm
+    rebars = _rebars(bars, sleeves, T)
     return ColumnDesign(
         id="",
         sleeves=sleeves,
-        rebars=_rebars(bars, sleeves, T),
-        size_mm=(round(float(width_mm[0]), 6), round(float(width_mm[1]), 6)),
-        global_id=body.element.GlobalId,
-        piece_mark=_piece_mark(body),
-        storey=storey,
-        grid=grid_position(grid, T[:2, 3]),
-        names=names(body.element),
+        rebars=rebars,
+        size_mm=(round(foot.sides_mm[0], 6), round(foot.sides_mm[1], 6)),
         T_model_column=T,
         rebar_outer_diameter_mm=_over_ribs(bars),
         embedded_length_mm=_embedded(bars, foot, mouths),
-        warnings=(*found.warnings, *under.warnings),
+        warnings=(*found.warnings, *under.warnings, *_own_misses(sleeves, rebars)),
     )
+
+
+def _own_misses(sleeves: Sequence[AssemblyPoint], rebars: Sequence[AssemblyPoint]) -> list[str]:
+    """Pairs that stand apart in the model itself: a person should know before the site does."""
+    apart_mm = {
+        (bar.label, sleeve.label): float(np.linalg.norm(_off_axis(sleeve, bar)))
+        for sleeve, bar in zip(sleeves, rebars, strict=False)
+    }
+    beyond = [f"{r} {mm:.1f} mm beside the axis of {s}" for (r, s), mm in apart_mm.items() if mm > _PAIR_LIMIT_MM]
+    if beyond:
+        return [f"the design itself misses the {_PAIR_LIMIT_MM:g} mm between bar and sleeve: {', '.join(beyond)}"]
+    worst_mm = max(apart_mm.values(), default=0.0)
+    if worst_mm > _OFF_AXIS_MM:
+        return [f"in the model itself bars stand up to {worst_mm:.1f} mm beside their sleeves' axes"]
+    return []
+
+
+def _off_axis(sleeve: AssemblyPoint, bar: AssemblyPoint) -> Array:
+    """From a sleeve's axis to a bar's top, in the plane of the foot face: the axis may lean."""
+    on_axis = sleeve.centre + max(bar.centre[2], 0.0) / sleeve.axis[2] * sleeve.axis
+    return np.asarray(bar.centre[:2] - on_axis[:2])
 
 
 def with_ids(columns: Sequence[ColumnDesign]) -> tuple[ColumnDesign, ...]:

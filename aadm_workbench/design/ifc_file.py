@@ -5,9 +5,12 @@ from __future__ import annotations
 import hashlib
 import re
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
+from time import perf_counter
 from typing import Any
 
+from aadm_workbench.design.ifc_names import Naming
 from aadm_workbench.errors import DesignError, MissingDependencyError
 
 _LOG_ERROR = re.compile(r"\[error\]\s*(?:\[[^\]]*\]\s*)*(?P<text>.+)")
@@ -18,14 +21,30 @@ _NOT_ASCII = re.compile(r"[^\x00-\x7f]+")
 
 @dataclass(frozen=True, eq=False)
 class OpenedIfc:
-    """An open model: ``file`` is ifcopenshell's, lengths in it are multiples of ``mm``, angles of ``radians``."""
+    """An open model: ``file`` is ifcopenshell's, lengths in it are multiples of ``mm``, angles of ``radians``.
+
+    Areas are multiples of ``mm2``; None where the file does not say of what. ``seconds`` is what opening took.
+    """
 
     source: str
     sha256: str
     file: Any
     mm: float
     radians: float
+    mm2: float | None
     warnings: tuple[str, ...]
+    seconds: float
+
+    @property
+    def draws_coarsely(self) -> bool:
+        """Whether it comes from a program that may draw circles with four sides (FreeCAD, in files in metres)."""
+        names = (application.ApplicationFullName for application in self.file.by_type("IfcApplication"))
+        return any("freecad" in (name or "").lower() for name in names)
+
+    @cached_property
+    def naming(self) -> Naming:
+        """What its elements are called."""
+        return Naming(self.file)
 
 
 def open_ifc(path: str | Path) -> OpenedIfc:
@@ -39,6 +58,7 @@ def open_ifc(path: str | Path) -> OpenedIfc:
         Where ifcopenshell is not installed.
     """
     ifcopenshell = _ifcopenshell()
+    began = perf_counter()
     path = Path(path)
     content = _bytes(path)
     sha256 = hashlib.sha256(content).hexdigest()
@@ -66,7 +86,9 @@ def open_ifc(path: str | Path) -> OpenedIfc:
         file=file,
         mm=_length_unit_mm(path, file),
         radians=_angle_unit(file),
+        mm2=_area_unit_mm2(file),
         warnings=tuple(warnings),
+        seconds=perf_counter() - began,
     )
 
 
@@ -163,3 +185,11 @@ def _angle_unit(file: Any) -> float:
     from ifcopenshell.util.unit import calculate_unit_scale
 
     return float(calculate_unit_scale(file, "PLANEANGLEUNIT"))
+
+
+def _area_unit_mm2(file: Any) -> float | None:
+    from ifcopenshell.util.unit import calculate_unit_scale, get_project_unit
+
+    if get_project_unit(file, "AREAUNIT") is None:
+        return None
+    return 1e6 * float(calculate_unit_scale(file, "AREAUNIT"))

@@ -1,60 +1,109 @@
-"""What an element is called and what that says: sleeve, connecting rebar, column, or something else in steel."""
+"""What elements are called, by themselves, their types and their property sets, and what they are parts of."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
+from aadm_workbench.design.ifc_entity import optional
+from aadm_workbench.design.ifc_words import COLUMN, NOT_COLUMN, NOT_REBAR, NOT_SLEEVE, REBAR, SLEEVE, find
 from aadm_workbench.errors import DesignError
 
-SLEEVE = re.compile(
-    r"灌[浆漿]套[筒管]|[全半]灌[浆漿]|钢筋套筒|鋼筋套筒|连接套筒|連接套筒|套筒|波[纹紋]管|浆锚孔|漿錨孔|预留孔|預留孔"
-    # Marks of JG/T 398 such as GTQ4Z-20, GTB4J-20-A, GTZQ4 20.
-    r"|GT[ZJQB]{1,2}\d[ZJ]?[- ]?\d{2}(/\d{2})?[A-Z]?"
-    r"|grout(ed|ing)?[ _-]?(splice[ _-]?)?(sleeve|coupler)|splice[ _-]?sleeve|grout[ _-]?tube|corrugated duct"
-    r"|\bsleeves?\b|rebar[ _-]?coupler|\bcouplers?\b|\bNMB\b|Interlok|Groutec|Sleeve-?Lock"
-    r"|スプライススリーブ|スリーブ|モルタル充填(式)?継手|機械式継手"
-    r"|\bMuffe|Bewehrungsanschluss|Wellrohr|Hüllrohr|koppelhuls|gainebuis|\bgaine\b|stekkenbuis",
-    re.IGNORECASE,
-)
-NOT_SLEEVE = re.compile(
-    r"防水套管|刚性套管|剛性套管|柔性套管|穿墙套管|穿牆套管|止水|吊装|吊裝|斜撑|斜撐|脱模|脫模|预埋螺母|預埋螺母|预埋管|线管|线盒"
-    r"|lifting|\bbrac(e|ing)\b|pipe[ _-]?sleeve|threaded[ _-]?(insert|socket)|\banchor[ _-]?nut|吊り|Durchführung",
-    re.IGNORECASE,
-)
-REBAR = re.compile(
-    r"连接钢筋|連接鋼筋|连接筋|插筋|预留钢筋|預留鋼筋|外露钢筋|伸出钢筋|甩筋|锚筋|錨筋|竖向(受力)?钢筋|纵筋|縱筋|纵向钢筋|主筋"
-    r"|\bdowels?\b|\bstarter|projecting[ _-]?(bar|rebar|reinforcement)|connecting[ _-]?(re)?bar|差し?筋"
-    r"|Anschlussbewehrung|Steckeisen|Anschlusseisen|\bstek(ken|eind|staaf|wapening)",
-    re.IGNORECASE,
-)
-NOT_REBAR = re.compile(
-    r"箍|拉筋|拉结筋|拉結筋|螺旋筋|分布筋|吊环|吊環|帯筋|フープ|あばら筋|スターラップ"
-    r"|stirrup|ligature|\bhoops?\b|spiral|\blinks?\b|(single|cross)[ _-]?tie|\bties?\b|beugel|\bBügel|\bWendel",
-    re.IGNORECASE,
-)
-COLUMN = re.compile(
-    r"预制柱|預製柱|PC柱|预制框架柱|\bPCZ|YZZ|\bKZ\d+|precast[ _-]?column|プレキャスト柱|PCa柱",
-    re.IGNORECASE,
-)
+__all__ = ["COLUMN", "NOT_COLUMN", "NOT_REBAR", "NOT_SLEEVE", "REBAR", "SLEEVE"]
 
 _PIECE_MARK = frozenset(
     {"piecemark", "piece mark", "assembly/cast unit mark", "cast unit mark", "castunitmark", "构件编号", "構件編號"}
 )
 
+_SAID = (2, 4, 3)
+"""Places of Name, ObjectType and Description among the attributes of an object; by name they take thrice as long."""
 
-def texts(element: Any, *, with_properties: bool = False) -> str:
-    """All that an element and its type are called, in one line; optionally the texts of its property sets too."""
-    from ifcopenshell.util.element import get_type
+_TAG = 7
 
-    kind = get_type(element)
-    said = [getattr(element, "Name", None), getattr(element, "ObjectType", None), getattr(element, "Description", None)]
-    if kind is not None:
-        said += [kind.Name, getattr(kind, "ElementType", None), kind.Description]
-    if with_properties:
-        said += [value for _, value in properties(element) if isinstance(value, str)]
-    return " | ".join(dict.fromkeys(text.strip() for text in said if text and text.strip()))
+
+@dataclass(frozen=True, eq=False)
+class Naming:
+    """What the elements of one file are called; relations are followed once for the whole file."""
+
+    file: Any
+    _texts: dict[int, tuple[str, ...]] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def _types(self) -> dict[int, Any]:
+        """The type of each occurrence, by the occurrence's number."""
+        found: dict[int, Any] = {}
+        for relation in self.file.by_type("IfcRelDefinesByType"):
+            of_type = relation.RelatingType
+            found.update((element.id(), of_type) for element in relation.RelatedObjects)
+        return found
+
+    def type_of(self, element: Any) -> Any:
+        """The type of an element; None where it has none."""
+        return self._types.get(element.id())
+
+    def texts(self, element: Any) -> tuple[str, ...]:
+        """All that an element and its type are called, each text once."""
+        number = element.id()
+        if number not in self._texts:
+            of_type = self._types.get(number)
+            told = [element[place] for place in _SAID]
+            if element.is_a("IfcElement"):
+                told.append(element[_TAG])
+            if of_type is not None:
+                told += self._texts_of_type(of_type)
+            self._texts[number] = tuple(dict.fromkeys(text.strip() for text in told if text and not text.isspace()))
+        return self._texts[number]
+
+    def _texts_of_type(self, of_type: Any) -> tuple[str, ...]:
+        if of_type.id() not in self._texts:
+            told = (of_type.Name, optional(of_type, "ElementType"), of_type.Description)
+            self._texts[of_type.id()] = tuple(text for text in told if text)
+        return self._texts[of_type.id()]
+
+    def said(self, element: Any) -> str:
+        """All that an element and its type are called, in one line."""
+        return " | ".join(self.texts(element))
+
+    def find(self, pattern: re.Pattern[str], element: Any) -> str | None:
+        """The first match of a pattern in what an element and its type are called."""
+        return next((found for text in self.texts(element) if (found := find(pattern, text))), None)
+
+    def told_by_property(self, pattern: re.Pattern[str]) -> dict[int, str]:
+        """Elements of which a property says what the pattern looks for: by number, with that property's text."""
+        found: dict[int, str] = {}
+        for single in self.file.by_type("IfcPropertySingleValue"):
+            text = None if single.NominalValue is None else single.NominalValue.wrappedValue
+            if isinstance(text, str) and find(pattern, text):
+                for element in self._owners(single):
+                    found.setdefault(element.id(), text)
+        return found
+
+    def _owners(self, single: Any) -> Iterator[Any]:
+        for group in self.file.get_inverse(single):
+            for holder in self.file.get_inverse(group):
+                if holder.is_a("IfcRelDefinesByProperties"):
+                    yield from holder.RelatedObjects
+                elif holder.is_a("IfcTypeObject"):
+                    yield from (self.file.by_id(number) for number, kind in self._types.items() if kind == holder)
+
+    def predefined_type(self, element: Any) -> str:
+        """PredefinedType of an element or its type, or BarRole in IFC2X3; empty where there is none."""
+        for holder in (element, self.type_of(element)):
+            for name in ("PredefinedType", "BarRole"):
+                value = optional(holder, name)
+                if value and value not in ("NOTDEFINED", "USERDEFINED"):
+                    return str(value)
+        return ""
+
+    def attribute(self, element: Any, name: str) -> Any:
+        """An attribute of an element, or else of its type; None where neither gives it."""
+        for holder in (element, self.type_of(element)):
+            if value := optional(holder, name):
+                return value
+        return None
 
 
 def properties(element: Any) -> Iterator[tuple[str, Any]]:
@@ -69,18 +118,6 @@ def piece_mark(element: Any) -> str | None:
     """The mark of the mould that a precast piece comes from, shared by all pieces cast in it."""
     marks = (str(value) for name, value in properties(element) if name.strip().lower() in _PIECE_MARK and value)
     return next(marks, None)
-
-
-def predefined_type(element: Any) -> str:
-    """PredefinedType of an element or its type, or BarRole in IFC2X3; empty where there is none."""
-    from ifcopenshell.util.element import get_type
-
-    for holder in (element, get_type(element)):
-        for name in ("PredefinedType", "BarRole"):
-            value = getattr(holder, name, None)
-            if value and value not in ("NOTDEFINED", "USERDEFINED"):
-                return str(value)
-    return ""
 
 
 def storey_name(element: Any) -> str | None:
@@ -106,7 +143,7 @@ def wholes(element: Any) -> list[Any]:
 def parts(element: Any) -> list[Any]:
     """All parts that an element is made of, of their parts too."""
     found: list[Any] = []
-    for relation in getattr(element, "IsDecomposedBy", ()):
+    for relation in element.IsDecomposedBy:
         for part in relation.RelatedObjects:
             found += [part, *parts(part)]
     return found

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from aadm_workbench.design.ifc_entity import optional
+from aadm_workbench.design.ifc_representation import body_of
 from aadm_workbench.model import Array
 
 
@@ -26,30 +28,26 @@ class Placements:
     mm: float
     _known: dict[int, Array] = field(default_factory=dict, repr=False)
 
-    def of_product(self, product: Any) -> Array:
-        """``T_model_product``: the product's own frame in the model, world coordinate system included."""
-        return self.world(product) @ self.of_placement(getattr(product, "ObjectPlacement", None))
+    def of_product(self, product: Any, context: Any = None) -> Array:
+        """``T_model_product``: the product's own frame in the model, world coordinate system included.
 
-    def world(self, product: Any) -> Array:
-        """The world coordinate system of the context in which a product's shape is drawn.
-
-        It moves everything in that context; some exporters put the whole georeference there.
+        The world coordinate system of the context in which its body is drawn moves everything in that context; some
+        exporters put the whole georeference there.
         """
-        representation = getattr(product, "Representation", None)
-        drawn = representation.Representations if representation else ()
-        context = next((shape.ContextOfItems for shape in drawn if shape.ContextOfItems), None)
-        return self.of_context(context)
+        if context is None:
+            context, _ = body_of(product)
+        return self.of_context(context) @ self.of_placement(optional(product, "ObjectPlacement"))
 
     def of_context(self, context: Any) -> Array:
         """World coordinate system of a representation context; the identity where it has none."""
-        while context is not None and context.is_a("IfcGeometricRepresentationSubContext"):
-            context = context.ParentContext
-        system = getattr(context, "WorldCoordinateSystem", None)
-        if system is None:
+        if context is None:
             return np.eye(4)
-        if system.id() not in self._known:
-            self._known[system.id()] = self.of_axes(system)
-        return self._known[system.id()]
+        if context.id() not in self._known:
+            whole = context
+            while whole.is_a("IfcGeometricRepresentationSubContext"):
+                whole = whole.ParentContext
+            self._known[context.id()] = self.of_axes(optional(whole, "WorldCoordinateSystem"))
+        return self._known[context.id()]
 
     def of_placement(self, placement: Any) -> Array:
         """An IfcLocalPlacement with all that it is relative to.
@@ -57,19 +55,19 @@ class Placements:
         Raises
         ------
         UnreadableGeometryError
-            Where placements are relative to each other in a circle, or of a kind other than local.
+            Where placements are relative to each other in a circle, or on a grid.
         """
         chain: list[Any] = []
         while placement is not None and placement.id() not in self._known:
-            if not placement.is_a("IfcLocalPlacement"):
+            if _axes_of(placement) is None:
                 raise UnreadableGeometryError(f"#{placement.id()} {placement.is_a()} is not evaluated")
             if any(placement.id() == link.id() for link in chain):
                 raise UnreadableGeometryError(f"placement #{placement.id()} is relative to itself")
             chain.append(placement)
-            placement = placement.PlacementRelTo
+            placement = optional(placement, "PlacementRelTo")
         T = np.eye(4) if placement is None else self._known[placement.id()]
         for link in reversed(chain):
-            T = T @ self.of_axes(link.RelativePlacement)
+            T = T @ self.of_axes(_axes_of(link))
             self._known[link.id()] = T
         return T
 
@@ -79,25 +77,30 @@ class Placements:
             return np.eye(4)
         if axes.is_a("IfcAxis2Placement2D"):
             return frame(self.point(axes.Location), None, _direction(axes.RefDirection))
-        reference = getattr(axes, "RefDirection", None)
-        return frame(self.point(axes.Location), _direction(axes.Axis), _direction(reference))
+        z, x = _direction(optional(axes, "Axis")), _direction(optional(axes, "RefDirection"))
+        return frame(self.point(optional(axes, "Location")), z, x)
 
     def of_operator(self, operator: Any) -> Array:
         """An IfcCartesianTransformationOperator: the target of a mapped item, which may mirror and scale."""
-        x = _direction(operator.Axis1)
-        y = _direction(operator.Axis2)
-        z = _direction(getattr(operator, "Axis3", None))
-        T = frame(self.point(operator.LocalOrigin), z, x)
+        x, y, z = (_direction(optional(operator, name)) for name in ("Axis1", "Axis2", "Axis3"))
+        T = frame(self.point(optional(operator, "LocalOrigin")), z, x)
         if y is not None and float(T[:3, 1] @ y) < 0.0:
             T[:3, 1] = -T[:3, 1]
-        scales = [operator.Scale, getattr(operator, "Scale2", None), getattr(operator, "Scale3", None)]
-        first = 1.0 if scales[0] is None else float(scales[0])
-        T[:3, :3] *= [first if scale is None else float(scale) for scale in scales]
+        scales = [optional(operator, "Scale"), optional(operator, "Scale2"), optional(operator, "Scale3")]
+        if scales != [None, None, None]:
+            first = 1.0 if scales[0] is None else float(scales[0])
+            T[:3, :3] *= [first if scale is None else float(scale) for scale in scales]
         return T
+
+    def of_map(self, source: Any) -> Array:
+        """The origin of an IfcRepresentationMap, which thousands of mapped items share."""
+        if source.id() not in self._known:
+            self._known[source.id()] = self.of_axes(source.MappingOrigin)
+        return self._known[source.id()]
 
     def point(self, point: Any) -> Array:
         """An IfcCartesianPoint as (3,) mm; a point of the plane gets z = 0."""
-        return self.coordinates(point.Coordinates)
+        return self.coordinates(optional(point, "Coordinates"))
 
     def coordinates(self, values: Any) -> Array:
         """Two or three coordinates of the file as (3,) mm."""
@@ -106,8 +109,22 @@ class Placements:
         return self.mm * xyz
 
 
+def _axes_of(placement: Any) -> Any:
+    """Axes of a local placement; of one along an alignment those that it is written with for who cannot follow it."""
+    if placement.is_a("IfcLocalPlacement"):
+        return optional(placement, "RelativePlacement")
+    return optional(placement, "CartesianPosition")
+
+
+_STILL = np.eye(4)
+
+
 def frame(origin: Array, z: Array | None, x: Array | None) -> Array:
     """A right-handed frame (4, 4) from its origin, its z axis and a hint at its x axis, as IFC defines it."""
+    if z is None and x is None:
+        T = _STILL.copy()
+        T[:3, 3] = origin
+        return T
     up = np.array([0.0, 0.0, 1.0]) if z is None else z
     if x is None:
         x = np.array([0.0, 0.0, 1.0]) if abs(up[0]) > 1.0 - 1e-9 else np.array([1.0, 0.0, 0.0])

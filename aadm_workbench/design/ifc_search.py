@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,6 +12,8 @@ from aadm_workbench.design.ifc_columns import ColumnBody, Foot
 from aadm_workbench.design.ifc_file import OpenedIfc
 from aadm_workbench.design.ifc_shapes import Shapes
 from aadm_workbench.design.ifc_sleeves import (
+    BESIDE_MM,
+    FEWEST_UNNAMED,
     SAME_MOUTH_MM,
     Candidate,
     Evidence,
@@ -24,7 +26,6 @@ from aadm_workbench.design.ifc_sleeves import (
 from aadm_workbench.model import Array
 
 _BEHIND_MM = 5.0
-_NEAR_MM = 100.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,11 +46,12 @@ class SleeveSearch:
     shapes: Shapes
     named: Sequence[Candidate]
     selected: bool
+    bodies: Sequence[ColumnBody]
 
     @cached_property
     def unnamed(self) -> list[Candidate]:
         """Round bodies and openings of the whole model; evaluated only where a column needs them."""
-        return unnamed_candidates(self.opened.file, self.shapes)
+        return unnamed_candidates(self.opened, self.shapes, [foot for body in self.bodies for foot in body.feet])
 
     @cached_property
     def _named_middles(self) -> Array:
@@ -63,7 +65,7 @@ class SleeveSearch:
     def _near(foot: Foot, candidates: Sequence[Candidate], middles: Array) -> list[Candidate]:
         """Candidates over whose middle the column stands: a floor has thousands, a column a dozen."""
         across_mm = np.abs(foot.local(middles)[:, :2])
-        near = np.all(across_mm <= foot.half_size_mm + _NEAR_MM, axis=1)
+        near = np.all(across_mm <= foot.half_size_mm + BESIDE_MM, axis=1)
         return [candidate for candidate, is_near in zip(candidates, near, strict=True) if is_near]
 
     def on(self, body: ColumnBody) -> FoundFoot:
@@ -71,17 +73,40 @@ class SleeveSearch:
         return max((self._on_foot(body, foot) for foot in body.feet), key=lambda found: len(found.mouths))
 
     def _on_foot(self, body: ColumnBody, foot: Foot) -> FoundFoot:
-        mouths, refused = mouths_on(foot, self._near(foot, self.named, self._named_middles))
+        named = self._near(foot, self.named, self._named_middles)
         if self.selected:
-            return FoundFoot(foot, tuple(mouths), tuple(refused), tuple(_warnings(mouths)))
-        own, _ = mouths_on(foot, own_candidates(body, self.shapes))
-        if mouths:
-            extra = [mouth for mouth in own if _apart(mouth, mouths)]
-            return FoundFoot(foot, tuple(mouths), tuple(refused), (*_warnings(mouths), *_extra(extra)))
-        mouths = alike(own)
-        if not mouths:
-            mouths = alike(mouths_on(foot, self._near(foot, self.unnamed, self._unnamed_middles))[0])
-        return FoundFoot(foot, tuple(mouths), tuple(refused), tuple(_warnings(mouths)))
+            return sleeves_in(foot, named)
+        return sleeves_in(
+            foot,
+            named,
+            own_candidates(self.opened, body, self.shapes),
+            lambda: self._near(foot, self.unnamed, self._unnamed_middles),
+        )
+
+    def refused_in(self, body: ColumnBody, foot: Foot) -> list[tuple[Candidate, str]]:
+        """Round things without a name that lie in a foot face and are no sleeves, with the reason."""
+        unnamed = self._near(foot, self.unnamed, self._unnamed_middles)
+        mouths, refused = mouths_on(foot, [*own_candidates(self.opened, body, self.shapes), *unnamed])
+        few = f"is one of fewer than {FEWEST_UNNAMED} alike, without a name of a sleeve"
+        return [*refused, *((mouth.candidate, few) for mouth in mouths)]
+
+
+def sleeves_in(
+    foot: Foot,
+    named: Sequence[Candidate],
+    own: Sequence[Candidate] = (),
+    unnamed: Callable[[], Sequence[Candidate]] = tuple,
+) -> FoundFoot:
+    """The sleeves in a foot face: those with a name, else like holes of its own, else like ones of others."""
+    mouths, refused = mouths_on(foot, named)
+    holes, _ = mouths_on(foot, own)
+    if not mouths:
+        mouths = alike(holes)
+    if not mouths:
+        holes = mouths_on(foot, unnamed())[0]
+        mouths = alike(holes)
+    extra = [mouth for mouth in holes if _apart(mouth, mouths)] if mouths else []
+    return FoundFoot(foot, tuple(mouths), tuple(refused), (*_warnings(mouths), *_extra(extra)))
 
 
 def _middles(candidates: Sequence[Candidate]) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
@@ -14,8 +14,9 @@ from aadm_workbench.design.ifc_bars import UP
 from aadm_workbench.design.ifc_columns import ColumnBody, Foot
 from aadm_workbench.design.ifc_file import OpenedIfc
 from aadm_workbench.design.ifc_shapes import Shapes
+from aadm_workbench.design.ifc_words import NOT_SLEEVE, SLEEVE
 from aadm_workbench.design.model_design import NotTaken
-from aadm_workbench.design.tubes import Tube
+from aadm_workbench.design.tubes import Tube, stacked
 from aadm_workbench.model import Array, AssemblyPoint, Kind
 
 BORE_MM = (18.0, 100.0)
@@ -32,7 +33,13 @@ FEWEST_UNNAMED = 3
 """So many like holes in a foot face are sleeves even without a name; fewer may be vents or sockets."""
 
 SAME_MOUTH_MM = 5.0
+
+BESIDE_MM = 100.0
+"""What lies further beside a foot face than this has no mouth in it."""
+
+_LONGEST_MM = 6000.0
 _ALONG_COS = float(np.cos(np.radians(5.0)))
+_COUPLER_CLASSES = ("IfcMechanicalFastener", "IfcTendonAnchor", "IfcTendonConduit")
 _UNNAMED_CLASSES = (
     "IfcElementComponent",
     "IfcBuildingElementProxy",
@@ -70,6 +77,11 @@ class Candidate:
         """Whether it is drawn as what is taken away, so that a solid cylinder is a hole."""
         return self.tube.is_hole or bool(self.element.is_a("IfcFeatureElementSubtraction"))
 
+    @property
+    def is_hollow(self) -> bool:
+        """Whether it is drawn with a bore."""
+        return self.tube.bore_mm != (None, None)
+
 
 @dataclass(frozen=True, eq=False)
 class Mouth:
@@ -89,56 +101,98 @@ def named_candidates(opened: OpenedIfc, shapes: Shapes, selector: str | None) ->
     if selector:
         chosen = ifc_names.select(opened.file, opened.source, "sleeves", selector)
         return [c for e in chosen for c in _candidates(e, shapes, Evidence.SELECTOR, "chosen by the selector")], []
-    for with_properties in (False, True):
-        found, left = _by_name(opened.file, shapes, with_properties)
-        if found:
-            break
-    return found, left
+    found, left = _by_name(opened, shapes)
+    return (found, left) if found else _by_property(opened, shapes, left)
 
 
-def _by_name(file: Any, shapes: Shapes, with_properties: bool) -> tuple[list[Candidate], list[NotTaken]]:
+def _by_name(opened: OpenedIfc, shapes: Shapes) -> tuple[list[Candidate], list[NotTaken]]:
     found: list[Candidate] = []
     left: list[NotTaken] = []
-    classes = _UNNAMED_CLASSES if with_properties else ("IfcElement",)
-    for element in _each(file, classes):
-        if element.is_a("IfcReinforcingElement") or element.is_a("IfcElementAssembly"):
+    couplers = frozenset(element.id() for element in _couplers(opened))
+    for element in opened.file.by_type("IfcElement"):
+        word = opened.naming.find(SLEEVE, element)
+        coupler = element.id() in couplers
+        if (not word and not coupler) or element.is_a("IfcElementAssembly"):
             continue
-        said = ifc_names.texts(element, with_properties=with_properties)
-        word = ifc_names.SLEEVE.search(said)
-        coupler = ifc_names.predefined_type(element) == "COUPLER"
-        if not word and not coupler:
-            continue
-        excluded = ifc_names.NOT_SLEEVE.search(said)
+        excluded = opened.naming.find(NOT_SLEEVE, element)
         if excluded:
-            left.append(_left_out(element, f"is called {excluded.group()!r}: no grouting sleeve"))
+            left.append(_left_out(element, f"is called {excluded!r}: no grouting sleeve"))
             continue
         evidence = Evidence.CLASS if coupler else Evidence.NAME
-        found += _candidates(element, shapes, evidence, f'{element.is_a()} "{said}"')
+        why = f'{element.is_a()} "{opened.naming.said(element)}"'
+        drawn = _candidates(element, shapes, evidence, f"{why}, a COUPLER by its PredefinedType" if coupler else why)
+        if element.is_a("IfcReinforcingElement"):
+            # Bars are called after the sleeve that they go into.
+            drawn = [candidate for candidate in drawn if candidate.is_hollow]
+        elif not drawn:
+            left.append(_left_out(element, _undrawn(element, shapes)))
+        found += drawn
     return found, left
 
 
-def unnamed_candidates(file: Any, shapes: Shapes) -> list[Candidate]:
-    """Every hollow cylinder and round opening of classes that sleeves are modelled as, whatever it is called."""
+def _undrawn(element: Any, shapes: Shapes) -> str:
+    if shapes.of_product(element):
+        return "is called a sleeve, but nothing in its shape is a straight round body or hole"
+    return "is called a sleeve, but has no geometry that could be evaluated"
+
+
+def _couplers(opened: OpenedIfc) -> Iterator[Any]:
+    """Elements that their PredefinedType makes couplers of bars, or ducts that grout goes into."""
+    for ifc_class in _COUPLER_CLASSES:
+        try:
+            elements = opened.file.by_type(ifc_class)
+        except RuntimeError:  # the schema has no such class
+            continue
+        yield from (e for e in elements if opened.naming.predefined_type(e) in ("COUPLER", "GROUTING_DUCT"))
+
+
+def _by_property(opened: OpenedIfc, shapes: Shapes, left: list[NotTaken]) -> tuple[list[Candidate], list[NotTaken]]:
+    """Some programs call every part the same, and say what it is in a property set of their own."""
+    told = opened.naming.told_by_property(SLEEVE)
+    found: list[Candidate] = []
+    for element in _each(opened.file, _UNNAMED_CLASSES) if told else ():
+        text = told.get(element.id())
+        if text is None or element.is_a("IfcReinforcingBar") or opened.naming.find(NOT_SLEEVE, element):
+            continue
+        if any(isinstance(value, str) and NOT_SLEEVE.search(value) for _, value in ifc_names.properties(element)):
+            left.append(_left_out(element, "has a property that names another kind of sleeve"))
+            continue
+        why = f'{element.is_a()} "{opened.naming.said(element)}", property "{text}"'
+        found += _candidates(element, shapes, Evidence.NAME, why)
+    return found, left
+
+
+def unnamed_candidates(opened: OpenedIfc, shapes: Shapes, feet: Sequence[Foot]) -> list[Candidate]:
+    """Hollow cylinders and round openings in feet, of classes that sleeves are modelled as, whatever their names."""
+    frames = np.array([foot.T_model_foot for foot in feet]).reshape(-1, 4, 4)
+    reach_mm = np.array([[*(foot.half_size_mm + BESIDE_MM), foot.height_mm] for foot in feet]).reshape(-1, 3)
+    reach_mm[:, 2] = np.maximum(reach_mm[:, 2], _LONGEST_MM)
+
+    def near(point: Array) -> bool:
+        local = np.einsum("fi,fij->fj", point - frames[:, :3, 3], frames[:, :3, :3])
+        return bool((np.abs(local) <= reach_mm).all(axis=1).any())
+
     return [
         candidate
-        for element in _each(file, _UNNAMED_CLASSES)
-        if not element.is_a("IfcReinforcingElement") and not ifc_names.NOT_SLEEVE.search(ifc_names.texts(element))
-        for candidate in _candidates(element, shapes, Evidence.GEOMETRY, f"{element.is_a()} without a telling name")
+        for element in _each(opened.file, _UNNAMED_CLASSES)
+        if not element.is_a("IfcReinforcingBar") and not opened.naming.find(NOT_SLEEVE, element)
+        for candidate in _candidates(
+            element, shapes, Evidence.GEOMETRY, f"{element.is_a()} without a telling name", near
+        )
     ]
 
 
-def own_candidates(body: ColumnBody, shapes: Shapes) -> list[Candidate]:
+def own_candidates(opened: OpenedIfc, body: ColumnBody, shapes: Shapes) -> list[Candidate]:
     """Round holes in a column's own body, and the hollow cylinders and openings that are its parts or voids."""
-    holes = [tube for drawn in body.drawn for tube in shapes.tubes_of_product(drawn) if tube.is_hole]
+    holes = [tube for drawn in body.drawn for tube in stacked(shapes.tubes_of_product(drawn)) if tube.is_hole]
     found = [Candidate(body.element, tube, Evidence.GEOMETRY, "a round hole in the column's body") for tube in holes]
-    relations = getattr(body.element, "HasOpenings", ())
-    related = [relation.RelatedOpeningElement for relation in relations]
-    for holder in (body.element, *body.wholes[:1]):
+    related: list[Any] = []
+    for holder in (body.element, *body.drawn, *body.wholes[:1]):
+        related += [relation.RelatedOpeningElement for relation in holder.HasOpenings]
         related += ifc_names.parts(holder)
-    for element in related:
-        if element.is_a("IfcReinforcingElement") or element.id() == body.element.id():
-            continue
-        if not ifc_names.NOT_SLEEVE.search(ifc_names.texts(element)):
+    own = {element.id(): element for element in related if element.id() != body.element.id()}
+    for element in own.values():
+        if not element.is_a("IfcReinforcingBar") and not opened.naming.find(NOT_SLEEVE, element):
             found += _candidates(element, shapes, Evidence.GEOMETRY, f"{element.is_a()} without a telling name")
     return found
 
@@ -269,9 +323,13 @@ def _left_out(element: Any, reason: str, tube: Tube | None = None) -> NotTaken:
     )
 
 
-def _candidates(element: Any, shapes: Shapes, evidence: Evidence, why: str) -> list[Candidate]:
-    found = shapes.tubes_of_product(element)
-    return [Candidate(element, tube, evidence, why) for tube in found if tube.length_mm > 1.0]
+def _candidates(
+    element: Any, shapes: Shapes, evidence: Evidence, why: str, near: Callable[[Array], bool] | None = None
+) -> list[Candidate]:
+    found = shapes.tubes_of_product(element, near=near)
+    if not found and evidence is not Evidence.GEOMETRY:
+        found = shapes.tubes_of_product(element, coarse=True)
+    return [Candidate(element, tube, evidence, why) for tube in stacked(found) if tube.length_mm > 1.0]
 
 
 def _each(file: Any, classes: Sequence[str]) -> Iterator[Any]:

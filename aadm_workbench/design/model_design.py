@@ -57,10 +57,12 @@ class ModelDesign:
         Elements that were looked at and left out, with the reason.
     holdings
         What the model holds, by class, in words.
+    hint
+        Where there is no column with sleeves: what was found instead, and how to say what is what.
     T_model_file
         (4, 4): the world coordinate system of the file, which moves its placements into the model frame.
-    seconds
-        What reading took; no part of any result.
+    seconds, parse_seconds
+        What finding the points took, and opening the file before; no part of any result.
     """
 
     source: str
@@ -72,8 +74,10 @@ class ModelDesign:
     warnings: tuple[str, ...] = ()
     not_taken: tuple[NotTaken, ...] = ()
     holdings: str = ""
+    hint: str = ""
     T_model_file: Array = field(default_factory=lambda: np.eye(4))
     seconds: float = 0.0
+    parse_seconds: float = 0.0
 
     def column(self, key: str) -> ColumnDesign:
         """The column of that Name, Tag, PieceMark or GlobalId.
@@ -108,10 +112,11 @@ class ModelDesign:
         return f"{self.source} has no column called {key!r}. {shown}."
 
     def _help(self) -> str:
-        return (
-            f"The model holds {self.holdings}. Where sleeves are called something else, name them with "
+        how = self.hint or (
+            "Where sleeves are called something else, name them with "
             'sleeves = "..." in [model], for instance sleeves = "IfcDiscreteAccessory, Name=/套筒/".'
         )
+        return f"The model holds {self.holdings}. {how}"
 
 
 def _listed(names: Sequence[str]) -> str:

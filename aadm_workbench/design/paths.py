@@ -155,6 +155,27 @@ def cut(legs: Sequence[Leg], begin: float | None, stop: float | None) -> list[Le
     return kept
 
 
+def rounded(legs: Sequence[Leg], radius_mm: float) -> list[Leg]:
+    """A path of straight legs with an arc of one radius in each of its corners."""
+    found: list[Leg] = []
+    for leg in joined(legs):
+        last = found[-1] if found else None
+        if not isinstance(leg, Straight) or not isinstance(last, Straight):
+            found.append(leg)
+            continue
+        turn = math.acos(max(-1.0, min(1.0, float(last.direction @ leg.direction))))
+        setback_mm = radius_mm * math.tan(turn / 2.0)
+        if not 0.0 < setback_mm < min(last.length_mm, leg.length_mm):
+            found.append(leg)
+            continue
+        begin, stop = last.end - setback_mm * last.direction, leg.start + setback_mm * leg.direction
+        inwards = leg.direction - last.direction
+        to_centre = radius_mm / math.cos(turn / 2.0) * inwards / float(np.linalg.norm(inwards))
+        middle = last.end + to_centre * (1.0 - math.cos(turn / 2.0))
+        found[-1:] = [Straight(last.start, begin), arc_through(begin, middle, stop), Straight(stop, leg.end)]
+    return found
+
+
 def joined(legs: Iterable[Leg]) -> list[Leg]:
     """The same path with straight legs of one direction made one, and legs without length left out."""
     merged: list[Leg] = []

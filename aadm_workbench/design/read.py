@@ -6,31 +6,58 @@ from pathlib import Path
 
 from aadm_workbench.design.ifc import read_ifc
 from aadm_workbench.design.model_design import ModelDesign
+from aadm_workbench.design.recognise import Rules
 from aadm_workbench.errors import DesignError
+
+_KERNEL = (".step", ".stp", ".brep", ".brp")
+_MESHES = (".stl", ".obj", ".ply")
+SUPPORTED = (".ifc", ".FCStd", *_KERNEL, *_MESHES)
 
 
 def read_model(
-    path: str | Path, *, columns: str | None = None, sleeves: str | None = None, rebars: str | None = None
+    path: str | Path,
+    *,
+    columns: str | None = None,
+    sleeves: str | None = None,
+    rebars: str | None = None,
+    units: str = "mm",
 ) -> ModelDesign:
     """Columns, sleeves and connecting rebars of a model, by the format that its name ends in.
 
     Parameters
     ----------
     path
-        The model: .ifc.
+        The model: .ifc, .FCStd, .step, .brep, .stl, .obj, .ply.
     columns, sleeves, rebars
         Optional selectors in the syntax of ``ifcopenshell.util.selector``.
+    units
+        Of a mesh, which does not know its own: mm, cm, m, inch or foot. Other formats bring theirs.
 
     Raises
     ------
     DesignError
         For a format that is not supported, and for whatever the format's reader refuses.
+    MissingDependencyError
+        Where a program or package that the format needs is not installed.
     """
     suffix = Path(path).suffix
     if suffix.lower() == ".ifc":
         return read_ifc(path, columns=columns, sleeves=sleeves, rebars=rebars)
+    rules = Rules(columns, sleeves, rebars)
+    if suffix.lower() == ".fcstd":
+        from aadm_workbench.design.fcstd import read_fcstd
+
+        return read_fcstd(path, rules)
+    if suffix.lower() in _KERNEL:
+        from aadm_workbench.design.step import read_step
+
+        return read_step(path, rules)
+    if suffix.lower() in _MESHES:
+        from aadm_workbench.design.mesh import read_mesh
+
+        return read_mesh(path, rules, units=units)
     called = f"models of the format {suffix}" if suffix else "models without an extension"
     raise DesignError(
-        f"{path}: {called} are not supported. Supported: .ifc. Export the model as IFC, or describe the column in the "
-        "job, in [columns.design]."
+        f"{path}: {called} are not supported. Supported: {', '.join(SUPPORTED)}. Export the model as IFC, or describe "
+        "the column in the job, in [columns.design]."
     )

@@ -23,24 +23,71 @@ class Rim:
     hole: bool
 
 
-def rims(mesh: Mesh) -> list[Rim]:
-    """All round rims of a mesh: outlines of its plane faces, and its open ends where it is a mere shell."""
+def rims(mesh: Mesh, fewest: int = FEWEST_VERTICES) -> list[Rim]:
+    """All round rims of a mesh: outlines of its plane faces, and its open ends where it is a mere shell.
+
+    A rim has at least ``fewest`` vertices.
+    """
     vertices, edges, face_of = _edges(mesh)
     patch_of = _plane_patches(_normals(mesh), edges, face_of)
     found: list[Rim] = []
-    for border in _borders(edges, patch_of[face_of]):
+    for border in _borders(edges, patch_of[face_of], fewest):
         loops = _loops(border)
         widths = [float(np.ptp(vertices[loop], axis=0).max()) for loop in loops]
-        circles = [circle_through(vertices[loop]) for loop in loops]
+        circles = [circle_through(vertices[loop], fewest) for loop in loops]
         found += [
             Rim(circle, hole=width < max(widths))
             for circle, width in zip(circles, widths, strict=True)
             if circle is not None
         ]
-    for border in _borders(edges, np.zeros(len(edges), dtype=np.int64)):
-        circles = [circle_through(vertices[loop]) for loop in _loops(border)]
+    for border in _borders(edges, np.zeros(len(edges), dtype=np.int64), fewest):
+        circles = [circle_through(vertices[loop], fewest) for loop in _loops(border)]
         found += [Rim(circle, hole=False) for circle in circles if circle is not None]
     return found
+
+
+def pieces_of(mesh: Mesh) -> list[Mesh]:
+    """The parts of a mesh that share no vertex: several bars are often drawn as one body."""
+    vertices, edges, face_of = _edges(mesh)
+    labels = _connected(len(vertices), edges[:, 0], edges[:, 1])
+    piece_of_face = np.full(len(mesh.faces), -1, dtype=np.int64)
+    piece_of_face[face_of] = labels[edges[:, 0]]
+    if len(np.unique(piece_of_face)) == 1:
+        return [mesh]
+    return [
+        _with_own_vertices(mesh, np.flatnonzero(piece_of_face == number))
+        for number in np.unique(piece_of_face[piece_of_face >= 0])
+    ]
+
+
+def _with_own_vertices(mesh: Mesh, faces: IntArray) -> Mesh:
+    kept = [mesh.faces[int(face)] for face in faces]
+    used = np.unique(np.concatenate([loop for face in kept for loop in face]))
+    number = np.zeros(len(mesh.vertices), dtype=np.int64)
+    number[used] = np.arange(len(used))
+    return Mesh(mesh.vertices[used], tuple(tuple(number[loop] for loop in face) for face in kept))
+
+
+def round_ends(mesh: Mesh, fewest: int) -> list[tuple[Circle, Array, bool]]:
+    """Round plane ends of a piece of no holes: circle, outline (n, 3) mm, and whether a face closes it.
+
+    Outlines have at least ``fewest`` vertices.
+    """
+    vertices, edges, face_of = _edges(mesh)
+    patch_of = _plane_patches(_normals(mesh), edges, face_of)
+    found = []
+    for patches, closed in ((patch_of[face_of], True), (np.zeros(len(edges), dtype=np.int64), False)):
+        for border in _borders(edges, patches, fewest):
+            for loop in _loops(border):
+                circle = circle_through(vertices[loop], fewest)
+                if circle is not None:
+                    found.append((circle, np.asarray(vertices[loop]), closed))
+    return found
+
+
+def area_mm2(mesh: Mesh) -> float:
+    """Area of all faces without holes."""
+    return float(np.linalg.norm(_area_vectors(mesh), axis=1).sum())
 
 
 def _edges(mesh: Mesh) -> tuple[Array, IntArray, IntArray]:
@@ -55,16 +102,22 @@ def _edges(mesh: Mesh) -> tuple[Array, IntArray, IntArray]:
 
 
 def _normals(mesh: Mesh) -> Array:
-    """(n, 3) unit normals of the faces by Newell's sum; zero for one without area."""
+    """(n, 3) unit normals of the faces; zero for one without area."""
+    vectors = _area_vectors(mesh)
+    areas = np.linalg.norm(vectors, axis=1, keepdims=True)
+    unit: Array = vectors / np.where(areas > 1e-9, areas, np.inf)
+    return unit
+
+
+def _area_vectors(mesh: Mesh) -> Array:
+    """(n, 3) mm², along the normals of the faces, by Newell's sum."""
     edges, face_of = mesh.edges
     local = mesh.vertices - mesh.vertices[0]
     a, b = local[edges[:, 0]], local[edges[:, 1]]
     # Holes run against their face's outline or with it, as exporters please: their share turns no normal.
     products = a[:, [1, 2, 0]] * b[:, [2, 0, 1]] - a[:, [2, 0, 1]] * b[:, [1, 2, 0]]
-    normals = np.column_stack([np.bincount(face_of, products[:, k], len(mesh.faces)) for k in range(3)])
-    areas = np.linalg.norm(normals, axis=1, keepdims=True)
-    unit: Array = normals / np.where(areas > 1e-9, areas, np.inf)
-    return unit
+    vectors: Array = np.column_stack([np.bincount(face_of, products[:, k], len(mesh.faces)) for k in range(3)])
+    return 0.5 * vectors
 
 
 def _plane_patches(normals: Array, edges: IntArray, face_of: IntArray) -> IntArray:
@@ -74,21 +127,26 @@ def _plane_patches(normals: Array, edges: IntArray, face_of: IntArray) -> IntArr
     first, second = face_of[order][:-1][one_edge], face_of[order][1:][one_edge]
     level = np.abs((normals[first] * normals[second]).sum(axis=1)) > _SAME_PLANE_COS
     first, second = first[level], second[level]
+    return _connected(len(normals), first, second)
+
+
+def _connected(count: int, first: IntArray, second: IntArray) -> IntArray:
+    """Number of the group that each of so many things is in, joined in pairs."""
     from scipy.sparse import coo_matrix  # slow to import, and only meshes need it
     from scipy.sparse.csgraph import connected_components
 
-    graph = coo_matrix((np.ones(len(first)), (first, second)), shape=(len(normals), len(normals)))
+    graph = coo_matrix((np.ones(len(first)), (first, second)), shape=(count, count))
     labels: IntArray = connected_components(graph, directed=False)[1].astype(np.int64)
     return labels
 
 
-def _borders(edges: IntArray, patch_of: IntArray) -> list[IntArray]:
+def _borders(edges: IntArray, patch_of: IntArray, fewest: int = FEWEST_VERTICES) -> list[IntArray]:
     """The outline (k, 2) of each patch: edges that only one of its faces has; those too short to be round left out."""
     keyed = np.column_stack([patch_of, edges])
     unique, times = np.unique(keyed, axis=0, return_counts=True)
     outline = unique[times == 1]
     cuts = np.flatnonzero(np.diff(outline[:, 0])) + 1
-    return [part[:, 1:] for part in np.split(outline, cuts) if len(part) >= FEWEST_VERTICES]
+    return [part[:, 1:] for part in np.split(outline, cuts) if len(part) >= fewest]
 
 
 def _loops(border: IntArray) -> list[IntArray]:

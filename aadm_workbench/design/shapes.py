@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -34,7 +35,7 @@ class SweptDisk:
 
     def moved(self, T: Array) -> SweptDisk:
         """The same after a motion (4, 4), which may scale alike in all directions."""
-        factor = scale(T)
+        factor = scale_across(T, self.legs[0].points[1] - self.legs[0].points[0]) if self.legs else 1.0
         inner_mm = None if self.inner_radius_mm is None else factor * self.inner_radius_mm
         return SweptDisk(tuple(leg.moved(T) for leg in self.legs), factor * self.radius_mm, inner_mm)
 
@@ -175,3 +176,12 @@ def _moved(points: Array, T: Array) -> Array:
 def scale(T: Array) -> float:
     """By how much a motion (4, 4) lengthens; the mean where it differs by direction."""
     return float(abs(np.linalg.det(T[:3, :3])) ** (1.0 / 3.0))
+
+
+def scale_across(T: Array, axis: Array) -> float:
+    """By how much a motion (4, 4) widens what is round about an axis (3,); the mean where it becomes oval."""
+    (a, b, c), (d, e, f), (g, h, i) = T[:3, :3].tolist()  # numpy takes ten times as long for so few numbers
+    x, y, z = axis.tolist()
+    volume = abs(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g))
+    grown = math.hypot(a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z) / math.hypot(x, y, z)
+    return math.sqrt(volume / grown)

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.design.circles import Circle
+from aadm_workbench.design.circles import FEWEST_VERTICES, Circle
 from aadm_workbench.design.paths import Straight, joined
 from aadm_workbench.design.rims import Rim, rims
-from aadm_workbench.design.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned, scale
+from aadm_workbench.design.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned, scale_across
 from aadm_workbench.model import Array
 
 _ON_AXIS_MM = 0.5
@@ -51,16 +51,50 @@ class Tube:
 
 
 def moved(tube: Tube, T: Array) -> Tube:
-    """A tube after a motion (4, 4), which may scale alike in all directions."""
+    """A tube after a motion (4, 4), which may scale along the axis by another factor than across."""
     ends = np.array([tube.start, tube.end]) @ T[:3, :3].T + T[:3, 3]
-    factor = scale(T)
+    factor = scale_across(T, tube.end - tube.start)
     outer_mm = None if tube.outer_mm is None else factor * tube.outer_mm
     bore_mm = [None if bore is None else factor * bore for bore in tube.bore_mm]
     return Tube(ends[0], ends[1], outer_mm, (bore_mm[0], bore_mm[1]))
 
 
-def tubes(shape: Shape) -> list[Tube]:
-    """All straight round bodies and holes of one solid."""
+def stacked(found: Sequence[Tube]) -> list[Tube]:
+    """Tubes with those that follow each other on one axis made one: sleeves are drawn in sections."""
+    left, whole = list(found), []
+    while left:
+        tube = left.pop(0)
+        while (after := next((other for other in left if _follows(tube, other)), None)) is not None:
+            left = [other for other in left if other is not after]
+            tube = _prolonged(tube, after)
+        whole.append(tube)
+    return whole
+
+
+def _follows(tube: Tube, other: Tube) -> bool:
+    """Whether one ends where the other begins, both bodies or both holes, on one axis."""
+    if tube.is_hole != other.is_hole or min(tube.length_mm, other.length_mm) < _ONE_LEVEL_MM:
+        return False
+    along, onwards = (each.end - each.start for each in (tube, other))
+    parallel = abs(float(along @ onwards)) > _PARALLEL_COS * tube.length_mm * other.length_mm
+    ends = np.array([[np.linalg.norm(a - b) for b in (other.start, other.end)] for a in (tube.start, tube.end)])
+    # What lies inside the other shares an end with it too.
+    apart_mm = max(np.linalg.norm(a - b) for a in (tube.start, tube.end) for b in (other.start, other.end))
+    beyond = bool(apart_mm > max(tube.length_mm, other.length_mm) + _ONE_LEVEL_MM)
+    return parallel and bool(ends.min() < _ONE_LEVEL_MM) and beyond
+
+
+def _prolonged(tube: Tube, other: Tube) -> Tube:
+    if min(np.linalg.norm(tube.start - p) for p in (other.start, other.end)) < _ONE_LEVEL_MM:
+        tube = Tube(tube.end, tube.start, tube.outer_mm, tube.bore_mm[::-1])
+    if np.linalg.norm(other.end - tube.end) < np.linalg.norm(other.start - tube.end):
+        other = Tube(other.end, other.start, other.outer_mm, other.bore_mm[::-1])
+    outer_mm = None if tube.outer_mm is None or other.outer_mm is None else max(tube.outer_mm, other.outer_mm)
+    return Tube(tube.start, other.end, outer_mm, (tube.bore_mm[0], other.bore_mm[1]))
+
+
+def tubes(shape: Shape, fewest: int = FEWEST_VERTICES) -> list[Tube]:
+    """All straight round bodies and holes of one solid; where it is of facets, those of at least ``fewest`` sides."""
     match shape:
         case SweptDisk():
             return _of_swept_disk(shape)
@@ -69,9 +103,9 @@ def tubes(shape: Shape) -> list[Tube]:
         case Turned():
             return _of_turned(shape)
         case Mesh():
-            return _of_mesh(shape)
+            return _of_mesh(shape, fewest)
         case Cut():
-            return _of_cut(shape)
+            return _of_cut(shape, fewest)
         case HalfSpace():
             return []
 
@@ -121,8 +155,8 @@ def _of_turned(turned: Turned) -> list[Tube]:
     ]
 
 
-def _of_mesh(mesh: Mesh) -> list[Tube]:
-    left = rims(mesh)
+def _of_mesh(mesh: Mesh, fewest: int) -> list[Tube]:
+    left = rims(mesh, fewest)
     found = []
     while left:
         first = left[0]
@@ -172,11 +206,11 @@ def _diameters(end: Sequence[Rim]) -> tuple[float | None, float | None]:
     return max(wider, default=None), bore_mm
 
 
-def _of_cut(cut: Cut) -> list[Tube]:
-    found = tubes(cut.body)
+def _of_cut(cut: Cut, fewest: int) -> list[Tube]:
+    found = tubes(cut.body, fewest)
     if isinstance(cut.tool, HalfSpace):
         return [_shortened(tube, cut.tool) for tube in found]
-    for hole in [_as_hole(tube) for tube in tubes(cut.tool)]:
+    for hole in [_as_hole(tube) for tube in tubes(cut.tool, fewest)]:
         around = next((tube for tube in found if tube.outer_mm and _off_axis(tube, hole.start) < _ON_AXIS_MM), None)
         if around is None:
             found.append(hole)

@@ -34,6 +34,8 @@ class AssemblyPoint:
         Design: why this element was taken. Measured: the evidence that was used.
     length_mm
         Design only: length of the bar or of the sleeve, where the model gives it.
+    object_name
+        Design only: the object of a FreeCAD document, or the body of another file, that this point was taken from.
     """
 
     label: str
@@ -45,6 +47,7 @@ class AssemblyPoint:
     global_id: str | None = None
     why: str = ""
     length_mm: float | None = None
+    object_name: str | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +56,7 @@ class ColumnDesign:
 
     ``rebars[k]`` belongs into ``sleeves[k]``. ``T_model_column`` (4, 4) places the column frame in the
     model; None for a design without a model. ``names`` holds every name that a job may call it by
-    (Name, Tag, PieceMark, GlobalId).
+    (Name, Tag, PieceMark, GlobalId). ``exposed_length_mm`` is how far the rebars stick out of the floor.
     """
 
     id: str
@@ -68,6 +71,7 @@ class ColumnDesign:
     T_model_column: Array | None = None
     rebar_outer_diameter_mm: float | None = None
     embedded_length_mm: float | None = None
+    exposed_length_mm: float | None = None
     warnings: tuple[str, ...] = ()
 
     def points(self, kind: Kind) -> tuple[AssemblyPoint, ...]:
@@ -111,6 +115,11 @@ class Scan:
         Points of the file that were no measurement (not finite, or marked invalid).
     image
         (h, w) uint8, optional grey picture of the same view.
+    notes
+        What was noticed or decided while the file was read.
+    declared_scale
+        Where the file itself gives its unit and the job another: what lengths become, by multiplication, if the job's
+        word is to hold. 1 where there is no such conflict.
     """
 
     points: FloatArray
@@ -120,6 +129,8 @@ class Scan:
     viewpoint: Array | None = None
     dropped: int = 0
     image: npt.NDArray[np.uint8] | None = None
+    notes: tuple[str, ...] = ()
+    declared_scale: float = 1.0
 
     @property
     def organised(self) -> bool:

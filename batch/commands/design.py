@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import re
+import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,7 +19,7 @@ from ..switches import add_switches
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from aadm_workbench.design.model_design import ModelDesign
+    from aadm_workbench.design.model_design import ModelDesign, NotTaken
     from aadm_workbench.model import AssemblyPoint, ColumnDesign
 
 SUMMARY = "list the sleeves and rebars of a model"
@@ -34,42 +35,70 @@ _SELECTOR = re.compile(r"^\s*!?\s*Ifc[A-Z]|=")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("model", type=Path, metavar="MODEL", help="the model, an .ifc file")
+    parser.add_argument(
+        "model", type=Path, metavar="MODEL", help="the model: .ifc, .FCStd, .step, .brep, .stl, .obj, .ply or .pcd"
+    )
     parser.add_argument(
         "--column", metavar="SEL", help="a Name, Tag, PieceMark or GlobalId, or a selector in IfcOpenShell's syntax"
     )
     parser.add_argument("--sleeves", metavar="SEL", help="which elements are sleeves, as in [model] of a job")
     parser.add_argument("--rebars", metavar="SEL", help="which elements are rebars, as in [model] of a job")
     parser.add_argument("--why", action="store_true", help="say why each element was taken, and what was left out")
+    parser.add_argument(
+        "--method",
+        choices=("exact", "published"),
+        default="exact",
+        help="published: also by the paper's route (cloud, pass-through, mean of edge points), with the difference",
+    )
+    parser.add_argument(
+        "--units", choices=("mm", "cm", "m", "inch", "foot"), default="mm", help="of a mesh or a cloud (default: mm)"
+    )
     add_switches(parser, prints_json="the points")
     parser.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
     """Print a model's design; without any column the exit code is 11."""
-    from aadm_workbench.design.read import read_model
+    from aadm_workbench.as_designed import read_design
 
+    from ..published_table import published_tables
     from ..terminal import say, show
 
     wanted: str | None = options.column
     selector = wanted if wanted and _SELECTOR.search(wanted) else None
-    model = read_model(options.model, columns=selector, sleeves=options.sleeves, rebars=options.rebars)
+    model = read_design(
+        options.model, columns=selector, sleeves=options.sleeves, rebars=options.rebars, units=options.units
+    )
     columns = model.columns if wanted is None or selector else (model.column(wanted),)
     if options.json:
-        _print_json(model, columns, why=options.why)
+        _print_json(model, columns, why=options.why, published=options.method == "published")
     elif not options.quiet:
         show(*_tables(model, columns, why=options.why, loose=wanted is None))
-    for warning in (*model.warnings, *(warning for column in columns for warning in column.warnings)):
-        if not options.quiet:
+        if options.method == "published":
+            show(*published_tables(columns))
+    if not options.quiet:
+        for warning in _warnings(model, columns):
             say(f"warning: {warning}")
+        if model.parse_seconds:
+            say(f"{model.source}: parsed in {model.parse_seconds:.2f} s, points found in {model.seconds:.2f} s")
     if not columns:
-        say(f"aadm: {options.model} has no column with grouting sleeves in its foot; it holds {model.holdings}")
+        nothing = f"aadm: {options.model} has no column with grouting sleeves in its foot; it holds {model.holdings}"
+        say(f"{nothing}. {model.hint}" if model.hint else nothing)
     return ALL_PASS if columns else UNDECIDED
 
 
-def _print_json(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: bool) -> None:
+def _warnings(model: ModelDesign, columns: Sequence[ColumnDesign]) -> Iterator[str]:
+    """What a person should know about the model, then about each column; with more than one it says which."""
+    yield from model.warnings
+    for column in columns:
+        called = f"{column.id}: " if len(columns) > 1 else ""
+        yield from (f"{called}{warning}" for warning in column.warnings)
+
+
+def _print_json(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: bool, published: bool) -> None:
     from aadm_workbench.report.json import encode
 
+    from ..published_table import published_entries
     from ..terminal import show_json
 
     document: dict[str, Any] = {
@@ -81,18 +110,27 @@ def _print_json(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: boo
         },
         "warnings": list(model.warnings),
     }
+    if not columns:
+        document["hint"] = model.hint
     if why:
-        document["not_taken"] = [
-            {
-                "what": left.what,
-                "class": left.ifc_class,
-                "global_id": left.global_id,
-                "name": left.name,
-                "reason": left.reason,
-            }
-            for left in model.not_taken
-        ]
+        document["not_taken"] = [_left_out_entry(left) for left in model.not_taken]
+    if published:
+        document["published"] = published_entries(columns)
     show_json(encode(document))
+
+
+def _left_out_entry(left: NotTaken) -> dict[str, Any]:
+    """An element that was left out; ``centre_mm`` is the upper end of a bar, the mouth of a sleeve."""
+    return {
+        "what": left.what,
+        "class": left.ifc_class,
+        "global_id": left.global_id,
+        "name": left.name,
+        "centre_mm": left.point,
+        "diameter_mm": left.diameter_mm,
+        "length_mm": left.length_mm,
+        "reason": left.reason,
+    }
 
 
 def _column_entry(column: ColumnDesign, *, why: bool) -> dict[str, Any]:
@@ -126,6 +164,8 @@ def _point_entry(point: AssemblyPoint, T_model_column: Any, *, why: bool) -> dic
         "diameter_mm": point.diameter_mm,
         "length_mm": point.length_mm,
     }
+    if point.object_name is not None:
+        entry["object"] = point.object_name
     return {**entry, "why": point.why} if why else entry
 
 
@@ -155,15 +195,10 @@ def _heading(column: ColumnDesign) -> str:
     return f"{column.id}: {', '.join(place)}" if place else column.id
 
 
-def _point_table(entries: Sequence[dict[str, Any]], why: bool) -> Table:
-    from rich.text import Text
-
-    from ..terminal import new_table
-
+def _point_table(entries: Sequence[dict[str, Any]], why: bool) -> Table | str:
     numbers = ("x mm", "y mm", "z mm", "Diameter", "Length")
-    table = new_table("Point", *numbers, "GlobalId", *(["Why"] if why else []), numbers=numbers)
-    for entry in entries:
-        row = [
+    rows = [
+        [
             entry["label"] or "-",
             *(f"{value:.2f}" for value in entry["centre_mm"]),
             f"{entry['diameter_mm']:g}",
@@ -171,16 +206,33 @@ def _point_table(entries: Sequence[dict[str, Any]], why: bool) -> Table:
             entry["global_id"] or "",
             *([entry["why"]] if why else []),
         ]
-        table.add_row(*(Text(text) for text in row))
-    return table
+        for entry in entries
+    ]
+    return _table(("Point", *numbers, "GlobalId", *(["Why"] if why else [])), rows, numbers)
 
 
-def _left_out_table(model: ModelDesign) -> Table:
+def _left_out_table(model: ModelDesign) -> Table | str:
+    rows = [[left.what, left.ifc_class, left.global_id, left.name, left.reason] for left in model.not_taken]
+    return _table(("What", "Class", "GlobalId", "Name", "Reason"), rows)
+
+
+def _table(headings: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[str] = ()) -> Table | str:
+    """A table for a terminal; for a file or a pipe the same as plain lines, which a floor of columns needs fast."""
+    from rich.cells import cell_len
     from rich.text import Text
 
     from ..terminal import new_table
 
-    table = new_table("What", "Class", "GlobalId", "Name", "Reason")
-    for left in model.not_taken:
-        table.add_row(*(Text(text) for text in (left.what, left.ifc_class, left.global_id, left.name, left.reason)))
-    return table
+    if sys.stdout.isatty():
+        table = new_table(*headings, numbers=tuple(numbers))
+        for row in rows:
+            table.add_row(*(Text(text) for text in row))
+        return table
+    lines = [list(headings), *([text.replace("\n", " ") for text in row] for row in rows)]
+    widths = [max(cell_len(line[place]) for line in lines) for place in range(len(headings))]
+
+    def padded(line: Sequence[str], place: int) -> str:
+        blank = " " * (widths[place] - cell_len(line[place]))
+        return blank + line[place] if headings[place] in numbers else line[place] + blank
+
+    return "\n".join("  ".join(padded(line, place) for place in range(len(headings))).rstrip() for line in lines)

@@ -133,7 +133,8 @@ def test_diameter_over_the_ribs_is_not_believed(author: Callable[..., Any], ring
     assert {point.diameter_mm for point in column.rebars} == {20.0}
     assert column.rebar_outer_diameter_mm == 23.5
     (warning,) = read.warnings
-    assert warning.startswith("12 bar elements: NominalDiameter is 23.5 mm (over the ribs), drawn is 20 mm")
+    assert "NominalDiameter is 23.5 mm (over the ribs), drawn is 20 mm" in warning
+    assert all((point.global_id or "?") in warning for point in column.rebars)
 
 
 def test_drawn_over_the_ribs(bar: Callable[..., Any]) -> None:

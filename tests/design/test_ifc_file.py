@@ -113,7 +113,7 @@ def test_names_in_raw_bytes(model: Path, encoding: str) -> None:
     assert encoding in opened.warnings[0]
 
 
-@pytest.mark.parametrize("name", ["model.FCStd", "model.step", "column.stl", "model.ifczip", "model"])
-def test_other_formats_are_not_supported_yet(tmp_path: Path, name: str) -> None:
+@pytest.mark.parametrize("name", ["model.dwg", "model.rvt", "column.3dm", "model.ifczip", "model"])
+def test_other_formats_are_not_supported(tmp_path: Path, name: str) -> None:
     with pytest.raises(DesignError, match=r"not supported.*\.ifc"):
         read_model(tmp_path / name)

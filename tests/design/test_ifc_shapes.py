@@ -95,7 +95,7 @@ def test_bent_bar_through_trimmed_arcs(start: Callable[..., Any]) -> None:
     ]
     path = model.new("IfcCompositeCurve", segments, False)
     disk = model.new("IfcSweptDiskSolid", path, model.length(10.0))
-    (shape,) = shapes.of_item(disk)
+    (shape,) = shapes.solids.of_item(disk)
     assert isinstance(shape, SweptDisk)
     bar = joined(shape.legs)
     assert bar[1].start == pytest.approx([0.0, 0.0, 500.0], abs=1e-9)
@@ -121,7 +121,7 @@ def test_a_line_is_cut_to_the_swept_range(start: Callable[..., Any]) -> None:
     model, shapes = start()
     vector = model.new("IfcVector", model.direction((0.0, 0.0, 1.0)), 1.0)
     line = model.new("IfcLine", model.point((1.0, 2.0, 3.0)), vector)
-    (shape,) = shapes.of_item(model.new("IfcSweptDiskSolid", line, 8.0, None, 100.0, 660.0))
+    (shape,) = shapes.solids.of_item(model.new("IfcSweptDiskSolid", line, 8.0, None, 100.0, 660.0))
     (tube,) = tubes(shape)
     assert (tube.start.tolist(), tube.end.tolist()) == ([1.0, 2.0, 103.0], [1.0, 2.0, 663.0])
 
@@ -137,18 +137,33 @@ def test_indexed_curves_with_lines_and_arcs(start: Callable[..., Any]) -> None:
     assert sum(leg.length_mm for leg in legs) == pytest.approx(100.0 + 10.0 * math.pi)
 
 
-def test_a_shape_that_is_not_evaluated_comes_from_the_kernel(start: Callable[..., Any]) -> None:
-    """A tapering extrusion: its facets give both ends of the cone."""
+def cone(model: Any, walls: tuple[float, float]) -> Any:
+    ends = [
+        model.profile("IfcCircleHollowProfileDef", Radius=radius, WallThickness=wall)
+        for radius, wall in zip((24.0, 20.0), walls, strict=True)
+    ]
+    upright = model.direction((0, 0, 1))
+    return model.new("IfcExtrudedAreaSolidTapered", ends[0], model.axes(), upright, model.length(310.0), ends[1])
+
+
+def test_a_sleeve_that_tapers(start: Callable[..., Any]) -> None:
+    """The bores at both ends are exact."""
     model, shapes = start(unit="m")
-    ends = [model.profile("IfcCircleProfileDef", Radius=radius) for radius in (24.0, 20.0)]
-    cone = model.new(
-        "IfcExtrudedAreaSolidTapered", ends[0], model.axes(), model.direction((0, 0, 1)), model.length(310.0), ends[1]
-    )
-    (shape,) = shapes.of_item(cone)
+    (tube,) = tubes(shapes.solids.of_item(cone(model, (6.0, 5.0)))[0])
+    assert (tube.start.tolist(), tube.end.tolist()) == ([0.0, 0.0, 0.0], [0.0, 0.0, 310.0])
+    assert tube.bore_mm == pytest.approx((36.0, 30.0))
+    assert tube.outer_mm == pytest.approx(48.0)
+
+
+def test_a_shape_that_is_not_evaluated_comes_from_the_kernel(start: Callable[..., Any]) -> None:
+    """A block: its facets give its corners."""
+    model, shapes = start(unit="m")
+    sides = [model.length(side) for side in (600.0, 400.0, 900.0)]
+    block = model.new("IfcBlock", model.axes((1.0, 2.0, 3.0)), *sides)
+    (shape,) = shapes.solids.of_item(block)
     assert isinstance(shape, Mesh)
-    (tube,) = tubes(shape)
-    assert tube.length_mm == pytest.approx(310.0, abs=1e-3)
-    assert tube.outer_mm == pytest.approx(48.0, abs=0.05)
+    assert np.ptp(corners_of([shape]), axis=0) == pytest.approx([600.0, 400.0, 900.0], abs=1e-3)
+    assert corners_of([shape]).min(axis=0) == pytest.approx([1.0, 2.0, 3.0], abs=1e-3)
 
 
 def test_broken_geometry_is_named_and_left_out(start: Callable[..., Any]) -> None:

@@ -1,0 +1,42 @@
+"""As-designed points of STEP and BREP files, through FreeCAD's geometry kernel."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from aadm_workbench.design.kernel import read_with_kernel
+from aadm_workbench.design.model_design import ModelDesign
+from aadm_workbench.design.recognise import Rules
+from aadm_workbench.errors import DesignError
+
+_HEAD_BYTES = 4096
+_SCHEMAS = {".step": "STEP", ".stp": "STEP", ".brep": "BREP", ".brp": "BREP"}
+EXTENSIONS = tuple(_SCHEMAS)
+
+
+def read_step(path: str | Path, rules: Rules | None = None) -> ModelDesign:
+    """Columns, sleeves and connecting rebars of a STEP or BREP file, its cylinders exact.
+
+    Raises
+    ------
+    DesignError
+        Where the file is cut short or no such file, or a rule finds nothing.
+    MissingDependencyError
+        Where FreeCAD is not installed.
+    """
+    path = Path(path)
+    return read_with_kernel(path, _check, rules or Rules(), schema=_SCHEMAS[path.suffix.lower()])
+
+
+def _check(path: Path) -> None:
+    content = path.read_bytes()
+    if _SCHEMAS[path.suffix.lower()] == "BREP":
+        if b"CASCADE Topology" not in content[:_HEAD_BYTES]:
+            raise DesignError(f"{path} is no BREP file: it does not begin with 'CASCADE Topology'. Export it again.")
+        return
+    if b"ISO-10303-21" not in content[:_HEAD_BYTES]:
+        raise DesignError(f"{path} is no STEP file: it does not begin with ISO-10303-21. Export it again.")
+    if b"END-ISO-10303-21" not in content[-_HEAD_BYTES:]:
+        raise DesignError(f"{path} is cut short: it does not end with END-ISO-10303-21. Copy it again.")
+    if b"IFC" in content[:_HEAD_BYTES].split(b"FILE_SCHEMA", 1)[-1][:64]:
+        raise DesignError(f"{path} is an IFC model: name it .ifc.")
