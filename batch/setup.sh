@@ -104,8 +104,9 @@ make_environment() {
     else
         say "installing the pinned packages of requirements/$1.txt"
         : >"$venv/aadm-busy"
-        # --no-deps and --no-index: nothing comes in that is not pinned.
-        quietly "$venv/bin/python" -m pip install --no-deps --only-binary=:all: --requirement "$root/requirements/$1.txt"
+        # --no-deps and --no-index: nothing comes in that is not pinned. odfpy (of ifctester) was never built as a wheel.
+        quietly "$venv/bin/python" -m pip install --no-deps --only-binary=:all: --no-binary=odfpy \
+            --requirement "$root/requirements/$1.txt"
         quietly "$venv/bin/python" -m pip install --no-deps --no-index --no-build-isolation --editable "$root"
         quietly "$venv/bin/python" -m pip check
         made_of >"$venv/aadm-made"

@@ -22,11 +22,11 @@ pin() {
         --custom-compile-command 'sh requirements/renew.sh' \
         --constraints "$constraints" --output-file "$target" "$@" pyproject.toml -
 }
-pin requirements/demo.txt /dev/null "$@"
+pin requirements/demo.txt /dev/null "$@" --extra reports
 pin requirements/test.txt requirements/demo.txt --extra test "$@"
 
 for version in 3.11 3.12 3.13 3.14; do
     echo "wheels for Python $version"
-    "$tools/bin/python" -m pip install --quiet --dry-run --ignore-installed --no-deps --only-binary=:all: \
+    "$tools/bin/python" -m pip install --quiet --dry-run --ignore-installed --no-deps --only-binary=:all: --no-binary=odfpy \
         --python-version "$version" --target "$tools/none" --requirement requirements/test.txt
 done
