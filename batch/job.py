@@ -11,12 +11,13 @@ from aadm_workbench.model import Camera, ColumnDesign, ControlPoint, Profile
 
 @dataclass(frozen=True)
 class JobModel:
-    """The model that columns are looked up in, and selectors in IfcOpenShell's syntax."""
+    """The model that columns are looked up in, and selectors in IfcOpenShell's syntax; ``units``: of a mesh."""
 
     path: str
     columns: str | None = None
     sleeves: str | None = None
     rebars: str | None = None
+    units: str = "mm"
 
 
 @dataclass(frozen=True, eq=False)

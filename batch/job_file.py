@@ -12,18 +12,26 @@ from pathlib import Path
 from typing import Literal, cast
 
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.errors import CameraError, JobError
+from aadm_workbench.errors import CameraError, JobError, ScanError
 from aadm_workbench.model import Camera, Profile
+from aadm_workbench.scan.file import load
 from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
 
 from .job import Job, JobModel
 from .job_columns import read_columns
 from .job_lines import lines_of
 from .job_table import JobTable
+from .printable import steering_character
+
+LARGEST_JOB_BYTES = 64 * 2**20
+"""A job of a thousand columns with designs of their own takes about one."""
+
+_MOST_PARTS_OF_A_KEY = 64
+_DOTTED = re.compile(r"[\w\"'-][ \t]*\.")
 
 CHECKS = ("sleeves", "rebars", "trial")
 _TOP = ("schema", "name", "units", "tolerances", "decision", "checks", "turns", "model", "camera", "capture", "columns")
-_MODEL = ("path", "columns", "sleeves", "rebars")
+_MODEL = ("path", "columns", "sleeves", "rebars", "units")
 _CAMERA = ("fx", "fy", "cx", "cy", "width", "height", "depth_scale_mm", "scale_error")
 _CAPTURE = ("date", "operator", "camera_serial", "calibration", "settings")
 
@@ -63,11 +71,14 @@ def read_job(path: Path) -> Job:
 
 def _content(path: Path) -> bytes:
     try:
-        return path.read_bytes()
-    except FileNotFoundError as error:
-        raise JobError(f"{path}: there is no such job file") from error
-    except OSError as error:
-        raise JobError(f"{path}: the job file cannot be read ({error.strerror})") from error
+        content = load(path, str(path)).content
+    except ScanError as error:
+        if isinstance(error.__cause__, FileNotFoundError):
+            raise JobError(f"{path}: there is no such job file") from error
+        raise JobError(f"the job file cannot be read: {error}") from error
+    if len(content) > LARGEST_JOB_BYTES:
+        raise JobError(f"{path}: has {len(content)} bytes, {LARGEST_JOB_BYTES} are the most; split the job")
+    return content
 
 
 def _parsed(content: bytes, source: str) -> JobTable:
@@ -77,14 +88,32 @@ def _parsed(content: bytes, source: str) -> JobTable:
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
         raise JobError(f"{source}, line {line}: this is not UTF-8 text; save the job as UTF-8") from error
+    _check_keys(text, source)
     try:
         values = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
+    except RecursionError as error:
+        raise JobError(f"{source}: is nested deeper than any job; write it anew") from error
+    except ValueError as error:
         place = re.search(r"\(at line (\d+), column \d+\)", str(error))
         line = int(place[1]) if place else text.count("\n") + 1
         what = re.sub(r"\s*\(at [^)]*\)$", "", str(error))
         raise JobError(f"{source}, line {line}: this is no TOML: {what}") from error
-    return JobTable(values, (), "the job", source, lines_of(text))
+    try:
+        lines = lines_of(text)
+    except RecursionError as error:
+        raise JobError(f"{source}: is nested deeper than any job; write it anew") from error
+    return JobTable(values, (), "the job", source, lines)
+
+
+def _check_keys(text: str, source: str) -> None:
+    """Refuse keys of very many parts, on which the parser would spend minutes: ``a.a.a.a...``."""
+    for number, line in enumerate(text.split("\n"), start=1):
+        if line.count(".") <= _MOST_PARTS_OF_A_KEY:
+            continue
+        pieces = line.split("=")
+        for piece in pieces[:-1] or pieces:
+            if "," not in piece and len(_DOTTED.findall(piece)) > _MOST_PARTS_OF_A_KEY:
+                raise JobError(f"{source}, line {number}: is nested deeper than any job; write it anew")
 
 
 def _check_schema(top: JobTable) -> None:
@@ -119,7 +148,9 @@ def _model(top: JobTable) -> JobModel | None:
         return None
     table.allow(_MODEL)
     table.require("path", 'path = "floor3.ifc", or remove the table where every column has a [columns.design]')
-    return JobModel(table.text("path") or "", *(table.text(key) for key in _MODEL[1:]))
+    units = table.one_of("units", ("mm", "cm", "m", "inch", "foot"), "mm")
+    columns, sleeves, rebars = (table.text(key) for key in _MODEL[1:4])
+    return JobModel(table.text("path") or "", columns, sleeves, rebars, units)
 
 
 def _camera(top: JobTable) -> tuple[Camera | None, float | None]:
@@ -152,5 +183,7 @@ def _capture(top: JobTable) -> dict[str, str]:
         is_text = isinstance(value, str) or (key == "date" and hasattr(value, "isoformat"))
         if not is_text:
             raise table.wrong(key, f"{key} must be text in quotes, it is {value!r}")
+        if (sign := steering_character(str(value), but="\n\t")) is not None:
+            raise table.wrong(key, f"{key} holds the control character {sign}; take it out")
         kept[key] = str(value)
     return kept

@@ -40,7 +40,8 @@ def is_rebar(element: Element) -> bool:
     """Whether class or name says reinforcing bar of any kind."""
     if element.ifc_class == "IfcReinforcingBar":
         return True
-    return generic(element) and bool(find(REBAR, words(element))) and not find(SLEEVE, element.Name)
+    said = element.said if is_hollow(element) else words(element)
+    return generic(element) and bool(find(REBAR, said)) and not find(SLEEVE, element.Name)
 
 
 def not_connecting(element: Element) -> str | None:
@@ -59,7 +60,7 @@ def sleeve_word(element: Element) -> str | None:
         return None
     if element.predefined_type == "COUPLER":
         return "COUPLER"
-    return find(SLEEVE, words(element))
+    return find(SLEEVE, words(element) if is_hollow(element) else element.said)
 
 
 def not_a_sleeve(element: Element) -> str | None:
@@ -77,6 +78,11 @@ def may_hold_sleeves(element: Element) -> bool:
     if not generic(element) or is_rebar(element) or sleeve_word(element) or not_a_sleeve(element):
         return False
     return not find(NOT_REBAR, words(element))
+
+
+def is_hollow(element: Element) -> bool:
+    """Whether anything in it has a bore."""
+    return any(tube.bore_mm != (None, None) for tube in element.tubes)
 
 
 def is_thin(element: Element) -> bool:

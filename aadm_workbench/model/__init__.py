@@ -29,6 +29,13 @@ from aadm_workbench.model.drift import (
     MouldDrift,
     SleeveDrift,
 )
+from aadm_workbench.model.hoisting import (
+    CameraMove,
+    Correction,
+    HoistingMeasurement,
+    HoistingPair,
+    HoistingReport,
+)
 from aadm_workbench.model.measured import (
     AssemblyPoint,
     Camera,
@@ -44,9 +51,6 @@ from aadm_workbench.model.repairs import (
 )
 from aadm_workbench.model.reports import (
     ColumnReport,
-    Correction,
-    HoistingPair,
-    HoistingReport,
     JobReport,
 )
 from aadm_workbench.model.results import (
@@ -88,6 +92,7 @@ __all__ = [
     "Assignment",
     "BoolArray",
     "Camera",
+    "CameraMove",
     "Candidate",
     "Capability",
     "ColumnDesign",
@@ -101,6 +106,7 @@ __all__ = [
     "FitCell",
     "FloatArray",
     "GroupReport",
+    "HoistingMeasurement",
     "HoistingPair",
     "HoistingReport",
     "IntArray",

@@ -1,58 +1,16 @@
-"""What report.json holds: hoisting frames, columns, jobs."""
+"""What report.json holds: columns, jobs."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
-from aadm_workbench.model.arrays import Array, Vector2, Vector3
+from aadm_workbench.model.arrays import Array
 from aadm_workbench.model.drift import MouldDrift
+from aadm_workbench.model.hoisting import HoistingReport
 from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile
 from aadm_workbench.model.verdicts import Verdict
-
-
-@dataclass(frozen=True)
-class HoistingPair:
-    """A sleeve of the hanging column over its bar, mm: ``offset_mm`` is rebar minus sleeve, in the bars' frame."""
-
-    sleeve: str
-    rebar: str
-    sleeve_scan_mm: Vector3 | None
-    rebar_scan_mm: Vector3 | None
-    offset_mm: Vector2 | None
-    distance_mm: float | None
-    u_mm: float | None
-    seen: bool
-    reason: str = ""
-
-
-@dataclass(frozen=True)
-class Correction:
-    """Displacement of the column: turned by yaw about the column frame's origin, then moved by dx, dy."""
-
-    dx_mm: float
-    dy_mm: float
-    yaw_deg: float
-
-
-@dataclass(frozen=True)
-class HoistingReport:
-    """One frame taken while the column hangs over its bars; it has its own verdict."""
-
-    source: str
-    keys: tuple[str, ...]
-    mean_mm: float | None
-    max_mm: float | None
-    column_tilt_deg: float | None
-    verdict: Verdict
-    pairs: tuple[HoistingPair, ...] = ()
-    correction: Correction | None = None
-    reasons: tuple[str, ...] = ()
-    sha256: str = ""
-    method: str = ""
-    quality: dict[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)

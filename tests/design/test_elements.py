@@ -94,9 +94,9 @@ def test_bars_and_tubes_are_what_their_group_is_called_and_columns_are_not() -> 
     bars = [replace(bar, wholes=wholes, said="Cylinder", Name="Cylinder") for bar in BARS]
     model = found(replace(column(), wholes=wholes), *bars)
     assert len(model.columns[0].sleeves) == 4
-    assert all("dowels" in bar.why for bar in model.columns[0].rebars) or all(
-        "by its shape" in bar.why for bar in model.columns[0].rebars
-    )
+    assert all("by its shape" not in bar.why for bar in model.columns[0].rebars)
+    assert not model.loose_sleeves
+    assert not model.not_taken
 
 
 def test_stirrups_are_left_out_with_the_word() -> None:

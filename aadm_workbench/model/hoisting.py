@@ -1,0 +1,111 @@
+"""What one frame tells while the column hangs over its bars: pairs, correction, verdict."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from aadm_workbench.model.arrays import Array, Vector2, Vector3
+from aadm_workbench.model.verdicts import Verdict
+
+
+@dataclass(frozen=True)
+class HoistingPair:
+    """A sleeve of the hanging column over its bar, mm: ``offset_mm`` is rebar minus sleeve, in the bars' frame.
+
+    The bar's centre is projected onto the foot face along the foot's normal; ``distance_mm`` is the length between it
+    and the sleeve's centre. ``u_mm`` is the standard uncertainty of the offset per axis. ``seen`` tells whether sleeve
+    and bar both have evidence of their own in the frame; ``sleeve_seen`` and ``rebar_seen`` which of them: the rest
+    is inferred from the pattern, or from where it was measured before hoisting.
+    """
+
+    sleeve: str
+    rebar: str
+    sleeve_scan_mm: Vector3 | None
+    rebar_scan_mm: Vector3 | None
+    offset_mm: Vector2 | None
+    distance_mm: float | None
+    u_mm: float | None
+    seen: bool
+    reason: str = ""
+    sleeve_seen: bool = False
+    rebar_seen: bool = False
+    limit_mm: float | None = None
+    verdict: Verdict = Verdict.NOT_ASSESSED
+    probability: float | None = None
+
+
+@dataclass(frozen=True)
+class CameraMove:
+    """The correction as somebody beside the camera sees it: to the right, away from the camera, and the same turn."""
+
+    right_mm: float
+    away_mm: float
+    yaw_deg: float
+
+
+@dataclass(frozen=True)
+class Correction:
+    """Displacement of the column: turned by yaw about its own axis, then moved by dx, dy, in the bars' frame.
+
+    The turn is counter-clockwise from above, about the origin of the column frame where the column hangs now: the
+    centroid of the design sleeve centres on its foot face. It leaves the smallest largest distance, ``left_mm`` over
+    all pairs; ``margin`` is 1 minus its largest ratio to the limit. ``u_mm`` and ``u_yaw_deg`` are standard
+    uncertainties of the move per axis and of the turn.
+    """
+
+    dx_mm: float
+    dy_mm: float
+    yaw_deg: float
+    left_mm: float | None = None
+    margin: float | None = None
+    u_mm: float | None = None
+    u_yaw_deg: float | None = None
+    camera: CameraMove | None = None
+
+
+@dataclass(frozen=True)
+class HoistingReport:
+    """One frame taken while the column hangs over its bars; it has its own verdict.
+
+    ``keys`` are the paper's three key points by their sleeves, ``mean_mm`` is over them, ``max_mm`` over all pairs.
+    ``vertical_from`` says what gave the bars' vertical, ``orientation`` how it was settled which sleeve is which:
+    ``declared`` by the job, ``resolved`` by the pattern, or ``ambiguous``.
+    """
+
+    source: str
+    keys: tuple[str, ...]
+    mean_mm: float | None
+    max_mm: float | None
+    column_tilt_deg: float | None
+    verdict: Verdict
+    pairs: tuple[HoistingPair, ...] = ()
+    correction: Correction | None = None
+    reasons: tuple[str, ...] = ()
+    sha256: str = ""
+    method: str = ""
+    quality: dict[str, Any] = field(default_factory=dict)
+    height_mm: float | None = None
+    vertical_from: str = ""
+    orientation: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class HoistingMeasurement:
+    """A frame as it is reported, and in full precision for whoever goes on calculating.
+
+    Parameters
+    ----------
+    offsets_mm
+        (k, 2) rebar minus sleeve in the bars' frame, in the order of the design; NaN where not known.
+    covariances
+        (k, 2, 2) mm² of the offsets.
+    T_bars_column, T_scan_bars
+        (4, 4): the hanging column in the bars' frame, and the bars' frame in the scan frame; None without a fit.
+    """
+
+    report: HoistingReport
+    offsets_mm: Array
+    covariances: Array
+    T_bars_column: Array | None = None
+    T_scan_bars: Array | None = None
