@@ -5,12 +5,13 @@ from __future__ import annotations
 import contextlib
 import os
 import uuid
+from collections.abc import Iterable
 from pathlib import Path
 
 from aadm_workbench.errors import AadmError
 
 
-def write_atomically(path: Path, content: bytes) -> None:
+def write_atomically(path: Path, content: bytes | Iterable[bytes]) -> None:
     """Write a file aside, flush it to the disk, then put it in place of what was there.
 
     Parameters
@@ -19,7 +20,7 @@ def write_atomically(path: Path, content: bytes) -> None:
         The file. Its folder must exist; the aside file stands in the same folder, for a rename is
         atomic only within one file system.
     content
-        All bytes of the file.
+        All bytes of the file, at once or in parts.
 
     Raises
     ------
@@ -30,17 +31,19 @@ def write_atomically(path: Path, content: bytes) -> None:
     aside = path.with_name(f".{path.name}.{uuid.uuid4().hex}.part")
     try:
         with aside.open("xb") as stream:
-            stream.write(content)
+            stream.writelines((content,) if isinstance(content, bytes) else content)
             stream.flush()
             os.fsync(stream.fileno())
         aside.replace(path)
         _flush_folder(path.parent)
     except OSError as error:
-        with contextlib.suppress(OSError):
-            aside.unlink(missing_ok=True)
         reason = error.strerror or type(error).__name__
         message = f"{path}: cannot be written ({reason}); check that its folder exists, is writable and has room"
         raise AadmError(message) from error
+    finally:
+        # Gone already where all went well.
+        with contextlib.suppress(OSError):
+            aside.unlink(missing_ok=True)
 
 
 def _flush_folder(folder: Path) -> None:

@@ -25,8 +25,8 @@ from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.assembly.trial import try_scans
 from aadm_workbench.assembly.views import merge_views
 from aadm_workbench.errors import JobError
-from aadm_workbench.extract.method import extract
 from aadm_workbench.extract.missing import explain_missing
+from aadm_workbench.extract.sizes import extract_sizes
 from aadm_workbench.model import (
     Array,
     AssemblyPoint,
@@ -152,10 +152,10 @@ def _wanted(design: ColumnDesign, scans: ColumnScans, settings: CheckSettings) -
 def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: CheckSettings, stage: Stage) -> Measured:
     """Extract, match and inspect one group of points."""
     views, points, up_deg = scans.of(kind), design.points(kind), scans.up_deg(kind)
-    scan, diameter_mm = views[0], float(np.median([point.diameter_mm for point in points]))
+    scan, diameter_mm = views[0], float(np.median(_diameters_mm(points)))
     rng = np.random.default_rng([settings.seed, list(Kind).index(kind)])
     with stage("extract"):
-        seen = [extract(view, kind, diameter_mm, settings.method, rng) for view in views]
+        seen = [extract_sizes(view, kind, _diameters_mm(points), settings.method, rng) for view in views]
         control = _control(design, scans, kind, seen[0])
         ups = [up_deg] * len(views)
         if up_deg is None and isinstance(control, ControlPose):
@@ -181,16 +181,27 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             settings.profile,
             decision=settings.decision,
             scale_error=scale_error,
+            design_exposed_mm=design.exposed_length_mm if kind is Kind.REBAR else None,
             source=", ".join(view.source for view in views),
             sha256=", ".join(view.sha256 for view in views),
         )
         u_mm = _typical_u_mm(extraction)
-        notes = (*report.notes, *notes, *_unsupported(u_mm, settings.profile, kind))
-        report = replace(report, notes=notes, quality={**report.quality, "u_mm": u_mm})
+        notes = (*report.notes, *_of_the_files(views), *notes, *_unsupported(u_mm, settings.profile, kind))
+        dropped = sum(view.dropped for view in views)
+        report = replace(report, notes=notes, quality={**report.quality, "u_mm": u_mm, "dropped_points": dropped})
         measured = Measured(extraction, match, _with_reasons(report, reasons))
         if control is None or not match:
             return measured
         return _in_the_building(measured, points, scans.control_points, control, settings, scale_error)
+
+
+def _diameters_mm(points: tuple[AssemblyPoint, ...]) -> list[float]:
+    return [point.diameter_mm for point in points]
+
+
+def _of_the_files(views: tuple[Scan, ...]) -> tuple[str, ...]:
+    """What was noticed while the scans were read."""
+    return tuple(f"{view.source}: {note}" for view in views for note in view.notes)
 
 
 def _typical_u_mm(extraction: Extraction) -> float | None:
@@ -225,8 +236,8 @@ def _matched(
     places = _missing_places(points, match)
     if not places or settings.method != "refined":
         return extraction, match
-    diameter_mm = float(np.median([point.diameter_mm for point in points]))
-    again = extract(scan, extraction.kind, diameter_mm, settings.method, rng, np.array(list(places.values())))
+    sought = np.array(list(places.values()))
+    again = extract_sizes(scan, extraction.kind, _diameters_mm(points), settings.method, rng, sought)
     second = match_extraction(points, again, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
     if second and second.placements[0].found > match.placements[0].found:
         return again, second

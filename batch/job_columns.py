@@ -15,7 +15,8 @@ from .job_table import JobTable
 
 _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
 _COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "near", "design", "control_points")
-_DESIGN = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter", "embedded_length", "size", "centres")
+_LENGTHS = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter", "embedded_length", "exposed_length")
+_DESIGN = (*_LENGTHS, "size", "centres")
 
 
 def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColumn, ...]:
@@ -70,7 +71,7 @@ def _design(column: JobTable, name: str) -> ColumnDesign | None:
     if table is None:
         return None
     table.allow(_DESIGN)
-    for key in _DESIGN[:4]:
+    for key in _LENGTHS:
         table.length(key)
     table.numbers("size", 2)
     table.number_lists("centres", 2)

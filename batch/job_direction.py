@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
+from aadm_workbench.design.directions import UP_DEG
 
-from .job_table import JobTable
+from .job_table import JobTable, is_finite_number
 
-UP_DEG = {"+x": 0.0, "+y": 90.0, "-x": 180.0, "-y": -90.0}
 NEAR = {"+x+y": (1, 1), "-x+y": (-1, 1), "-x-y": (-1, -1), "+x-y": (1, -1)}
 
 
@@ -20,7 +19,7 @@ def up_deg(table: JobTable, key: str) -> float | None:
         return None
     if isinstance(value, str) and value in UP_DEG:
         return UP_DEG[value]
-    if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
+    if is_finite_number(value):
         return float(value)
     raise table.wrong(key, f'{key} must be "+x", "-x", "+y", "-y" or a number of degrees from +x, it is {value!r}')
 

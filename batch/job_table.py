@@ -11,6 +11,20 @@ from typing import Any
 from aadm_workbench.errors import JobError
 
 from .job_lines import KeyPath
+from .printable import steering_character
+
+LONGEST_TEXT = 4096
+"""Longest path that Linux takes."""
+
+
+def is_finite_number(value: Any) -> bool:
+    """Whether a value of a TOML file is a number that a float can hold."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
@@ -72,6 +86,7 @@ class JobTable:
             raise self.wrong(key, f"{key} must be text in quotes, it is {_shown(value)}")
         if not value.strip():
             raise self.wrong(key, f"{key} is empty")
+        self._check_plain(key, value)
         return value
 
     def one_of(self, key: str, choices: tuple[str, ...], default: str) -> str:
@@ -140,6 +155,7 @@ class JobTable:
         for index, item in enumerate(value):
             if not isinstance(item, str) or not item.strip():
                 raise self.wrong(key, f"{key} must hold texts in quotes, one is {_shown(item)}", index)
+            self._check_plain(key, item, index)
         return tuple(value)
 
     def table(self, key: str, called: str) -> JobTable | None:
@@ -160,8 +176,15 @@ class JobTable:
             JobTable(item, (*self.at, key, index), called, self.source, self.lines) for index, item in enumerate(value)
         )
 
+    def _check_plain(self, key: str, value: str, *index: int) -> None:
+        """Refuse what no name and no path holds: signs that steer a terminal, and endless ones."""
+        if len(value) > LONGEST_TEXT:
+            raise self.wrong(key, f"{key} has {len(value)} characters, {LONGEST_TEXT} are the most", *index)
+        if (sign := steering_character(value)) is not None:
+            raise self.wrong(key, f"{key} holds the control character {sign}; take it out of the name", *index)
+
     def _number(self, key: str, value: Any, *index: int) -> float:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        if not is_finite_number(value):
             raise self.wrong(key, f"{key} must be a number, it is {_shown(value)}", *index)
         return float(value)
 

@@ -8,13 +8,17 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
 
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
+from rich.console import Console, ConsoleOptions, RenderableType
+from rich.segment import Segment
 from rich.table import Table
 from rich.text import Text
 
 from aadm_workbench.model import Verdict
+
+from .printable import printable
 
 STYLE = {
     Verdict.PASS: ("✓", "green"),
@@ -78,12 +82,21 @@ def show_json(content: bytes) -> None:
 
 def say(message: str) -> None:
     """Write one message to stderr."""
-    sys.stderr.write(f"{message}\n")
+    sys.stderr.write(f"{printable(message)}\n")
     sys.stderr.flush()
 
 
+class _PlainSpeaking(Console):
+    """A console in which what is shown cannot steer the terminal: names come from the files of others."""
+
+    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterator[Segment]:
+        """Render as any console, with control characters spelt out."""
+        for segment in super().render(renderable, options):
+            yield segment if segment.control else Segment(printable(segment.text), segment.style)
+
+
 def _console(is_terminal: bool) -> Console:
-    return Console(file=sys.stdout, width=None if is_terminal else _UNBOUNDED, highlight=False)
+    return _PlainSpeaking(file=sys.stdout, width=None if is_terminal else _UNBOUNDED, highlight=False)
 
 
 def _give_up_stdout() -> None:

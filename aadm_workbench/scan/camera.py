@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,11 @@ from aadm_workbench.scan.file import load
 LARGEST_PIXEL_OFFSET = 2.0
 """Conventions differ by half a pixel; the intrinsics of another camera of the same model by ten and more."""
 
+LARGEST_INTRINSICS_BYTES = 2**20
+
+LARGEST_DEPTH_MM = 1e9
+"""A thousand kilometres: what is further off is a fault of the file."""
+
 LEAST_FRACTION_IN_VIEW = 0.95
 _SAMPLE_SIZE = 20_000
 
@@ -24,7 +30,7 @@ def depth_to_points(depth_mm: FloatArray, camera: Camera) -> FloatArray:
     Parameters
     ----------
     depth_mm
-        (h, w) floating, mm, along the optical axis; 0, negative and not finite is no return.
+        (h, w) floating, mm, along the optical axis; 0, negative, not finite and absurdly far is no return.
     camera
         Intrinsics of the same size.
 
@@ -33,7 +39,7 @@ def depth_to_points(depth_mm: FloatArray, camera: Camera) -> FloatArray:
     FloatArray
         (h, w, 3) float32, mm, camera frame; NaN where there is no return.
     """
-    has_return = (depth_mm > 0) & (depth_mm < np.inf)
+    has_return = (depth_mm > 0) & (depth_mm < LARGEST_DEPTH_MM)
     z = np.where(has_return, depth_mm, np.nan).astype(np.float32, copy=False)
     height, width = z.shape
     points = np.empty((height, width, 3), np.float32)
@@ -138,15 +144,17 @@ def _fraction_in_view(points: FloatArray, camera: Camera) -> float:
     return float(in_view.mean())
 
 
-def read_camera(path: Path) -> Camera:
+def read_camera(path: Path, size: tuple[int, int] | None = None) -> Camera:
     """Read intrinsics from a TOML or JSON file, or from the text that a camera's SDK prints.
 
     Parameters
     ----------
     path
-        ``.toml`` or ``.json`` with fx, fy, cx, cy, width and height (at the top or in a table), or any text with a
-        3 x 3 camera matrix or the rows ``[fx, fy; cx, cy]``, and ``width: ..., height: ...``. Where a file describes a
-        texture and a depth camera, the depth camera is meant.
+        ``.toml``, ``.json`` or ``.xml`` with fx, fy, cx, cy, width and height (at the top or in a table), or any text
+        with a 3 x 3 camera matrix or the rows ``[fx, fy; cx, cy]``, and ``width: ..., height: ...``. Where a file
+        describes a texture and a depth camera, the depth camera is meant.
+    size
+        Width and height of the depth map, where it is at hand; used where the file does not say it.
 
     Raises
     ------
@@ -157,9 +165,14 @@ def read_camera(path: Path) -> Camera:
         For a file that cannot be read.
     """
     path = Path(path)
-    text = load(path, str(path)).content.decode("utf-8-sig", errors="replace")
+    content = load(path, str(path)).content
+    if len(content) > LARGEST_INTRINSICS_BYTES:
+        raise CameraError(f"{path}: has {len(content)} bytes, which is no file of intrinsics; name the right one")
+    text = content.decode("utf-8-sig", errors="replace")
     try:
         found = intrinsics.parse(text, path.suffix.lower())
+        if size is not None and found.width is None and found.height is None:
+            found = replace(found, width=size[0], height=size[1])
         return intrinsics.checked_camera(found)
     except CameraError as error:
         raise CameraError(f"{path}: {error}") from error

@@ -8,7 +8,8 @@ from aadm_workbench.errors import CameraError
 from aadm_workbench.model import Camera, FloatArray
 from aadm_workbench.scan.camera import depth_to_points
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
-from aadm_workbench.scan.picture import Pixels, pixels_of, size_of
+from aadm_workbench.scan.picture import Pixels, pixels_of
+from aadm_workbench.scan.picture_size import depth_map_size
 
 
 def read_depth_map(file: ScanFile, declared: Declared) -> Cloud:
@@ -21,7 +22,7 @@ def read_depth_map(file: ScanFile, declared: Declared) -> Cloud:
     ScanError
         Where the picture cannot be decoded or is no depth map.
     """
-    width, height = size_of(file)
+    width, height = depth_map_size(file)
     _checked_camera(file, width, height, declared)
     return cloud_of_depth_map(file, pixels_of(file), declared)
 

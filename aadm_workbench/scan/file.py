@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import stat
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+import numpy.typing as npt
+
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array, Camera, FloatArray
 
-LARGEST_FILE_BYTES = 4 * 2**30
+LARGEST_FILE_BYTES = 2**30
 """A frame of a structured-light camera takes 10 to 100 MB; beyond this it is something else."""
 
-LARGEST_POINT_COUNT = 100_000_000
-"""Bound on what a compressed file may unpack to."""
+LARGEST_POINT_COUNT = 40_000_000
+"""Bound on what a file may unpack to: 1 GB of coordinates. A frame of today's largest cameras has 8 million."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,11 +65,23 @@ class Cloud:
         Millimetres in one unit of the file.
     T_scan_file
         (4, 4) float64, in units of the file: the pose of the sensor that the file carries; None where it carries none.
+    unit_from
+        What in the file gives its unit, in words; empty where the job's word is all there is.
+    grey
+        (h, w) uint8, the grey values that an organised file carries along with its points.
+    dropped
+        Points of the file that are left out of ``points`` because they are marked as no measurement.
+    notes
+        What the reader did that the file's owner should know.
     """
 
     points: FloatArray
     mm_per_unit: float
     T_scan_file: Array | None = None
+    unit_from: str = ""
+    grey: npt.NDArray[np.uint8] | None = None
+    dropped: int = 0
+    notes: tuple[str, ...] = ()
 
 
 def load(path: Path, name: str) -> ScanFile:
@@ -77,9 +93,7 @@ def load(path: Path, name: str) -> ScanFile:
         Where there is no such file, or it is a folder, empty, unreadable or larger than ``LARGEST_FILE_BYTES``.
     """
     try:
-        status = path.stat()
-        _check_status(status.st_mode, status.st_size, path)
-        content = path.read_bytes()
+        content = _content(path)
     except FileNotFoundError as error:
         message = f"{path}: there is no such file; check its name, upper and lower case included, and its folder"
         raise ScanError(message) from error
@@ -89,9 +103,21 @@ def load(path: Path, name: str) -> ScanFile:
     return ScanFile(name, content, hashlib.sha256(content).hexdigest())
 
 
+def _content(path: Path) -> bytes:
+    """Return all bytes of a regular file; what is read is what was looked at, and no pipe is waited for."""
+    status = path.stat()
+    _check_status(status.st_mode, status.st_size, path)
+    descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+    with os.fdopen(descriptor, "rb") as stream:
+        status = os.fstat(descriptor)
+        _check_status(status.st_mode, status.st_size, path)
+        # Not a byte more, for a file may grow while it is read.
+        return stream.read(status.st_size)
+
+
 def _check_status(mode: int, size_bytes: int, path: Path) -> None:
     if stat.S_ISDIR(mode):
-        raise ScanError(f"{path}: is a folder; name one scan file in it")
+        raise ScanError(f"{path}: is a folder; name one file in it")
     if not stat.S_ISREG(mode):
         raise ScanError(f"{path}: is a device or a pipe; name a scan file")
     if size_bytes == 0:

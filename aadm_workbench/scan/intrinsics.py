@@ -1,4 +1,4 @@
-"""Intrinsics in the many ways they are written down: TOML, JSON and the text that the cameras' SDKs print."""
+"""Intrinsics in the many ways they are written down: TOML, JSON, XML and the text that the cameras' SDKs print."""
 
 from __future__ import annotations
 
@@ -6,18 +6,24 @@ import json
 import math
 import re
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from aadm_workbench.errors import CameraError
 from aadm_workbench.model import Camera
+from aadm_workbench.scan.xml_table import parse_xml
 
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _SHORTEST_FOCAL_LENGTH = 10.0
 """In pixels; a rotation matrix also has three rows, but its entries are at most 1."""
 
+_UNLIKE_FOCAL_LENGTHS = 1.2
+"""Pixels are square: where the first two of four numbers differ by more, they are no two focal lengths."""
+
+_LARGEST_PIXEL_COUNT = 2**26
 _DEFAULT_SCALE_ERROR = Camera.scale_error
+_OTHER_NAMES = {"ppx": "cx", "ppy": "cy", "imagewidth": "width", "imageheight": "height"}
 
 
 @dataclass(frozen=True)
@@ -43,22 +49,26 @@ def parse(text: str, suffix: str) -> Intrinsics:
     text
         Content of the file.
     suffix
-        ``.toml`` and ``.json`` are read as such, everything else as printed text.
+        ``.toml``, ``.json`` and ``.xml`` are read as such, everything else as printed text.
 
     Raises
     ------
     CameraError
-        For text that is no TOML or JSON although it should be, and for cameras that differ and none of which is
+        For text that is no TOML, JSON or XML although it should be, and for cameras that differ and none of which is
         called depth.
     """
+    read_table = _READERS.get(suffix)
+    if read_table is None:
+        return _from_text(text)
     try:
-        if suffix == ".json":
-            return _chosen(list(_from_table(json.loads(text), "")))
-        if suffix == ".toml":
-            return _chosen(list(_from_table(tomllib.loads(text), "")))
-    except (json.JSONDecodeError, tomllib.TOMLDecodeError) as error:
+        return _chosen(list(_from_table(read_table(text), "")))
+    except RecursionError as error:
+        raise CameraError("is nested deeper than any file of intrinsics") from error
+    except ValueError as error:
         raise CameraError(f"is no valid {suffix[1:].upper()}: {error}") from error
-    return _from_text(text)
+
+
+_READERS: dict[str, Callable[[str], Any]] = {".json": json.loads, ".toml": tomllib.loads, ".xml": parse_xml}
 
 
 def checked_camera(found: Intrinsics) -> Camera:
@@ -76,6 +86,8 @@ def checked_camera(found: Intrinsics) -> Camera:
         raise CameraError("does not say how large the depth map is; add a line such as: width: 1920, height: 1200")
     if not (min(fx, fy) >= _SHORTEST_FOCAL_LENGTH and math.isfinite(fx) and math.isfinite(fy)):
         raise CameraError(f"has focal lengths fx = {fx}, fy = {fy}, which cannot be; they are in pixels")
+    if width * height > _LARGEST_PIXEL_COUNT:
+        raise CameraError(f"has {width} x {height} pixels, more than any camera")
     if not (0 < cx < width and 0 < cy < height):
         raise CameraError(
             f"has its centre (cx, cy) = ({cx:.1f}, {cy:.1f}) outside of its {width} x {height} pixels: "
@@ -109,7 +121,7 @@ def _from_table(table: Any, label: str, outer: Mapping[str, Any] | None = None) 
     """Yield the intrinsics of a table and of the tables in it; what a table lacks, the one around it may say."""
     if not isinstance(table, Mapping):
         return
-    own = {str(key).lower(): value for key, value in table.items()}
+    own = {_named(str(key)): _without_shape(value) for key, value in table.items()}
     known = {**(outer or {}), **own}
     matrix = next((found for value in own.values() if (found := _matrix(_flat(value)))), None)
     if {"fx", "fy", "cx", "cy"} <= own.keys():
@@ -124,14 +136,34 @@ def _from_table(table: Any, label: str, outer: Mapping[str, Any] | None = None) 
         yield from _from_table(value, f"{label} {key}", passed_on)
 
 
+def _named(key: str) -> str:
+    """Return a key without capitals and signs, and by one name where it has several."""
+    plain = re.sub("[^a-z0-9]", "", key.lower())
+    return _OTHER_NAMES.get(plain, plain)
+
+
+def _without_shape(value: Any) -> Any:
+    """Return the numbers of a matrix that is written with its shape (rows, cols, data), as OpenCV and ROS do."""
+    if isinstance(value, Mapping) and isinstance(value.get("data"), list):
+        return value["data"]
+    return value
+
+
 def _plain_number(value: Any, key: str) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise CameraError(f"has {key} = {value!r}, which is no number")
-    return float(value)
+    return _as_float(value)
+
+
+def _as_float(value: int | float) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
 
 
 def _size(known: Mapping[str, Any], key: str) -> int | None:
-    value = known.get(key, known.get(f"image_{key}"))
+    value = known.get(key)
     if value is None:
         return None
     if isinstance(value, bool) or not isinstance(value, int) or value <= 0:
@@ -140,11 +172,11 @@ def _size(known: Mapping[str, Any], key: str) -> int | None:
 
 
 def _scale_error(known: Mapping[str, Any]) -> float:
-    return _plain_number(known.get("scale_error", _DEFAULT_SCALE_ERROR), "scale_error")
+    return _plain_number(known.get("scaleerror", _DEFAULT_SCALE_ERROR), "scale_error")
 
 
 def _distortion(table: Mapping[str, Any]) -> tuple[float, ...]:
-    is_coefficient = re.compile(r"k[1-6]|p[12]|d|dist.*").fullmatch
+    is_coefficient = re.compile(r"k[1-6]|p[12]|d|dist.*|coeffs").fullmatch
     return tuple(number for key, value in table.items() if is_coefficient(key) for number in _flat(value))
 
 
@@ -154,7 +186,7 @@ def _flat(value: Any) -> list[float]:
         value = list(value.values())
     if isinstance(value, list):
         return [number for item in value for number in _flat(item)]
-    return [float(value)] if isinstance(value, int | float) and not isinstance(value, bool) else []
+    return [_as_float(value)] if isinstance(value, int | float) and not isinstance(value, bool) else []
 
 
 def _from_text(text: str) -> Intrinsics:
@@ -185,13 +217,19 @@ def _printed_matrices(text: str) -> Iterator[tuple[str, tuple[float, float, floa
 
 
 def _matrix(numbers: list[float]) -> tuple[float, float, float, float] | None:
-    """Return fx, fy, cx, cy of a camera matrix by rows or by columns, or of the four numbers in this order."""
+    """Return fx, fy, cx, cy of a camera matrix by rows or by columns, of these four numbers, or of fx, cx, fy, cy."""
     match numbers:
         case (
             [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0] | [fx, 0.0, 0.0, 0.0, fy, 0.0, cx, cy, 1.0] | [fx, fy, cx, cy]
         ) if min(fx, fy) >= _SHORTEST_FOCAL_LENGTH and min(cx, cy) > 0:
+            if len(numbers) == 4 and _are_unlike(fx, fy) and not _are_unlike(fx, cx):
+                return fx, cx, fy, cy
             return fx, fy, cx, cy
     return None
+
+
+def _are_unlike(one: float, other: float) -> bool:
+    return not 1.0 / _UNLIKE_FOCAL_LENGTHS < one / other < _UNLIKE_FOCAL_LENGTHS
 
 
 def _printed_names(text: str) -> Iterator[tuple[float, float, float, float]]:
@@ -203,7 +241,10 @@ def _printed_names(text: str) -> Iterator[tuple[float, float, float, float]]:
 
 def _printed_size(text: str) -> tuple[int | None, int | None]:
     """Return the size of the depth map; of the only image where none is called depth."""
-    pairs = list(re.finditer(r"(?i)width\W{1,6}(\d{1,6})\W+(?:image_)?height\W{1,6}(\d{1,6})", text))
+    pairs = list(re.finditer(r"(?i)width\W{1,6}(\d{1,6})\W{1,40}(?:image_)?height\W{1,6}(\d{1,6})", text))
+    pairs = pairs or list(re.finditer(r"(?i)(?:resolution|size)\W{1,6}(\d{1,6})\W{1,6}(?:x\s)?(\d{1,6})", text))
+    if not pairs and (turned := re.search(r"(?i)height\W{1,6}(\d{1,6})\W{1,40}(?:image_)?width\W{1,6}(\d{1,6})", text)):
+        return int(turned.group(2)), int(turned.group(1))
     by_camera = {_kind(text[text.rfind("\n", 0, pair.start()) + 1 : pair.start()]): pair for pair in pairs}
     pair = by_camera.get("depth") or (pairs[0] if len({pair.groups() for pair in pairs}) == 1 else None)
     return (int(pair.group(1)), int(pair.group(2))) if pair else (None, None)
@@ -214,4 +255,12 @@ def _printed_distortion(text: str) -> tuple[float, ...]:
     of_depth = re.search(r"(?i)depth[ \w]*dist[ \w]*:\s*(\S.*)", text)
     printed = of_depth.group(1) if of_depth else text
     coefficients = re.findall(rf"(?i)\b(?:k[1-6]|p[12])\b\s*[:=]\s*({_NUMBER})", printed)
+    for listed in _LISTED_DISTORTION.findall(text):
+        coefficients += re.findall(_NUMBER, listed)
     return tuple(float(value) for value in coefficients)
+
+
+_LISTED_DISTORTION = re.compile(
+    r"(?i)\bdist\w{0,40}[ \w]{0,20}:\s{0,80}(?:!!opencv-matrix)?(?:\s{0,80}(?:rows|cols|dt)\s?:\s?\w{1,9}){0,3}"
+    r"\s{0,80}(?:data\s?:)?\s{0,80}\[([^\]]{0,2000})\]"
+)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+import struct
 import tokenize
 import zipfile
 import zlib
@@ -14,6 +15,18 @@ import numpy as np
 from aadm_workbench.scan.depth import cloud_of_depth_map
 from aadm_workbench.scan.file import LARGEST_POINT_COUNT, Cloud, Declared, ScanFile
 from aadm_workbench.scan.records import coordinate_dtype
+
+_ERRORS_OF_ARCHIVES = (
+    zipfile.BadZipFile,
+    zlib.error,
+    struct.error,
+    EOFError,
+    OSError,
+    OverflowError,
+    RuntimeError,
+    ValueError,
+)
+"""What the standard library raises for archives that are damaged on purpose, too."""
 
 
 def read_npz(file: ScanFile, declared: Declared) -> Cloud:
@@ -34,9 +47,11 @@ def read_npz(file: ScanFile, declared: Declared) -> Cloud:
             name = next((name for name in ("points", "depth") if f"{name}.npy" in names), None)
             if name is None:
                 raise file.wrong(f'has no array "points" or "depth" (only {", ".join(names)[:80]}); save one of them')
+            if archive.getinfo(f"{name}.npy").compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                raise file.wrong(f"its array {name!r} is packed in a way that NumPy does not use; save it again")
             with archive.open(f"{name}.npy") as member:
                 values = _array(file, name, member)
-    except (zipfile.BadZipFile, zlib.error, EOFError, OSError, NotImplementedError, RuntimeError) as error:
+    except _ERRORS_OF_ARCHIVES as error:
         raise file.wrong(f"is damaged or no .npz archive ({error}); copy or save it again") from error
     if name == "depth":
         return cloud_of_depth_map(file, values, declared)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from aadm_workbench.errors import ScanError
@@ -19,10 +21,12 @@ _SAMPLE_SIZE = 50_000
 _MM_PER_INCH = 25.4
 
 
-def check_plausible(scan: Scan, expected_extent_mm: float) -> None:
+def check_plausible(scan: Scan, expected_extent_mm: float) -> Scan:
     """Check that a scan has points enough and spans about what the pattern spans that it should show.
 
-    Nothing is rescaled: the unit is the job's to say.
+    The unit is the job's, or the file's, to say. Where these two contradict each other and only the job's fits the
+    size, the scan is returned in the job's unit, and its notes say so. Nothing else is ever rescaled. Strays, points
+    further off than anything in the view can be, are left out, counted and noted.
 
     Parameters
     ----------
@@ -31,19 +35,29 @@ def check_plausible(scan: Scan, expected_extent_mm: float) -> None:
     expected_extent_mm
         Longest side of the pattern of sleeves or bars by design.
 
+    Returns
+    -------
+    Scan
+        The same scan, unless the job's unit had to be taken or there are strays.
+
     Raises
     ------
     ScanError
         Saying how many points there are, or what they span and what to write in the job.
     """
     name = scan.source or "the scan"
-    finite = _finite_points(scan)
-    if len(finite) < FEWEST_POINTS:
-        raise ScanError(f"{name}: has {len(finite)} points, {FEWEST_POINTS} are the least to measure on; scan it again")
-    spans_mm = _robust_spans(finite)
+    measured = np.flatnonzero(np.isfinite(scan.points.reshape(-1, 3)[:, 2]))
+    if len(measured) < FEWEST_POINTS:
+        raise ScanError(
+            f"{name}: has {len(measured)} points, {FEWEST_POINTS} are the least to measure on; scan it again"
+        )
+    sample = scan.points.reshape(-1, 3)[measured[:: max(1, len(measured) // _SAMPLE_SIZE)]].astype(np.float64)
+    spans_mm = _robust_spans(sample)
     ratio = float(spans_mm.max()) / expected_extent_mm
-    if SMALLEST_EXTENT_RATIO <= ratio <= LARGEST_EXTENT_RATIO:
-        return
+    if _is_plausible(ratio):
+        return _without_strays(scan, np.median(sample, axis=0), LARGEST_EXTENT_RATIO * expected_extent_mm)
+    if scan.declared_scale != 1.0 and _is_plausible(ratio * scan.declared_scale):
+        return check_plausible(_in_declared_unit(scan), expected_extent_mm)
     sizes = " x ".join(f"{span:.4g}" for span in spans_mm)
     raise ScanError(
         f"{name}: its points span {sizes} mm, but the pattern to be found in it spans {expected_extent_mm:.4g} mm; "
@@ -51,15 +65,41 @@ def check_plausible(scan: Scan, expected_extent_mm: float) -> None:
     )
 
 
-def _finite_points(scan: Scan) -> Array:
+def _in_declared_unit(scan: Scan) -> Scan:
+    """The scan in the unit that the job declares, against what its file says."""
+    scale = scan.declared_scale
+    note = "the unit that the job declares was taken: with the one that the file gives the scan cannot show its pattern"
+    return replace(
+        scan,
+        points=scan.points * scan.points.dtype.type(scale),
+        viewpoint=None if scan.viewpoint is None else scan.viewpoint * scale,
+        notes=(*(text for text in scan.notes if not text.startswith("the unit of the file was taken")), note),
+        declared_scale=1.0,
+    )
+
+
+def _without_strays(scan: Scan, middle: Array, reach_mm: float) -> Scan:
+    """The scan without its points that are further than a length from its middle (3,), along any axis."""
     flat = scan.points.reshape(-1, 3)
-    return flat[np.isfinite(flat).all(axis=1)].astype(np.float64)
+    # What a camera sees is bounded sideways by its view.
+    axes = (0, 1, 2) if scan.camera is None else (2,)
+    reaches = [max(np.fmax.reduce(flat[:, k]) - middle[k], middle[k] - np.fmin.reduce(flat[:, k])) for k in axes]
+    if max(reaches) <= reach_mm:
+        return scan
+    is_stray = (np.abs(flat - middle) > reach_mm).any(axis=1)
+    count = int(np.count_nonzero(is_stray))
+    points = scan.points.copy()
+    if scan.organised:
+        points.reshape(-1, 3)[is_stray] = np.nan
+    else:
+        points = flat[~is_stray]
+    note = f"{count} points more than {reach_mm / 1000.0:.0f} m away from the others were left out"
+    return replace(scan, points=points, dropped=scan.dropped + count, notes=(*scan.notes, note))
 
 
 def _robust_spans(points: Array) -> Array:
     """Return (3,) the sides in mm of the box that holds the middle 98 % of the points along each axis."""
-    sample = points[:: max(1, len(points) // _SAMPLE_SIZE)]
-    lower, upper = np.percentile(sample, _PERCENTILES, axis=0)
+    lower, upper = np.percentile(points, _PERCENTILES, axis=0)
     spans: Array = upper - lower
     return spans
 

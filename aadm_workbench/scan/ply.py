@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+
 from aadm_workbench.model import FloatArray
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
 from aadm_workbench.scan.ply_header import Element, PlyHeader, parse_header
 from aadm_workbench.scan.points import narrowed
 from aadm_workbench.scan.records import check_room, coordinate_dtype, gather
 from aadm_workbench.scan.rows import parse_rows
+
+MOST_UNEQUAL_ROWS = 1_000_000
+"""Rows of lists before the points that are gone through one by one, at a microsecond each."""
 
 
 def read_ply(file: ScanFile, declared: Declared) -> Cloud:
@@ -66,7 +73,38 @@ def _lines_end(file: ScanFile, start: int, element: Element) -> int:
     return start
 
 
+def _equal_rows_end(file: ScanFile, start: int, element: Element) -> int | None:
+    """Return where rows end whose lists are all as long as those of the first row, as of triangles; None for others."""
+    content, position = file.content, start
+    counts: list[tuple[int, np.dtype[Any], int]] = []
+    for item in element.properties:
+        length = 1
+        if item.count_dtype is not None:
+            if position + item.count_dtype.itemsize > len(content):
+                return None
+            length = int(np.frombuffer(content, item.count_dtype, 1, position)[0])
+            counts.append((position, item.count_dtype, length))
+            position += item.count_dtype.itemsize
+        position += length * item.dtype.itemsize
+        if length < 0 or position > len(content):
+            return None
+    row_bytes = position - start
+    end = start + element.count * row_bytes
+    if element.count == 0 or end > len(content):
+        return None
+    are_equal = all(
+        (np.ndarray((element.count,), dtype, content, at, (row_bytes,)) == length).all() for at, dtype, length in counts
+    )
+    return end if are_equal else None
+
+
 def _lists_end(file: ScanFile, start: int, element: Element, *, big_endian: bool) -> int:
+    equal_end = _equal_rows_end(file, start, element)
+    if equal_end is not None:
+        return equal_end
+    if element.count > MOST_UNEQUAL_ROWS:
+        message = f"{element.count} rows of its element {element.name!r} stand before its points"
+        raise file.wrong(f"{message}, which are no triangles; export the points first, or alone")
     end = start
     for row in range(element.count):
         for item in element.properties:

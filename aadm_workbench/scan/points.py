@@ -11,9 +11,12 @@ from aadm_workbench.model import Array, BoolArray, FloatArray
 HUGE_COORDINATE_MM = 1e7
 """Beyond this, float32 rounds by a millimetre: map coordinates stay float64."""
 
+LARGEST_COORDINATE = 1e12
+"""In the unit of a file: the earth's girth is 4e10 mm. What lies further off is no measurement but a fault."""
+
 
 def without_return(points: FloatArray) -> BoolArray:
-    """Tell which points are no measurement: a coordinate that is not finite, or all three exactly zero.
+    """Tell which points are no measurement: not finite, out of this world, or all three coordinates exactly zero.
 
     Cameras write NaN, infinity or the origin where a pixel saw nothing; no surface lies in the camera's centre.
 
@@ -27,14 +30,11 @@ def without_return(points: FloatArray) -> BoolArray:
     BoolArray
         (...) bool.
     """
-    x, y, z = points[..., 0], points[..., 1], points[..., 2]
     with np.errstate(all="ignore"):
-        # One sum instead of three tests: it is not finite where a term is not, and it is zero at the origin.
-        total = x + y + z
-    missing: BoolArray = ~np.isfinite(total)
-    candidates = np.nonzero(total == 0)
-    missing[candidates] = (points[candidates] == 0).all(axis=-1)
-    return missing
+        # One sum instead of three tests: it is not finite where a term is not, and it is zero at the origin alone.
+        total = np.abs(points[..., 0]) + np.abs(points[..., 1]) + np.abs(points[..., 2])
+        measured: BoolArray = (total > 0.0) & (total < LARGEST_COORDINATE)
+    return ~measured
 
 
 def narrowed(points: Array, dtype: np.dtype[Any], mm_per_unit: float) -> FloatArray:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 
@@ -13,16 +14,26 @@ import numpy.typing as npt
 from aadm_workbench.errors import CameraError, ScanError
 from aadm_workbench.model import Array, Camera, FloatArray, Scan
 from aadm_workbench.scan.camera import seen_by
+from aadm_workbench.scan.capture import find_capture
 from aadm_workbench.scan.depth import read_depth_map
+from aadm_workbench.scan.e57 import read_e57
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile, load
+from aadm_workbench.scan.las import read_las
 from aadm_workbench.scan.npz import read_npz
 from aadm_workbench.scan.pcd import read_pcd
 from aadm_workbench.scan.picture import grey_of
 from aadm_workbench.scan.ply import read_ply
 from aadm_workbench.scan.points import to_millimetres, without_return
+from aadm_workbench.scan.pts import read_pts
+from aadm_workbench.scan.ptx import read_ptx
 from aadm_workbench.scan.text import read_text
 
 Reader = Callable[[ScanFile, Declared], Cloud]
+
+FURTHEST_VIEW_RATIO = 100.0
+"""Distance of a scanner from what it scans over the extent of the scan; a component fills a part of the view."""
+
+_SAMPLE_SIZE = 10_000
 
 MM_PER_UNIT = MappingProxyType({"mm": 1.0, "m": 1000.0})
 
@@ -37,7 +48,11 @@ _READERS: MappingProxyType[str, Reader] = MappingProxyType(
         ".txt": read_text,
         ".csv": read_text,
         ".asc": read_text,
-        ".pts": read_text,
+        ".pts": read_pts,
+        ".ptx": read_ptx,
+        ".las": read_las,
+        ".laz": read_las,
+        ".e57": read_e57,
         ".npz": read_npz,
     }
 )
@@ -62,9 +77,11 @@ def read_scan(
     Parameters
     ----------
     path
-        The file; its extension (in any case) tells the format.
+        The file; its extension (in any case) tells the format. Or the folder of one capture, as the camera's SDK saves
+        it (:mod:`aadm_workbench.scan.capture`).
     units
-        Unit of its coordinates, or of a floating depth map: "mm" or "m". It is never guessed.
+        Unit of its coordinates, or of a floating depth map: "mm" or "m". It is never guessed; what a file says of its
+        own unit goes before it, and is said in ``notes``.
     camera
         Intrinsics. Depth maps need them; of a cloud they say that it is in the camera's frame, which is checked.
     depth_scale_mm
@@ -91,17 +108,59 @@ def read_scan(
     MissingDependencyError
         Where the format needs a package that is not installed.
     """
-    path = Path(path)
+    path, name = Path(path), source or str(path)
     declared = _declared(units, camera, depth_scale_mm)
+    if _is_folder(path):
+        return _read_capture(path, name, declared, image)
+    return _read_file(path, name, declared, image)
+
+
+def _is_folder(path: Path) -> bool:
+    """Whether a path is a folder; why it cannot even be looked at is said where it is read."""
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
+
+
+def _read_capture(path: Path, name: str, declared: Declared, image: Path | None) -> Scan:
+    """Return the scan of a capture folder: its depth map or cloud, with the intrinsics and the picture beside it."""
+    capture = find_capture(path, name, declared)
+    texture = capture.texture if image is None else image
+    scan = _read_file(capture.scan, f"{name}/{capture.scan.name}", capture.declared, texture)
+    return replace(scan, source=name, sha256=capture.sha256(scan.sha256), notes=(*capture.notes, *scan.notes))
+
+
+def _read_file(path: Path, name: str, declared: Declared, image: Path | None) -> Scan:
+    camera = declared.camera
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         known = " ".join(supported_formats())
         raise ScanError(f"{path}: files of type {path.suffix or '(none)'} are not read; export one of {known}")
-    file = load(path, source or str(path))
+    file = load(path, name)
     cloud = reader(file, declared)
     points, dropped = _measured(file, cloud, camera)
-    grey = None if image is None else _grey_picture(Path(image), points, camera)
-    return Scan(points, file.name, file.sha256, camera, _viewpoint(cloud, camera), dropped, grey)
+    grey = cloud.grey if image is None else _grey_picture(Path(image), points, camera)
+    if grey is not None and points.ndim == 3 and grey.shape != points.shape[:2]:
+        grey = None
+    return Scan(
+        points,
+        file.name,
+        file.sha256,
+        camera,
+        _viewpoint(cloud, camera, points),
+        dropped,
+        grey,
+        (*cloud.notes, *_unit_note(cloud, declared)),
+        declared.mm_per_unit / cloud.mm_per_unit if cloud.unit_from else 1.0,
+    )
+
+
+def _unit_note(cloud: Cloud, declared: Declared) -> tuple[str, ...]:
+    """Return a note where a file gives its unit itself, and it is not the one that the job declares."""
+    if not cloud.unit_from or math.isclose(cloud.mm_per_unit, declared.mm_per_unit):
+        return ()
+    return (f"the unit of the file was taken, {cloud.mm_per_unit:.7g} mm: {cloud.unit_from}",)
 
 
 def _declared(units: str, camera: Camera | None, depth_scale_mm: float | None) -> Declared:
@@ -127,13 +186,27 @@ def _measured(file: ScanFile, cloud: Cloud, camera: Camera | None) -> tuple[Floa
         points = seen_by(file.name, points, camera)
     if dropped and points.ndim == 2:
         points = points[~missing]
-    return to_millimetres(points, cloud.mm_per_unit, T_scan_file), dropped
+    return to_millimetres(points, cloud.mm_per_unit, T_scan_file), dropped + cloud.dropped
 
 
-def _viewpoint(cloud: Cloud, camera: Camera | None) -> Array | None:
+def _viewpoint(cloud: Cloud, camera: Camera | None, points: FloatArray) -> Array | None:
     if camera is not None:
         return np.zeros(3)
-    return None if cloud.T_scan_file is None else cloud.T_scan_file[:3, 3] * cloud.mm_per_unit
+    if cloud.T_scan_file is None:
+        return None
+    viewpoint: Array = cloud.T_scan_file[:3, 3] * cloud.mm_per_unit
+    return viewpoint if _can_see(viewpoint, points) else None
+
+
+def _can_see(viewpoint: Array, points: FloatArray) -> bool:
+    """Whether a cloud may be seen from a point: exporters write the origin for scans in map coordinates, too."""
+    flat = points.reshape(-1, 3)
+    sample = flat[:: max(1, len(flat) // _SAMPLE_SIZE)].astype(np.float64)
+    sample = sample[np.isfinite(sample).all(axis=1)]
+    if not len(sample):
+        return False
+    extent = np.ptp(sample, axis=0).max()
+    return bool(np.linalg.norm(np.median(sample, axis=0) - viewpoint) <= FURTHEST_VIEW_RATIO * extent)
 
 
 def _grey_picture(path: Path, points: FloatArray, camera: Camera | None) -> npt.NDArray[np.uint8]:

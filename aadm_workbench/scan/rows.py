@@ -12,6 +12,8 @@ from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array
 from aadm_workbench.scan.file import ScanFile
 
+LONGEST_LINE_BYTES = 2**20
+
 
 def parse_rows(
     file: ScanFile,
@@ -22,7 +24,7 @@ def parse_rows(
     count: int | None = None,
     delimiter: str | None = None,
 ) -> Array:
-    """Return three columns of a table of numbers in text.
+    """Return some columns of a table of numbers in text.
 
     Parameters
     ----------
@@ -33,7 +35,7 @@ def parse_rows(
     start
         Byte offset of ``body`` in the file, for the line numbers in messages.
     columns
-        Indices of x, y and z.
+        Their indices, those of x, y and z first.
     count
         Rows that the header announces; None where the file has no header and ends with its last row.
     delimiter
@@ -42,7 +44,7 @@ def parse_rows(
     Returns
     -------
     Array
-        (n, 3) float64, unit of the file; "nan" and "inf" are read as such.
+        (n, k) float64, unit of the file; "nan" and "inf" are read as such.
 
     Raises
     ------
@@ -51,6 +53,7 @@ def parse_rows(
     """
     if b"\n" not in body and b"\r" in body:
         body = body.replace(b"\r", b"\n")
+    _check_lines(file, body, start)
     try:
         with warnings.catch_warnings():
             # numpy warns of blank lines and of a body without rows; both are judged by the count below.
@@ -70,7 +73,16 @@ def parse_rows(
             f"its header announces {count} points, but after {found} of them the file ends (at byte "
             f"{len(file.content)}): it is cut off or its header is wrong; copy or export it again"
         )
-    return points.reshape(-1, 3)
+    return points.reshape(-1, len(columns))
+
+
+def _check_lines(file: ScanFile, body: bytes, start: int) -> None:
+    """Refuse lines that no exporter writes before they are unpacked to four times their size."""
+    for begin in range(0, len(body) - LONGEST_LINE_BYTES, LONGEST_LINE_BYTES):
+        if body.find(b"\n", begin, begin + LONGEST_LINE_BYTES) < 0:
+            raise file.wrong(
+                f"has a line of over {LONGEST_LINE_BYTES} bytes around byte {start + begin}: it is no text of points"
+            )
 
 
 def _bad_row(

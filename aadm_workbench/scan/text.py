@@ -7,12 +7,14 @@ from dataclasses import dataclass
 
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
 from aadm_workbench.scan.records import check_room
-from aadm_workbench.scan.rows import parse_rows
+from aadm_workbench.scan.rows import LONGEST_LINE_BYTES, parse_rows
 
 _LONGEST_PREAMBLE_LINES = 200
 _COMMENTS = ("#", "//", "%")
 _LINE = re.compile(rb"[^\r\n]*")
 _LINE_END = re.compile(rb"\r\n|\r|\n")
+_MM_PER_UNIT = {"mm": 1.0, "cm": 10.0, "m": 1000.0}
+_NAME_WITH_UNIT = re.compile(r"[xyz][\s_\[(/]{1,3}(mm|cm|m)[\])]?")
 _DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+(?:[eE][-+]?\d+)?")
 
 
@@ -20,7 +22,8 @@ _DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+(?:[eE][-+]?\d+)?")
 class Layout:
     """Where the rows of a table begin and how they are to be read.
 
-    ``count`` is the number of rows that a first line announces, as .pts files have it.
+    ``count`` is the number of rows that a first line announces, as .pts files have it; ``mm_per_unit`` is given by
+    names of columns such as ``X [mm]`` or ``x_m``.
     """
 
     start: int
@@ -28,6 +31,7 @@ class Layout:
     decimal_comma: bool
     columns: tuple[int, int, int] = (0, 1, 2)
     count: int | None = None
+    mm_per_unit: float | None = None
 
 
 def read_text(file: ScanFile, declared: Declared) -> Cloud:
@@ -56,25 +60,28 @@ def read_text(file: ScanFile, declared: Declared) -> Cloud:
         raise file.wrong(
             f"its first line announces {layout.count} points, {len(points)} follow; copy or export it again"
         )
-    return Cloud(points, declared.mm_per_unit)
+    if layout.mm_per_unit is None:
+        return Cloud(points, declared.mm_per_unit)
+    return Cloud(points, layout.mm_per_unit, unit_from="the names of its columns say so")
 
 
 def _layout(file: ScanFile) -> Layout:
     """Find the first row of numbers and what its columns are separated by."""
-    columns, count = (0, 1, 2), None
+    columns, count, mm_per_unit = (0, 1, 2), None, None
     has_header = False
     position = 3 if file.content.startswith(b"\xef\xbb\xbf") else 0
     for number in range(1, _LONGEST_PREAMBLE_LINES):
-        line = _LINE.match(file.content, position)
+        line = _LINE.match(file.content, position, position + LONGEST_LINE_BYTES)
         text = line.group().decode("latin-1").strip() if line else ""
         separator, decimal_comma = _separator(text)
         if text and not text.startswith(_COMMENTS):
             fields = text.replace(",", ".").split(separator) if decimal_comma else text.split(separator)
             if _is_row(fields, columns):
-                return Layout(position, separator, decimal_comma, columns, count)
+                return Layout(position, separator, decimal_comma, columns, count, mm_per_unit)
             if has_header:
                 raise file.wrong(f"line {number} should begin with three numbers, but reads {text[:80]!r}")
             columns, count = _named_columns(fields), _announced_count(fields)
+            mm_per_unit = _named_unit([fields[column] for column in columns] if len(fields) > max(columns) else [])
             has_header = True
         line_end = _LINE_END.search(file.content, position)
         if line_end is None:
@@ -105,6 +112,13 @@ def _named_columns(fields: list[str]) -> tuple[int, int, int]:
     if all(axis in names for axis in "xyz"):
         return names.index("x"), names.index("y"), names.index("z")
     return 0, 1, 2
+
+
+def _named_unit(fields: list[str]) -> float | None:
+    """Return the millimetres in one unit that all three names of columns carry; None where they carry none."""
+    found = [_NAME_WITH_UNIT.fullmatch(field.strip().strip("\"'").lower()) for field in fields]
+    units = {match[1] for match in found if match}
+    return _MM_PER_UNIT[units.pop()] if len(units) == 1 and all(found) and found else None
 
 
 def _announced_count(fields: list[str]) -> int | None:

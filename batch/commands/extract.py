@@ -23,7 +23,8 @@ SUMMARY = "find the points in one scan"
 EXAMPLE = """\
 examples:
   aadm extract C-301-foot.ply --kind sleeve --diameter 36 --expected 12
-  aadm extract C-301-bars.tiff --kind rebar --diameter 20 --camera camera.toml --depth-scale-mm 0.02"""
+  aadm extract C-301-bars.tiff --kind rebar --diameter 20 --camera camera.toml --depth-scale-mm 0.02
+  aadm extract captures/C-301-bars --kind rebar --diameter 20"""
 
 _PATTERN_DIAMETERS = 5.0
 """What a pattern spans at least, in diameters of its sleeves or bars: enough to notice a wrong unit."""
@@ -31,7 +32,7 @@ _PATTERN_DIAMETERS = 5.0
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("scan", type=Path, metavar="SCAN", help="depth map or point cloud")
+    parser.add_argument("scan", type=Path, metavar="SCAN", help="depth map, point cloud, or folder of a capture")
     parser.add_argument("--kind", choices=("sleeve", "rebar"), required=True, help="what the scan shows")
     parser.add_argument(
         "--diameter",
@@ -69,6 +70,8 @@ def run(options: argparse.Namespace) -> int:
     elif not options.quiet:
         show(_table(extraction), "", _summary(scan, extraction, options.expected))
     found = len(extraction.points)
+    for note in () if options.quiet else scan.notes:
+        say(f"aadm: {scan.source}: {note}")
     if extraction.reason and not options.quiet:
         say(f"aadm: {scan.source}: {extraction.reason}")
     return ALL_PASS if found >= (options.expected or 1) else UNDECIDED
@@ -81,8 +84,7 @@ def _read(options: argparse.Namespace) -> Scan:
 
     camera = None if options.camera is None else read_camera(options.camera)
     scan = read_scan(options.scan, units=options.units, camera=camera, depth_scale_mm=options.depth_scale_mm)
-    check_plausible(scan, _PATTERN_DIAMETERS * options.diameter)
-    return scan
+    return check_plausible(scan, _PATTERN_DIAMETERS * options.diameter)
 
 
 def _document(scan: Scan, extraction: Extraction, expected: int | None) -> dict[str, Any]:
@@ -90,6 +92,8 @@ def _document(scan: Scan, extraction: Extraction, expected: int | None) -> dict[
     return {
         "source": scan.source,
         "sha256": scan.sha256,
+        "dropped_points": scan.dropped,
+        "notes": scan.notes,
         "kind": extraction.kind.value,
         "method": extraction.method,
         "expected": expected,

@@ -11,11 +11,12 @@ Writes DIR/match.json; DIR is JOB-report beside the job unless --out says otherw
 from __future__ import annotations
 
 import argparse
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..exit_codes import INTERNAL, exit_code_of
-from ..job_command import add_job_arguments, report_folder
+from ..job_command import add_job_arguments, pool_options, report_folder
 from ..one_thread import calculate_in_one_thread
 
 if TYPE_CHECKING:
@@ -44,10 +45,12 @@ def run(options: argparse.Namespace) -> int:
     from ..match_run import run_match
     from ..progress import StepProgress
     from ..run import RunOptions
+    from ..served_report import without_absolute_paths
 
     folder = report_folder(options)
     with StepProgress("measuring", quiet=options.quiet) as progress:
-        done = run_match(job, RunOptions(options.method, tuple(options.only), options.jobs), progress.start)
+        done = run_match(job, RunOptions(options.method, tuple(options.only), pool_options(options)), progress.start)
+    done = replace(done, report=without_absolute_paths(done.report, job))
     return _hand_over(done, folder, options)
 
 

@@ -159,3 +159,108 @@ def test_camera_file_that_is_absent_or_broken(tmp_path: Path) -> None:
     (tmp_path / "list.json").write_text("[1, 2]")
     with pytest.raises(CameraError, match="holds no fx"):
         read_camera(tmp_path / "list.json")
+
+
+OPENCV_YAML = """%YAML:1.0
+---
+image_width: 1920
+image_height: 1200
+camera_matrix: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 2425.48, 0., 959.74, 0.,
+       2425.33, 632.70, 0., 0., 1. ]
+distortion_coefficients: !!opencv-matrix
+   rows: 1
+   cols: 5
+   dt: d
+   data: [ 0., 0., 0., 0., 0. ]
+"""
+XML = """<?xml version="1.0"?>
+<opencv_storage><image_width>1920</image_width><image_height>1200</image_height>
+<camera_matrix type_id="opencv-matrix"><rows>3</rows><cols>3</cols><dt>d</dt>
+<data>2425.48 0. 959.74 0. 2425.33 632.70 0. 0. 1.</data></camera_matrix>
+<distortion_coefficients type_id="opencv-matrix"><rows>5</rows><cols>1</cols><dt>d</dt><data>0. 0. 0. 0. 0.</data>
+</distortion_coefficients></opencv_storage>
+"""
+ROS = """height: 1200
+width: 1920
+distortion_model: plumb_bob
+distortion_coefficients:
+  rows: 1
+  cols: 5
+  data: [0.0, 0.0, 0.0, 0.0, 0.0]
+camera_matrix:
+  rows: 3
+  cols: 3
+  data: [2425.48, 0.0, 959.74, 0.0, 2425.33, 632.70, 0.0, 0.0, 1.0]
+rectification_matrix:
+  rows: 3
+  cols: 3
+  data: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.yml", OPENCV_YAML),
+        ("a.yaml", ROS),
+        ("a.xml", XML),
+        (
+            "a.xml",
+            '<camera width="1920" height="1200"><depth fx="2425.48" fy="2425.33" cx="959.74" cy="632.7"/></camera>',
+        ),
+        (
+            "a.json",
+            '{"width":1920,"height":1200,"fx":2425.48,"fy":2425.33,"ppx":959.74,"ppy":632.7,"coeffs":[0,0,0,0,0]}',
+        ),
+        ("a.txt", "2425.48 2425.33 959.74 632.70\nsize = [1920, 1200]\n"),
+        ("a.txt", "2425.48 959.74 2425.33 632.70\nresolution: 1920 x 1200\n"),
+    ],
+)
+def test_the_same_camera_in_other_programs_files(tmp_path: Path, name: str, text: str) -> None:
+    (tmp_path / name).write_text(text)
+    assert read_camera(tmp_path / name) == EXPECTED
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.yml", OPENCV_YAML.replace("data: [ 0., 0.,", "data: [ -0.2, 0.,")),
+        ("a.yaml", ROS.replace("data: [0.0, 0.0, 0.0, 0.0, 0.0]", "data: [0.0, 0.0, 0.0, 0.01, 0.0]")),
+        ("a.xml", XML.replace("<data>0. 0.", "<data>0. 0.1")),
+        ("a.json", '{"width":1920,"height":1200,"fx":2425,"fy":2425,"ppx":959,"ppy":632,"coeffs":[0,0.1,0,0,0]}'),
+    ],
+)
+def test_a_lens_that_was_not_straightened_is_noticed_wherever_it_is_written(
+    tmp_path: Path, name: str, text: str
+) -> None:
+    (tmp_path / name).write_text(text)
+    with pytest.raises(CameraError, match="distortion coefficients"):
+        read_camera(tmp_path / name)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("a.xml", '<!DOCTYPE a [<!ENTITY b "c">]><a>&b;</a>', "declares its own XML document type"),
+        ("a.xml", "<a>" * 5000 + "</a>" * 5000, "nested more than 50 deep"),
+        ("a.xml", "<a><b></a>", "is no valid XML"),
+        ("a.json", "[" * 100_000, "nested deeper"),
+        ("a.toml", "a = " + "[" * 100_000, "nested deeper"),
+        ("a.toml", "fx = 1" + "0" * 5000, "is no valid TOML"),
+        (
+            "a.json",
+            '{"fx": 1' + "0" * 400 + ', "fy": 2000, "cx": 1, "cy": 2, "width": 3, "height": 4}',
+            "focal lengths",
+        ),
+        ("a.json", '{"fx":20,"fy":20,"cx":9,"cy":9,"width":1000000,"height":1000000}', "more than any camera"),
+        ("a.txt", "1 " * 600_000, "which is no file of intrinsics"),
+    ],
+)
+def test_files_of_intrinsics_that_mean_harm(tmp_path: Path, name: str, text: str, message: str) -> None:
+    (tmp_path / name).write_text(text)
+    with pytest.raises(CameraError, match=message):
+        read_camera(tmp_path / name)

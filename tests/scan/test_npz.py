@@ -67,7 +67,7 @@ def npy_header(shape: str) -> bytes:
     ("member", "message"),
     [
         (npy_header("(1000000000000, 3)"), "is larger than any scan"),
-        (npy_header("(90000000, 3)") + bytes(30), "has 30 of 1080000000 bytes"),
+        (npy_header("(30000000, 3)") + bytes(30), "has 30 of 360000000 bytes"),
         (npy_header("(-5, 3)"), "points"),
         (npy_header("(5, 'x')"), "has no header that can be read"),
         (npy_header("(5, 3").replace(b"}", b" "), "has no header that can be read"),

@@ -1,5 +1,7 @@
 """Scans that cannot be what they are declared to be."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -62,3 +64,34 @@ def test_nothing_is_rescaled() -> None:
     before = scan.points.copy()
     check_plausible(scan, 480.0)
     np.testing.assert_array_equal(scan.points, before)
+
+
+def test_a_file_and_a_job_that_differ_on_the_unit() -> None:
+    """The file says metres, the job mm; which of them fits the pattern is taken, and said."""
+    by_file = replace(frame(600.0), declared_scale=1e-3, viewpoint=np.ones(3))
+    assert check_plausible(by_file, 480.0) is by_file
+    by_job = replace(frame(600_000.0), declared_scale=1e-3, viewpoint=np.full(3, 5000.0), notes=("first",))
+    taken = check_plausible(by_job, 480.0)
+    np.testing.assert_allclose(taken.points, by_job.points / 1000.0)
+    np.testing.assert_allclose(taken.viewpoint, np.full(3, 5.0))
+    assert taken.notes[0] == "first"
+    assert "the unit that the job declares was taken" in taken.notes[1]
+
+
+def test_a_file_and_a_job_that_are_both_wrong_on_the_unit() -> None:
+    with pytest.raises(ScanError, match="no unit explains that"):
+        check_plausible(replace(frame(6e12), declared_scale=1e-3), 480.0)
+
+
+@pytest.mark.parametrize("organised", [False, True])
+def test_strays_are_left_out_counted_and_noted(organised: bool) -> None:
+    scan = frame(480.0)
+    points = scan.points.reshape(50, 80, 3).copy() if organised else scan.points.copy()
+    points.reshape(-1, 3)[[5, 77]] = [[1e9, 0.0, 0.0], [0.0, 0.0, -49_000.0]]
+    points.reshape(-1, 3)[100] = [47_000.0, 0.0, 900.0]
+    checked = check_plausible(replace(scan, points=points, dropped=3), 480.0)
+    assert checked.dropped == 5
+    assert checked.points.shape == (points.shape if organised else (3998, 3))
+    assert np.nanmax(checked.points) == 47_000.0
+    assert checked.notes == ("2 points more than 48 m away from the others were left out",)
+    assert np.nanmax(points) == 1e9, "the scan itself was changed"

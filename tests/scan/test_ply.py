@@ -131,7 +131,7 @@ XYZ = "property float x\nproperty float y\nproperty float z\n"
         (
             f"{BINARY}element face 999999999999\nproperty list int int i\nelement vertex 1\n{XYZ}",
             b"\xff" * 40,
-            "row 0 of 999999999999 of its element 'face'",
+            "999999999999 rows of its element .face. stand before its points",
         ),
         (
             f"format binary_big_endian 1.0\nelement face 99999999999999\nelement vertex 1\n{XYZ}",

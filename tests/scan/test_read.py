@@ -2,16 +2,21 @@
 
 import contextlib
 import hashlib
+import os
+import sys
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
 
-from aadm_workbench.errors import CameraError, ScanError
+from aadm_workbench.errors import CameraError, MissingDependencyError, ScanError
 from aadm_workbench.model import Camera, FloatArray
 from aadm_workbench.scan.read import read_scan, supported_formats
 from aadm_workbench.scan.write import write_npz, write_pcd, write_ply, write_xyz
+
+from .test_e57 import cartesian, write_e57
+from .test_formats_agree import write_las
 
 WRITERS = {
     "ply": write_ply,
@@ -154,6 +159,7 @@ def test_unknown_extension_names_the_known_ones(tmp_path: Path) -> None:
     with pytest.raises(ScanError, match=r"files of type \(none\)"):
         read_scan(tmp_path / "scan")
     assert {".tif", ".tiff", ".png", ".ply", ".pcd", ".xyz", ".txt", ".csv", ".npz"} <= set(supported_formats())
+    assert {".pts", ".ptx", ".las", ".laz", ".e57"} <= set(supported_formats())
 
 
 @pytest.mark.parametrize("ending", supported_formats())
@@ -234,3 +240,42 @@ def test_grey_picture_of_the_same_view(tmp_path: Path, grid: FloatArray, camera:
         read_scan(tmp_path / "scan.npz", image=tmp_path / "half.png")
     with pytest.raises(ScanError, match=r"absent\.png: there is no such file"):
         read_scan(tmp_path / "scan.npz", image=tmp_path / "absent.png")
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "package"), [("lazrs", "scan.laz", "lazrs"), ("pye57.libe57", "scan.e57", "pye57")]
+)
+def test_what_a_format_needs_is_named_where_it_is_missing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cloud: FloatArray, module: str, name: str, package: str
+) -> None:
+    path = tmp_path / name
+    if path.suffix == ".e57":
+        write_e57(path, cartesian(cloud))
+    else:
+        write_las(path, cloud.astype(np.float64))
+    monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(MissingDependencyError, match=rf"package {package}, .* pip install {package}"):
+        read_scan(path)
+
+
+@pytest.mark.parametrize("ending", supported_formats())
+def test_a_pipe_is_not_waited_for(tmp_path: Path, ending: str) -> None:
+    os.mkfifo(tmp_path / f"scan{ending}")
+    with pytest.raises(ScanError, match="is a device or a pipe"):
+        read_scan(tmp_path / f"scan{ending}")
+
+
+def test_a_name_that_no_disk_takes(tmp_path: Path) -> None:
+    with pytest.raises(ScanError, match=r"\.ply: cannot be read \(File name too long\)"):
+        read_scan(tmp_path / f"{'n' * 300}.ply")
+
+
+@pytest.mark.parametrize("ending", ["ply", "npz", "pcd", "packed.pcd"])
+def test_points_out_of_this_world_are_no_measurement(tmp_path: Path, cloud: FloatArray, ending: str) -> None:
+    points = cloud.astype(np.float64)
+    points[3], points[7, 1] = 1e300, -2e12
+    path = tmp_path / f"scan.{ending}"
+    WRITERS[ending](path, points)
+    scan = read_scan(path)
+    assert scan.dropped == 2
+    np.testing.assert_array_equal(scan.points, np.delete(points, [3, 7], axis=0))

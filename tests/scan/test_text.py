@@ -90,3 +90,24 @@ def test_text_of_sixteen_bits_a_character(tmp_path: Path) -> None:
     (tmp_path / "scan.csv").write_bytes("1,2,3\n".encode("utf-16"))
     with pytest.raises(ScanError, match="is not plain text; save it as text in UTF-8"):
         read_scan(tmp_path / "scan.csv")
+
+
+@pytest.mark.parametrize(
+    ("heading", "factor"),
+    [
+        ("X [mm];Y [mm];Z [mm]", 1.0),
+        ("X [m];Y [m];Z [m]", 1000.0),
+        ("x_m;y_m;z_m", 1000.0),
+        ("x(cm);y(cm);z(cm)", 10.0),
+        ("x;y;z", 1.0),
+        ("x_m;y_m;z", 1.0),
+    ],
+)
+def test_names_of_columns_may_give_the_unit(tmp_path: Path, heading: str, factor: float) -> None:
+    points = read_text(tmp_path, f"{heading}\n1.5;-2;1000.25\n4;5.5;900\n")
+    np.testing.assert_allclose(points, np.array(EXPECTED) * factor)
+
+
+def test_a_line_without_end(tmp_path: Path) -> None:
+    with pytest.raises(ScanError, match=r"scan\.xyz: has a line of over 1048576 bytes"):
+        read_text(tmp_path, "1 2 3\n" + "4 " * 2_000_000)

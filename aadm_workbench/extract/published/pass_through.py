@@ -23,6 +23,7 @@ RUN_MARGIN_MM = 5.0
 TOP_SHARE = 0.25  # of the points of one top: fewer in a slice are sides of bars
 FLOOR_QUANTILE = 0.1  # bars cover less of a scan than this
 FLOOR_GAP_MM = 40.0  # a scan that is shallower than this shows no floor
+DEEPEST_MM = 50_000.0
 _HIGHEST_TILT = 1.5  # of a slice: the lower rim of a top may lie in the slice after the one that counts
 
 
@@ -80,7 +81,9 @@ def near_is_low(z: FloatArray, viewpoint: Array | None) -> bool:
 
 def _slices(z: FloatArray) -> tuple[Array, Array]:
     """Histogram of z in slices; strays beyond the outermost thousandths do not stretch it."""
-    low, high = np.quantile(z, [0.0005, 0.9995])
+    low, middle, high = np.quantile(z, [0.0005, 0.5, 0.9995])
+    # Nor do strays without number and measure: no scan of a component is as deep as this.
+    low, high = max(low, middle - DEEPEST_MM), min(high, middle + DEEPEST_MM)
     edges = np.arange(low - SLICE_MM, high + 2.0 * SLICE_MM, SLICE_MM)
     counts, edges = np.histogram(z, edges)
     return counts.astype(np.float64), np.asarray(edges, np.float64)

@@ -1,0 +1,192 @@
+"""The folder of one capture, as a camera's SDK saves it: depth map or cloud, intrinsics, picture."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+
+from aadm_workbench.errors import CameraError, ScanError
+from aadm_workbench.model import Camera
+from aadm_workbench.scan.camera import LARGEST_INTRINSICS_BYTES, LARGEST_PIXEL_OFFSET, read_camera
+from aadm_workbench.scan.file import Declared, load
+from aadm_workbench.scan.picture_size import picture_size
+
+MOST_FILES = 1000
+
+_PICTURES = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp")
+_DEPTH_MAPS = (".tif", ".tiff", ".png", ".npz")
+_CLOUDS = (".ply", ".pcd", ".ptx", ".pts", ".xyz", ".e57", ".las", ".laz")
+_INTRINSICS = (".toml", ".json", ".yaml", ".yml", ".xml", ".txt", ".ini")
+_DEPTH_SCALE = re.compile(r"depth_scale_mm\b[\"']?\s*[:=]\s*([0-9]{1,12}(?:\.[0-9]{0,12})?(?:[eE][-+]?[0-9]{1,3})?)")
+_DEPTH_WORDS = ("depth", "range", "tiefe", "深度")
+_PICTURE_WORDS = ("texture", "color", "colour", "rgb", "gray", "grey", "image", "2d", "left", "mono")
+_NO_MEASUREMENT_WORDS = ("preview", "colormap", "heat", "normal", "mask", "snr", "confidence", "render")
+
+
+@dataclass(frozen=True, eq=False)
+class Capture:
+    """What was found in a folder: the file with the points, what is declared of it, the grey picture of its view."""
+
+    scan: Path
+    declared: Declared
+    texture: Path | None
+    intrinsics: Path | None
+    notes: tuple[str, ...]
+
+    def sha256(self, of_scan: str) -> str:
+        """Hash of all files that count: that of the scan, followed by those of the others."""
+        others = [load(path, path.name).sha256 for path in (self.intrinsics, self.texture) if path is not None]
+        return hashlib.sha256("\n".join([of_scan, *others]).encode()).hexdigest() if others else of_scan
+
+
+def find_capture(folder: Path, name: str, declared: Declared) -> Capture:
+    """Find the scan in a folder, and the intrinsics and the grey picture that belong to it.
+
+    A depth map goes before a cloud; a file belongs to the depth map by its name (``depth``) or by being the only one.
+
+    Parameters
+    ----------
+    folder
+        The folder; folders in it are not searched.
+    name
+        What messages call it.
+    declared
+        What the job says. Its camera holds where the folder has no intrinsics; two that differ are an error.
+
+    Raises
+    ------
+    ScanError
+        For a folder without a scan, or with several.
+    CameraError
+        For intrinsics that contradict the job's.
+    """
+    files = _files(folder, name)
+    scan = _scan(files, name)
+    intrinsics, camera, notes = _camera(files, scan, declared)
+    clouds = _of(files, _CLOUDS)
+    if camera is None and scan not in clouds and len(clouds) == 1:
+        notes.append(f"{clouds[0].name} was taken: {scan.name} has no intrinsics beside it")
+        scan = clouds[0]
+    if intrinsics is not None and declared.depth_scale_mm is None:
+        declared = replace(declared, depth_scale_mm=_depth_scale_mm(intrinsics))
+    texture = _texture(files, scan)
+    if texture is not None and camera is not None and _size(texture) != (camera.width, camera.height):
+        notes.append(f"{texture.name} is left out: it is not of the size of the depth map")
+        texture = None
+    return Capture(scan, replace(declared, camera=camera), texture, intrinsics, tuple(notes))
+
+
+def _files(folder: Path, name: str) -> list[Path]:
+    try:
+        found = list(islice(folder.iterdir(), MOST_FILES + 1))
+    except OSError as error:
+        raise ScanError(f"{name}: the folder cannot be read ({error.strerror}); check its permissions") from error
+    if len(found) > MOST_FILES:
+        raise ScanError(f"{name}: holds more than {MOST_FILES} files; name the folder of one capture, or one file")
+    return sorted(path for path in found if path.is_file() and not path.name.startswith("."))
+
+
+def _of(files: Sequence[Path], suffixes: Sequence[str]) -> list[Path]:
+    return [path for path in files if path.suffix.lower() in suffixes]
+
+
+def _with(files: Sequence[Path], words: Sequence[str]) -> list[Path]:
+    return [path for path in files if any(word in path.stem.lower() for word in words)]
+
+
+def _scan(files: Sequence[Path], name: str) -> Path:
+    """Return the depth map, else the cloud."""
+    maps = [path for path in _of(files, _DEPTH_MAPS) if path not in _with(files, _NO_MEASUREMENT_WORDS)]
+    named = _with(maps, _DEPTH_WORDS)
+    unnamed = [path for path in maps if path.suffix.lower() != ".png" and path not in _with(maps, _PICTURE_WORDS)]
+    clouds = _of(files, _CLOUDS)
+    plain_clouds = [path for path in clouds if path not in _with(clouds, (*_PICTURE_WORDS, *_NO_MEASUREMENT_WORDS))]
+    for candidates in (named, unnamed, plain_clouds, clouds):
+        if len(candidates) > 1:
+            # A coloured view of the depth map is called after it, too.
+            plain = [path for path in candidates if path not in _with(candidates, _PICTURE_WORDS)]
+            candidates = plain or candidates
+        if len(candidates) == 1:
+            return candidates[0]
+        if candidates:
+            listed = ", ".join(path.name for path in candidates[:5])
+            raise ScanError(f"{name}: holds several scans ({listed}); name the one that is meant")
+    raise ScanError(
+        f"{name}: is a folder without a scan in it; name the folder of a capture, with a depth map (such as "
+        "depth.tiff) or a point cloud, or name one file"
+    )
+
+
+def _camera(files: Sequence[Path], scan: Path, declared: Declared) -> tuple[Path | None, Camera | None, list[str]]:
+    """Return the file with the intrinsics, the camera that holds, and notes on it."""
+    found: list[tuple[Path, Camera]] = []
+    unread: list[str] = []
+    size = _size(scan) if scan.suffix.lower() in _PICTURES else None
+    for path in _of(files, _INTRINSICS):
+        if path == scan or path.stat().st_size > LARGEST_INTRINSICS_BYTES:
+            continue
+        try:
+            found.append((path, read_camera(path, size)))
+        except (CameraError, ScanError) as error:
+            # Most texts beside a scan hold something else; of what is meant for intrinsics it is said why not.
+            unread.append(f"{path.name} was not understood as intrinsics: it {_reason(error, path)}")
+    named = [item for item in found if _with([item[0]], _DEPTH_WORDS)]
+    found = named or found
+    if not found:
+        return None, declared.camera, unread
+    path, camera = found[0]
+    for other_path, other in found[1:]:
+        if not _same(camera, other):
+            raise CameraError(
+                f"{path.name} and {other_path.name} in one folder hold different intrinsics; call those of the depth "
+                "map depth..., or keep them alone"
+            )
+    if declared.camera is None:
+        return path, camera, [f"intrinsics from {path.name}"]
+    if not _same(declared.camera, camera):
+        raise CameraError(
+            f"{path.name} beside the scan holds other intrinsics than [camera] of the job; keep the right ones"
+        )
+    return path, declared.camera, []
+
+
+def _reason(error: Exception, path: Path) -> str:
+    return str(error).removeprefix(f"{path}: ")
+
+
+def _depth_scale_mm(path: Path) -> float | None:
+    """Return the step of integer depth maps that a file of intrinsics names in mm; other names tell no unit."""
+    text = load(path, path.name).content.decode("utf-8", errors="replace")
+    found = _DEPTH_SCALE.search(text)
+    scale_mm = float(found[1]) if found else 0.0
+    return scale_mm if 0.0 < scale_mm < np.inf else None
+
+
+def _same(one: Camera, other: Camera) -> bool:
+    """Whether two cameras see a point in the same pixel, up to conventions."""
+    if (one.width, one.height) != (other.width, other.height):
+        return False
+    corner = max(one.width / one.fx, one.height / one.fy)
+    shifts = (one.cx - other.cx, one.cy - other.cy, corner * (one.fx - other.fx), corner * (one.fy - other.fy))
+    return max(map(abs, shifts)) <= LARGEST_PIXEL_OFFSET
+
+
+def _texture(files: Sequence[Path], scan: Path) -> Path | None:
+    pictures = [path for path in _of(files, _PICTURES) if path != scan and path not in _with(files, _DEPTH_WORDS)]
+    pictures = [path for path in pictures if path not in _with(pictures, _NO_MEASUREMENT_WORDS)]
+    named = _with(pictures, _PICTURE_WORDS) or pictures
+    return named[0] if len(named) == 1 else None
+
+
+def _size(path: Path) -> tuple[int, int] | None:
+    """Return width and height of a picture, None where it is none."""
+    try:
+        return picture_size(load(path, path.name))
+    except ScanError:
+        return None

@@ -1,0 +1,123 @@
+"""The header of a LAS or LAZ file: how many points, how long their records are, scales and offsets, what else it says.
+
+Offsets of the fields: ASPRS, LAS specification 1.4, tables 3, 5 and 8.
+"""
+
+from __future__ import annotations
+
+import struct
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from aadm_workbench.model import Array
+from aadm_workbench.scan.file import ScanFile
+
+Records: TypeAlias = "npt.NDArray[np.uint8]"
+"""Points as they stand in a file, (n, bytes of one)."""
+
+MOST_VARIABLE_RECORDS = 1000
+
+_SIGNATURE = b"LASF"
+_SHORTEST_HEADER_BYTES = 227
+_SHORTEST_HEADER_OF_14_BYTES = 375
+_COMPRESSED = 0xC0
+"""LASzip sets one of the two highest bits of the point format."""
+
+_RECORD_BYTES = (20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67)
+"""Shortest record of each point format, 0 to 10."""
+
+
+@dataclass(frozen=True)
+class VariableRecord:
+    """One variable length record: who wrote it, which it is, its bytes."""
+
+    user: str
+    number: int
+    content: bytes
+
+
+@dataclass(frozen=True, eq=False)
+class LasHeader:
+    """What the header says.
+
+    Parameters
+    ----------
+    point_format
+        0 to 10.
+    compressed
+        Whether the points are packed by LASzip.
+    start
+        Byte offset of the points.
+    record_bytes
+        Length of one point, unpacked.
+    count
+        Points of the file.
+    scales, offsets
+        (3,) float64, unit of the file: a coordinate is its integer times scale plus offset.
+    records
+        The variable length records before the points.
+    """
+
+    point_format: int
+    compressed: bool
+    start: int
+    record_bytes: int
+    count: int
+    scales: Array
+    offsets: Array
+    records: tuple[VariableRecord, ...]
+
+
+def parse_header(file: ScanFile) -> LasHeader:
+    """Read the header of a LAS file, version 1.0 to 1.4.
+
+    Raises
+    ------
+    ScanError
+        For a header that is cut off or contradicts itself.
+    """
+    content = file.content
+    if not content.startswith(_SIGNATURE):
+        raise file.wrong('does not begin with "LASF": it is no LAS or LAZ file; check its extension')
+    if len(content) < _SHORTEST_HEADER_BYTES:
+        raise file.wrong(f"ends at byte {len(content)}, within its header; copy or export it again")
+    major, minor = content[24], content[25]
+    header_bytes, start, record_count = struct.unpack_from("<HII", content, 94)
+    format_byte, record_bytes, count = struct.unpack_from("<BHI", content, 104)
+    numbers = np.frombuffer(content, "<f8", 6, 131).astype(np.float64)
+    if major != 1 or minor > 4:
+        raise file.wrong(f"is LAS version {major}.{minor}; known are 1.0 to 1.4, export it as one of them")
+    if minor == 4:
+        if min(header_bytes, len(content)) < _SHORTEST_HEADER_OF_14_BYTES:
+            raise file.wrong(f"its LAS 1.4 header has {header_bytes} bytes, 375 are the least; export it again")
+        count = struct.unpack_from("<Q", content, 247)[0] or count
+    point_format = format_byte & ~_COMPRESSED
+    if point_format >= len(_RECORD_BYTES) or record_bytes < _RECORD_BYTES[point_format]:
+        raise file.wrong(
+            f"its points of format {point_format} have {record_bytes} bytes: that cannot be; export it again"
+        )
+    if not header_bytes <= start <= len(content):
+        raise file.wrong(f"its points should begin at byte {start}, but it has {len(content)} bytes; copy it again")
+    if not np.isfinite(numbers).all() or not numbers[:3].all():
+        raise file.wrong(f"its scales and offsets, {numbers.tolist()}, must be finite, scales not 0; export it again")
+    records = _variable_records(file, header_bytes, start, record_count)
+    compressed = bool(format_byte & _COMPRESSED)
+    return LasHeader(point_format, compressed, start, record_bytes, count, numbers[:3], numbers[3:], records)
+
+
+def _variable_records(file: ScanFile, position: int, end: int, count: int) -> tuple[VariableRecord, ...]:
+    if count > MOST_VARIABLE_RECORDS:
+        raise file.wrong(f"its header announces {count} variable length records, which cannot be; export it again")
+    records = []
+    for number in range(count):
+        if position + 54 > end:
+            raise file.wrong(f"its variable length record {number} of {count} runs into its points; export it again")
+        user, record_id, length = struct.unpack_from("<2x16sHH", file.content, position)
+        position += 54
+        content = file.content[position : min(position + length, end)]
+        records.append(VariableRecord(user.partition(b"\0")[0].decode("latin-1"), record_id, content))
+        position += length
+    return tuple(records)
