@@ -114,7 +114,8 @@ def _measured(
     if places is not None and len(places):
         centres = with_places(centres, in_plane(places, level)[:, :2], radius_mm)
     patches = patches_around(scan, sample, level, centres, radius_mm + REACH_MM)
-    tops = tops_in(patches, centres, radius_mm, rng, tuple(others_mm))
+    beside = None if patches.columns else in_plane(sample.points, level)
+    tops = tops_in(patches, centres, radius_mm, rng, tuple(others_mm), beside)
     if len(tops.place) == 0:
         return None
     fit = _fit(tops, radius_mm, priors)

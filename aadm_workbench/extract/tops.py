@@ -21,6 +21,7 @@ _OUTLINE_ZONE, _OUTLINE_BEYOND_MM = 0.3, 3.0  # of the radius; beyond it
 _RIM_BEYOND_MM = 2.5
 _GOES_ON_SHARE, _GOES_ON_RING, _GOES_ON_DISC = 0.3, (1.25, 1.5), 0.9
 _COVERAGE_MIN = 0.5
+_PITCH_MAX = 0.2  # of the radius: 80 points on a top; on fewer anything passes for round
 _PASSED_FROM, _PASSED_BEYOND_MM = 0.75, 6.0
 _SIDE_DEPTH_MM = (0.8, 60.0)
 _SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
@@ -51,9 +52,17 @@ class Tops:
 
 
 def tops_in(
-    patches: Patches, places: Array, radius_mm: float, rng: np.random.Generator, others_mm: tuple[float, ...] = ()
+    patches: Patches,
+    places: Array,
+    radius_mm: float,
+    rng: np.random.Generator,
+    others_mm: tuple[float, ...] = (),
+    beside: Array | None = None,
 ) -> Tops:
-    """The tops of upright bars of a radius among patches around places (k, 2) mm, but for those of other radii."""
+    """The tops of upright bars of a radius among patches around places (k, 2) mm, but for those of other radii.
+
+    ``beside`` (n, 3) mm, in the same axes: points of the whole scan, where each point belongs to one patch alone.
+    """
     planes = top_planes(patches, radius_mm, rng)
     height = planes.height(patches)
     band_mm = np.maximum(_TOP_BAND_SIGMAS * planes.residual_mm, _TOP_BAND_MM).astype(np.float32)[:, None]
@@ -65,7 +74,9 @@ def tops_in(
     start = np.zeros((len(places), 2))
     centre, other = settled_centres(top, start, radius_mm, bins, zone_mm, innermost=False, others_mm=others_mm)
     rims = outlines(top.where(top.distance(centre) < radius_mm + _RIM_BEYOND_MM), centre, bins, innermost=False)
-    kept = planes.found & ~other & ~_goes_on(top, centre, radius_mm) & (rims.coverage >= _COVERAGE_MIN)
+    around = top if beside is None else _at_the_height_of(beside, places, planes, band_mm[:, 0], radius_mm)
+    kept = planes.found & ~other & ~_goes_on(around, centre, radius_mm) & (rims.coverage >= _COVERAGE_MIN)
+    kept &= pitch_mm < _PITCH_MAX * radius_mm
     passed = _passed(patches, planes, height < -band_mm, centre, radius_mm)
     beyond = outlines(passed, centre, bins, innermost=True).only(rims.seen)  # no surface: nothing tells of its edge
     side_xy, side_depth, side_seen = _sides(patches, height, centre, radius_mm, kept)
@@ -82,6 +93,24 @@ def tops_in(
         side_depth,
         side_seen,
     )
+
+
+def _at_the_height_of(
+    beside: Array, places: Array, planes: TopPlanes, band_mm: FloatArray, radius_mm: float
+) -> PlanPoints:
+    """The points of a scan around each place that lie in the plane of its top."""
+    reach_mm = 2.0 * _GOES_ON_RING[1] * radius_mm
+    order = np.argsort(beside[:, 0])
+    ordered = beside[order]
+    first, last = (np.searchsorted(ordered[:, 0], places[:, 0] + side * reach_mm) for side in (-1.0, 1.0))
+    parts = []
+    for k, (begin, end) in enumerate(zip(first.tolist(), last.tolist(), strict=True)):
+        near = ordered[begin:end] - [*places[k], 0.0]
+        near = near[np.abs(near[:, 1]) < reach_mm]
+        parts.append(near[np.abs(near @ planes.normal[k] - planes.offset[k]) < band_mm[k], :2])
+    owner = np.repeat(np.arange(len(parts)), [len(part) for part in parts])
+    x, y = np.concatenate(parts).T
+    return PlanPoints(x, y, owner, len(parts))
 
 
 def _goes_on(top: PlanPoints, centre: Array, radius_mm: float) -> BoolArray:

@@ -75,3 +75,12 @@ def test_what_holds_no_bar_gives_a_reason(shape: tuple[int, int]) -> None:
     found = extract_rebars(Scan(np.zeros(shape)), 18.0, rng())
     assert found.points == ()
     assert found.reason
+
+
+@pytest.mark.parametrize("points", [120_000, 400_000])
+def test_a_bare_plate_given_as_a_cloud_has_no_bars(points: int) -> None:
+    rng = np.random.default_rng(2)
+    plate = np.column_stack([rng.uniform(-300.0, 300.0, (points, 2)), rng.normal(800.0, 0.05, points)])
+    found = extract_rebars(Scan(plate), 20.0, np.random.default_rng(0))
+    assert found.points == ()
+    assert "20 mm" in found.reason
