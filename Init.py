@@ -1,1 +1,10 @@
-"""FreeCAD runs this file at every start, with a screen or without one; nothing needs to be set up yet."""
+"""FreeCAD runs this file at every start, with a screen or without one: it names the files that AADM opens."""
+
+import FreeCAD
+
+FreeCAD.addImportType(
+    "AADM: structured-light scan (*.ply *.pcd *.xyz *.pts *.asc *.npz *.tif *.tiff)",
+    "aadm_workbench.document.open_scan",
+)
+FreeCAD.addImportType("AADM: report of a check (*.json)", "aadm_workbench.document.open_report")
+FreeCAD.__unit_test__ += ["aadm_workbench.document.selftest"]

@@ -1,7 +1,5 @@
 """FreeCAD runs this file at every start that has a screen: it registers the workbench, which loads the rest later."""
 
-import FreeCADGui
+from aadm_workbench.gui.workbench import set_up
 
-from aadm_workbench.gui.workbench import AADMWorkbench
-
-FreeCADGui.addWorkbench(AADMWorkbench())
+set_up()

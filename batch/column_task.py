@@ -6,31 +6,35 @@ Whatever goes wrong with a column costs that column alone: its verdict is then `
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Generic, TypeVar
 
-import numpy as np
-
 from aadm_workbench.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.design.extent import extent_mm
 from aadm_workbench.errors import AadmError, DesignError
 from aadm_workbench.model import Camera, ColumnDesign, ColumnReport, Kind, Scan, Verdict
 from aadm_workbench.scan.plausible import check_plausible
 from aadm_workbench.scan.read import read_scan
 
+from .column_files import files_of
+from .hoisting_task import measure_frames
 from .job import JobColumn
 from .stopwatch import Stopwatch
 
 Result = TypeVar("Result")
+
+_NO_MEMORY = "there is not enough memory for its scans: check fewer columns at a time, or raise --memory-limit"
+_WITHOUT_MEMORY = ("Insufficient memory", "bad_alloc")  # as OpenCV and C++ say it
 
 
 @dataclass(frozen=True, eq=False)
 class ColumnTask:
     """All that is needed to check one column.
 
-    ``folder`` is where relative paths start; ``design`` None means that the job's model gives none, for the reason
-    ``no_design``.
+    ``folder`` is where relative paths start; ``places`` says where files lie that are not found from there;
+    ``design`` None means that the job's model gives none, for the reason ``no_design``.
     """
 
     column: JobColumn
@@ -41,6 +45,15 @@ class ColumnTask:
     camera: Camera | None = None
     depth_scale_mm: float | None = None
     no_design: str = ""
+    places: Mapping[str, Path] = field(default_factory=dict)
+
+    def path_of(self, name: str) -> Path:
+        """Where a file lies that the job names."""
+        return self.places.get(name, self.folder / name)
+
+    def at(self, places: Mapping[str, Path]) -> ColumnTask:
+        """The same task where its files lie elsewhere."""
+        return replace(self, places=places)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,11 +83,13 @@ def attempt(task: ColumnTask, work: Callable[[ColumnTask, Stopwatch], Result]) -
         try:
             result = work(task, watch)
         except MemoryError:
-            error_found = error_report(task, "there is not enough memory for its scans: check fewer columns at a time")
+            error_found = error_report(task, _NO_MEMORY)
         except (AadmError, OSError) as error:
             error_found = error_report(task, _as_named(task, str(error) or type(error).__name__))
         except Exception as error:  # noqa: BLE001 - a night's batch must not end at one column
             reason = f"internal error ({_as_named(task, _described(error))}); --debug shows where"
+            if any(words in str(error) for words in _WITHOUT_MEMORY):
+                reason = _NO_MEMORY
             error_found, where = error_report(task, reason), traceback.format_exc()
     return Attempt(result, error_found, watch.seconds(), where)
 
@@ -103,16 +118,12 @@ def _checked(task: ColumnTask, watch: Stopwatch) -> ColumnReport:
     if not task.column.sleeves and not task.column.rebars:
         reason = "the job names no scan of its sleeves or rebars"
         report = ColumnReport(task.column.id, Verdict.NOT_MEASURED, Verdict.NOT_ASSESSED, (reason,))
-        return _identified(report, task.design)
+        report = _identified(report, task.design)
+        return replace(report, hoisting=measure_frames(task, report, watch))
     with watch.stage("read"):
         scans = read_scans(task, task.design)
     report = check_column(task.design, scans, task.settings, watch.stage)
-    return replace(report, id=task.column.id, notes=(*report.notes, *_not_done(task.column)))
-
-
-def _not_done(column: JobColumn) -> tuple[str, ...]:
-    """What the job gives and this version does not use: silence would pass for a check."""
-    return ("hoisting frames are not measured by this version",) if column.hoisting else ()
+    return replace(report, id=task.column.id, hoisting=measure_frames(task, report, watch))
 
 
 def _identified(report: ColumnReport, design: ColumnDesign) -> ColumnReport:
@@ -154,35 +165,25 @@ def _group(
         return ()
     if not design.points(kind):
         raise DesignError(f"the design has no {kind.plural}, but the job names a scan of them ({names[0]})")
-    extent_mm = _extent_mm(design, kind)
+    longest_mm = extent_mm(design.points(kind))
     scans = []
     for number, name in enumerate(names):
         scan = read_scan(
-            task.folder / name,
+            task.path_of(name),
             units=task.units,
             camera=task.camera,
             depth_scale_mm=task.depth_scale_mm,
             source=name,
-            image=task.folder / image if image is not None and number == 0 else None,
+            image=task.path_of(image) if image is not None and number == 0 else None,
         )
-        check_plausible(scan, extent_mm)
-        scans.append(scan)
+        scans.append(check_plausible(scan, longest_mm))
     return tuple(scans)
-
-
-def _extent_mm(design: ColumnDesign, kind: Kind) -> float:
-    """Longest side of the pattern, over the outsides of its sleeves or bars."""
-    points = design.points(kind)
-    centres = np.array([point.centre[:2] for point in points])
-    return float(np.ptp(centres, axis=0).max()) + max(point.diameter_mm for point in points)
 
 
 def _as_named(task: ColumnTask, message: str) -> str:
     """A message with files called as the job calls them: where a job lies must not show in its report."""
-    column = task.column
-    for name in (*column.sleeves, *column.rebars, column.sleeves_image, column.rebars_image):
-        if name is not None:
-            message = message.replace(str(task.folder / name), name)
+    for name in files_of(task.column):
+        message = message.replace(str(task.path_of(name)), name)
     return message
 
 

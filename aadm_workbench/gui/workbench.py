@@ -1,13 +1,16 @@
 """The workbench as FreeCAD lists it; its commands are loaded when it is first opened."""
 
-from pathlib import Path
+from __future__ import annotations
+
+from importlib import import_module
 
 import FreeCAD
 import FreeCADGui
 
-translate = FreeCAD.Qt.translate  # a module without a place on disk: it cannot be imported from
+from aadm_workbench.gui.resources import FORMS, ICONS, TRANSLATIONS, icon_path
 
-ICONS = Path(__file__).resolve().parents[1] / "resources" / "icons"
+translate = FreeCAD.Qt.translate  # a module without a place on disk: it cannot be imported from
+QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
 
 
 class AADMWorkbench(FreeCADGui.Workbench):
@@ -15,16 +18,35 @@ class AADMWorkbench(FreeCADGui.Workbench):
 
     MenuText = "AADM"
     ToolTip = translate("AADM", "Checks precast columns against their connecting rebars before they are hoisted")
-    Icon = str(ICONS / "aadm.svg")
+    Icon = icon_path("aadm")
 
     def Initialize(self) -> None:
         """Register the commands; FreeCAD calls this once, when the workbench is first opened."""
-        from aadm_workbench.gui import about
+        from aadm_workbench.gui.commands import COMMANDS, TOOLBAR
+        from aadm_workbench.gui.observer import watch_models
 
-        FreeCADGui.addCommand(about.NAME, about.About())
-        self.appendMenu("AADM", [about.NAME])
-        self.appendToolbar("AADM", [about.NAME])
+        for name, (module, command) in COMMANDS.items():
+            FreeCADGui.addCommand(name, getattr(import_module(f"aadm_workbench.gui.commands.{module}"), command)())
+        self.appendToolbar(QT_TRANSLATE_NOOP("Workbench", "AADM"), list(TOOLBAR))
+        self.appendMenu(QT_TRANSLATE_NOOP("Workbench", "AADM"), list(COMMANDS))
+        watch_models()
+
+    def ContextMenu(self, recipient: str) -> None:
+        """Offer what can be done with a column."""
+        from aadm_workbench.gui.chosen import chosen_columns
+
+        if chosen_columns():
+            self.appendContextMenu("AADM", ["AADM_ImportScan", "AADM_CheckColumn", "AADM_WriteResults"])
 
     def GetClassName(self) -> str:
         """Name of FreeCAD's own class behind a workbench that is written in Python."""
         return "Gui::PythonWorkbench"
+
+
+def set_up() -> None:
+    """What must be there before the workbench is opened: texts in the user's language, the page in the preferences."""
+    FreeCADGui.addLanguagePath(str(TRANSLATIONS))
+    FreeCADGui.updateLocale()
+    FreeCADGui.addIconPath(str(ICONS))
+    FreeCADGui.addPreferencePage(str(FORMS / "preferences.ui"), "AADM")
+    FreeCADGui.addWorkbench(AADMWorkbench())

@@ -3,8 +3,6 @@
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-import cv2
-import numpy as np
 import pytest
 
 from aadm_workbench import __version__
@@ -50,41 +48,3 @@ def test_icons_named_in_package_xml_exist(repository: Path) -> None:
     icons = [element.text or "" for element in ElementTree.parse(repository / "package.xml").iter(f"{NAMESPACE}icon")]
     assert icons
     assert all((repository / icon).is_file() for icon in icons)
-
-
-def test_workbench_opens_in_a_window(freecad_window) -> None:
-    result = freecad_window.run(
-        "import sys, FreeCAD, FreeCADGui as Gui\n"
-        "result['listed'] = 'AADMWorkbench' in Gui.listWorkbenches()\n"
-        "result['loaded_early'] = 'aadm_workbench.gui.about' in sys.modules\n"
-        "Gui.activateWorkbench('AADMWorkbench')\n"
-        "active = Gui.activeWorkbench()\n"
-        "result.update(name=active.MenuText, tooltip=active.ToolTip)\n"
-        "result['commands'] = [name for name in Gui.listCommands() if name.startswith('AADM_')]\n"
-        "from PySide import QtGui\n"
-        "window = Gui.getMainWindow()\n"
-        "result['toolbars'] = [bar.windowTitle() for bar in window.findChildren(QtGui.QToolBar) if bar.isVisible()]\n"
-        "icon = Gui.getIcon(active.Icon)\n"
-        "result['icon_is_drawn'] = icon is not None and not icon.pixmap(64, 64).isNull()\n"
-        "Gui.runCommand('AADM_About')\n"
-        "Gui.updateGui()\n"
-        "about = window.findChild(QtGui.QMessageBox, 'AADM_About')\n"
-        "result['about'] = about.text()\n"
-        "about.grab().save(str(folder / 'about.png'))\n"
-        "about.close()\n"
-        "window.grab().save(str(folder / 'window.png'))\n"
-    )
-    assert result["listed"]
-    assert not result["loaded_early"], "commands are loaded when the workbench is first opened"
-    assert result["name"] == "AADM"
-    assert "precast" in result["tooltip"]
-    assert result["commands"] == ["AADM_About"]
-    assert "AADM" in result["toolbars"]
-    assert result["icon_is_drawn"]
-    assert result["about"].startswith(f"AADM {__version__}\nFreeCAD ")
-    assert "Traceback" not in result["printed"]
-    for name in ("about.png", "window.png"):
-        picture = cv2.imread(str(freecad_window.folder / name))
-        assert picture is not None, f"{name} was not written"
-        colours = picture.reshape(-1, 3)
-        assert len(np.unique(colours, axis=0)) > 20, f"{name} shows nothing"

@@ -1,0 +1,42 @@
+"""The results of a document as one report.json, from which every other report is made."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+from aadm_workbench.document.column import columns_in
+from aadm_workbench.document.result import JOB_KEYS, found_of, job_of
+from aadm_workbench.errors import ReportError
+
+_COUNTED = ("pass", "fail", "inconclusive", "not_measured", "error")
+
+
+def report_of(document: Any) -> dict[str, Any]:
+    """The content of a report.json with all results of a document, in its order.
+
+    What the results say of job, tool and profile is taken from the first.
+
+    Raises
+    ------
+    ReportError
+        Where no column has a result yet, or they were judged by different tolerance profiles.
+    """
+    results = [column.Result for column in columns_in(document) if column.Result is not None]
+    if not results:
+        raise ReportError("no column of this document has a result yet: check a column or run a job")
+    jobs = [job_of(result) for result in results]
+    profiles = sorted({(job.get("profile") or {}).get("name", "") for job in jobs})
+    if len(profiles) > 1:
+        raise ReportError(
+            f"the columns were judged by different tolerance profiles ({', '.join(profiles)}): "
+            "check them again by one, or delete the results of the others"
+        )
+    entries = [found_of(result) for result in results]
+    counted = Counter(entry["verdict"] for entry in entries)
+    return {
+        **{key: jobs[0].get(key) for key in JOB_KEYS},
+        "summary": {verdict: counted[verdict] for verdict in _COUNTED},
+        "columns": entries,
+        "mould_drift": [],
+    }

@@ -1,0 +1,73 @@
+"""FreeCAD's import hook for scans: a file that is opened or imported becomes a scan of a column.
+
+``FreeCAD.loadFile`` calls :func:`insert`, the command line :func:`open`. Without a window the document must
+have exactly one column.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import FreeCAD
+
+from aadm_workbench.document.column import columns_in
+from aadm_workbench.document.messages import complain, tell
+from aadm_workbench.document.undo_step import undo_step
+from aadm_workbench.errors import AadmError, ScanError
+
+translate = FreeCAD.Qt.translate
+_IN_NAMES_OF_BARS = ("bar", "rebar", "steel", "筋", "钢")
+
+
+def open(file: str) -> Any:  # noqa: A001 - the name that FreeCAD calls
+    """Open a scan in a new document."""
+    document = FreeCAD.newDocument(Path(file).stem)
+    return insert(file, document.Name)
+
+
+def insert(file: str, docname: str) -> Any:
+    """Add a scan to a document; what is wrong with it is said in the report view.
+
+    Whether it shows sleeves or rebars is taken from its name, and can be changed afterwards.
+    """
+    try:
+        document = FreeCAD.getDocument(docname)
+    except NameError:
+        document = FreeCAD.newDocument(docname)
+    if FreeCAD.GuiUp:
+        # There a person can say what file does not: unit, camera, which side is up.
+        from aadm_workbench.gui.import_panel import open_panel
+
+        open_panel(document, [Path(file)])
+        return document
+    from aadm_workbench.document.scan_reading import read_for, take_scan
+
+    try:
+        column = _column_of(document)
+        read = read_for(guessed_kind(file), file)
+        with undo_step(document, translate("AADM_Import", "Import scan")):
+            take_scan(column, read)
+    except AadmError as error:
+        complain(str(error))
+    else:
+        tell(translate("AADM", "{file} was added to {column}").format(file=Path(file).name, column=column.Label))
+    return document
+
+
+def guessed_kind(file: str) -> str:
+    """``rebars`` where the file is called so, else ``sleeves``."""
+    name = Path(file).stem.lower()
+    return "rebars" if any(word in name for word in _IN_NAMES_OF_BARS) else "sleeves"
+
+
+def _column_of(document: Any) -> Any:
+    known = columns_in(document)
+    if len(known) == 1:
+        return known[0]
+    raise ScanError(
+        translate(
+            "AADM",
+            "{document} has {count} AADM columns, and a scan belongs to one: use Import scan with that column selected",
+        ).format(document=document.Label, count=len(known))
+    )

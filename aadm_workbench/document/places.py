@@ -1,0 +1,43 @@
+"""Placements of FreeCAD and 4x4 transforms, mm, float64, in both directions; where an object stands in its document."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import FreeCAD
+import numpy as np
+
+from aadm_workbench.model import Array
+
+_UNMOVED_MM = 1e-7
+_UNTURNED = 1e-14
+
+
+def placement_of(T_to_from: Array) -> FreeCAD.Placement:
+    """The placement that maps as a rigid 4x4 transform does, mm."""
+    matrix = FreeCAD.Matrix(*(float(value) for value in np.asarray(T_to_from, dtype=np.float64).reshape(16)))
+    return FreeCAD.Placement(matrix)
+
+
+def transform_of(placement: FreeCAD.Placement) -> Array:
+    """The (4, 4) float64 transform of a placement, mm."""
+    matrix = placement.toMatrix()
+    return np.array([[getattr(matrix, f"A{row}{column}") for column in range(1, 5)] for row in range(1, 5)])
+
+
+def global_placement(obj: Any) -> FreeCAD.Placement:
+    """Where an object stands in its document, containers included."""
+    return obj.getGlobalPlacement() if hasattr(obj, "getGlobalPlacement") else FreeCAD.Placement()
+
+
+def same_place(one: FreeCAD.Placement, other: FreeCAD.Placement) -> bool:
+    """Whether two placements differ by less than any display or file can tell."""
+    # Two quaternions with opposite signs are one rotation.
+    alike = abs(sum(p * q for p, q in zip(one.Rotation.Q, other.Rotation.Q, strict=True)))
+    return (one.Base - other.Base).Length < _UNMOVED_MM and alike > 1.0 - _UNTURNED
+
+
+def move_to(obj: Any, placement: FreeCAD.Placement) -> None:
+    """Put an object somewhere; one that is there is not touched, so that FreeCAD does not think it has changed."""
+    if not same_place(obj.Placement, placement):
+        obj.Placement = placement

@@ -1,0 +1,38 @@
+"""Reading a report.json inside FreeCAD: quickly, and without the packages that hold it against its schema.
+
+Only what makes a file a report is looked at here; what a column of it should hold is looked at when it is shown.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from aadm_workbench.errors import ReportError
+
+SCHEMA = 1
+
+
+def load_report(path: Path) -> dict[str, Any]:
+    """The content of a report.json.
+
+    Raises
+    ------
+    ReportError
+        Where the file is missing, cut off, or no report of a check.
+    """
+    try:
+        document = json.loads(path.read_text(encoding="utf-8-sig"))
+    except OSError as error:
+        raise ReportError(f"{path}: cannot be read ({error.strerror}); name the report.json of a check") from error
+    except (ValueError, RecursionError) as error:
+        raise ReportError(f"{path}: is no report.json, or breaks off ({error}); repeat the check") from error
+    columns = document.get("columns") if isinstance(document, dict) else None
+    if not isinstance(columns, list) or not all(isinstance(one, dict) and "id" in one for one in columns):
+        raise ReportError(f"{path}: is no report.json of a check: it has no columns")
+    if document.get("schema") != SCHEMA:
+        raise ReportError(
+            f"{path}: has schema {document.get('schema')}, this version reads schema {SCHEMA}; repeat the check"
+        )
+    return document

@@ -1,0 +1,185 @@
+"""A scan in a FreeCAD document: its file, its hash, and a thinned cloud that is shown fast.
+
+The check reads the file itself; the cloud is for the eye. The module path and the class name are written into users'
+files: neither may change.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import FreeCAD
+import numpy as np
+
+from aadm_workbench.document.cloud import thinned
+from aadm_workbench.document.column import attach_view, show_restored
+from aadm_workbench.document.places import move_to, placement_of
+from aadm_workbench.document.properties import HIDDEN, READ_ONLY, Property, apply_properties
+from aadm_workbench.document.schema import SCHEMA, SCHEMA_PROPERTY, bring_up_to_date
+from aadm_workbench.document.stateless import Stateless
+from aadm_workbench.model import Array, Camera, Kind, Scan
+
+QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
+_SCAN = "AADM scan"
+KINDS = ("sleeves", "rebars")
+UNITS = ("mm", "m")
+PROPERTIES = (
+    SCHEMA_PROPERTY,
+    Property(
+        "App::PropertyEnumeration",
+        "Kind",
+        _SCAN,
+        QT_TRANSLATE_NOOP("App::Property", "What it shows: the sleeves of the foot, or the rebars"),
+        choices=KINDS,
+    ),
+    Property("App::PropertyFile", "File", _SCAN, QT_TRANSLATE_NOOP("App::Property", "The scan's file")),
+    Property(
+        "App::PropertyEnumeration",
+        "Units",
+        _SCAN,
+        QT_TRANSLATE_NOOP("App::Property", "Unit of the file's lengths; it is never guessed"),
+        choices=UNITS,
+    ),
+    Property(
+        "App::PropertyString",
+        "Camera",
+        _SCAN,
+        QT_TRANSLATE_NOOP("App::Property", "Intrinsics of the camera, where they are known"),
+        mode=READ_ONLY,
+    ),
+    Property(
+        "App::PropertyFloat",
+        "DepthScale",
+        _SCAN,
+        QT_TRANSLATE_NOOP("App::Property", "Millimetres in one step of a 16-bit depth map; 0: not given"),
+        0.0,
+    ),
+    Property(
+        "App::PropertyString",
+        "Sha256",
+        _SCAN,
+        QT_TRANSLATE_NOOP("App::Property", "Hash of the file as it was imported"),
+        mode=READ_ONLY,
+    ),
+    Property(
+        "App::PropertyInteger",
+        "PointCount",
+        _SCAN,
+        QT_TRANSLATE_NOOP("App::Property", "Points of the file; the view shows fewer"),
+        mode=READ_ONLY,
+    ),
+    Property(
+        "App::PropertyBool",
+        "Aligned",
+        _SCAN,
+        QT_TRANSLATE_NOOP("App::Property", "A check has laid it on the design; before, its place is a guess"),
+        False,
+        mode=READ_ONLY,
+    ),
+    Property(
+        "App::PropertyPlacement",
+        "InColumn",
+        _SCAN,
+        QT_TRANSLATE_NOOP("App::Property", "Scan frame in the column frame"),
+        mode=HIDDEN,
+    ),
+    Property(
+        "App::PropertyVectorList",
+        "Points",
+        _SCAN,
+        QT_TRANSLATE_NOOP("App::Property", "Thinned points, scan frame"),
+        mode=HIDDEN,
+    ),
+    Property(
+        "App::PropertyFloatList",
+        "Distances",
+        _SCAN,
+        QT_TRANSLATE_NOOP("App::Property", "Distance of each thinned point from the design"),
+        mode=HIDDEN,
+    ),
+)
+
+
+class ScanCloud(Stateless):
+    """Proxy of a scan."""
+
+    Type = "AADM::Scan"
+
+    def onDocumentRestored(self, obj: Any) -> None:
+        """Bring a scan of an earlier version up to date, and give it its view."""
+        bring_up_to_date(obj, PROPERTIES)
+        show_restored(obj, "scan_view", "ScanView")
+
+    def execute(self, obj: Any) -> None:
+        """Everything is kept; nothing is computed."""
+
+    def follow(self, obj: Any, placement: FreeCAD.Placement) -> None:
+        """Stand where the column stands."""
+        move_to(obj, placement * obj.InColumn)
+
+
+def make_scan(column: Any, scan: Scan, file: Path, kind: Kind, declared: Mapping[str, Any], most_points: int) -> Any:
+    """Add a scan that was read to a column.
+
+    Parameters
+    ----------
+    declared
+        ``units``, ``camera`` and ``depth_scale_mm``, as it was read with.
+    most_points
+        The view shows no more.
+    """
+    cloud = column.Document.addObject("App::GeometryPython", "AADM_Scan")
+    cloud.Proxy = ScanCloud()
+    apply_properties(cloud, PROPERTIES)
+    cloud.Schema = SCHEMA
+    cloud.Label = f"{column.ColumnId} {kind.plural}: {file.name}"
+    cloud.Kind = kind.plural
+    cloud.File = str(file)
+    cloud.Units = declared.get("units", "mm")
+    camera: Camera | None = declared.get("camera")
+    cloud.Camera = "" if camera is None else json.dumps(asdict(camera))
+    cloud.DepthScale = float(declared.get("depth_scale_mm") or 0.0)
+    cloud.Sha256 = scan.sha256
+    points, count = thinned(scan.points, most_points)
+    cloud.PointCount = count
+    cloud.Points = [FreeCAD.Vector(*point) for point in points.tolist()]
+    cloud.InColumn = placement_of(_guessed_place(points, kind))
+    column.Scans = [*column.Scans, cloud]
+    cloud.Proxy.follow(cloud, column.Placement)
+    attach_view(cloud, "scan_view", "ScanView")
+    return cloud
+
+
+def is_scan(obj: Any) -> bool:
+    """Whether an object is a scan of this workbench."""
+    return getattr(getattr(obj, "Proxy", None), "Type", "") == ScanCloud.Type
+
+
+def kind_of(cloud: Any) -> Kind:
+    """What a scan shows."""
+    return Kind.SLEEVE if cloud.Kind == Kind.SLEEVE.plural else Kind.REBAR
+
+
+def camera_of(cloud: Any) -> Camera | None:
+    """The camera that a scan was read with."""
+    return Camera(**json.loads(cloud.Camera)) if cloud.Camera else None
+
+
+def lay_on_design(cloud: Any, T_design_scan: Array, distances_mm: Array, placement: FreeCAD.Placement) -> None:
+    """Put a scan where a check has found that it lies."""
+    cloud.InColumn = placement_of(T_design_scan)
+    cloud.Aligned = True
+    cloud.Distances = np.asarray(distances_mm, dtype=np.float64).tolist()
+    cloud.Proxy.follow(cloud, placement)
+
+
+def _guessed_place(points: Array, kind: Kind) -> Array:
+    """(4, 4) mm: the camera looks up at a foot or down on bars, their middle under the column's."""
+    T_column_scan = np.diag([1.0, -1.0, -1.0, 1.0] if kind is Kind.REBAR else [-1.0, -1.0, 1.0, 1.0])
+    if len(points):
+        T_column_scan[:3, 3] = -T_column_scan[:3, :3] @ np.median(points, axis=0)
+    return T_column_scan

@@ -1,0 +1,31 @@
+"""The command Import scan: gives a column a scan of its sleeves or of its rebars."""
+
+from __future__ import annotations
+
+import FreeCAD
+
+from aadm_workbench.gui.chosen import chosen_columns, the_column
+from aadm_workbench.gui.command import Command
+
+QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
+
+
+class ImportScan(Command):
+    """Opens the panel in which a file is chosen and what it shows is said."""
+
+    NAME = "AADM_ImportScan"
+    ICON = "import-scan"
+    SHORTCUT = "A, I"
+    TEXT = QT_TRANSLATE_NOOP("AADM_ImportScan", "Import scan…")
+    TOOLTIP = QT_TRANSLATE_NOOP("AADM_ImportScan", "Gives the selected column a scan of its sleeves or of its rebars")
+
+    def IsActive(self) -> bool:
+        """With one column selected."""
+        return len(chosen_columns()) == 1
+
+    def run(self) -> None:
+        """Open the panel."""
+        from aadm_workbench.gui.import_panel import open_panel
+
+        column = the_column()
+        open_panel(column.Document, [], column)

@@ -1,0 +1,57 @@
+"""Whatever goes wrong behind a command becomes a sentence on the screen, never a stack of frames."""
+
+from __future__ import annotations
+
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import FreeCAD
+import FreeCADGui
+from PySide import QtCore, QtGui
+
+from aadm_workbench.document.messages import complain
+from aadm_workbench.errors import AadmError, MissingDependencyError
+
+translate = FreeCAD.Qt.translate
+WINDOW_NAME = "AADM_Sentence"
+
+
+@contextmanager
+def sentences(title: str) -> Iterator[None]:
+    """Around what a command does: errors are shown, and the window goes on."""
+    try:
+        yield
+    except Exception as error:  # noqa: BLE001 - the boundary between the product and FreeCAD's window
+        show_error(title, error)
+
+
+def show_error(title: str, error: BaseException) -> None:
+    """Say what went wrong in a window that does not block, and in the report view."""
+    complain(sentence_of(error))
+    box = QtGui.QMessageBox(FreeCADGui.getMainWindow())
+    box.setObjectName(WINDOW_NAME)
+    box.setAttribute(QtCore.Qt.WA_DeleteOnClose)
+    box.setIcon(QtGui.QMessageBox.Warning)
+    box.setWindowTitle(title)
+    box.setText(sentence_of(error))
+    box.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
+    if isinstance(error, MissingDependencyError):
+        from aadm_workbench.gui.install import offer_to_install
+
+        offer_to_install(box, error)
+    box.open()
+
+
+def sentence_of(error: BaseException) -> str:
+    """An error as people read it; where an unforeseen one came from goes to FreeCAD's log."""
+    if isinstance(error, AadmError):
+        return str(error)
+    FreeCAD.Console.PrintLog("".join(traceback.format_exception(error)))
+    if isinstance(error, MemoryError):
+        return translate("AADM", "There is not enough memory for this scan: crop it to the component, or close others.")
+    if isinstance(error, OSError):
+        return str(error)
+    return translate(
+        "AADM", "This should not happen ({kind}: {reason}). The log of the report view shows where."
+    ).format(kind=type(error).__name__, reason=error)

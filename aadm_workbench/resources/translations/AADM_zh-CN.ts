@@ -1,0 +1,1129 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="zh_CN" sourcelanguage="en">
+ <context>
+  <name>AADM</name>
+  <message>
+   <source>AADM checks</source>
+   <translation>AADM 检测</translation>
+  </message>
+  <message>
+   <source>AADM report</source>
+   <translation>AADM 报告</translation>
+  </message>
+  <message>
+   <source>Another panel is open in the task view: close it first.</source>
+   <translation>任务面板中已打开另一个面板：请先关闭它。</translation>
+  </message>
+  <message>
+   <source>Cancel</source>
+   <translation>取消</translation>
+  </message>
+  <message>
+   <source>Checks precast columns against their connecting rebars before they are hoisted</source>
+   <translation>在吊装前检测预制柱灌浆套筒与连接钢筋是否对位</translation>
+  </message>
+  <message>
+   <source>Choose</source>
+   <translation>选择</translation>
+  </message>
+  <message>
+   <source>Close</source>
+   <translation>关闭</translation>
+  </message>
+  <message>
+   <source>No document is open: open the model first.</source>
+   <translation>没有打开的文档：请先打开模型。</translation>
+  </message>
+  <message>
+   <source>Select an AADM column, or the object of the model that it belongs to.</source>
+   <translation>请选择一个 AADM 柱，或其对应的模型对象。</translation>
+  </message>
+  <message>
+   <source>Several columns are selected: select one.</source>
+   <translation>选中了多根柱：请只选一根。</translation>
+  </message>
+  <message>
+   <source>There is not enough memory for this scan: crop it to the component, or close others.</source>
+   <translation>内存不足以处理此扫描：请裁剪到构件范围，或关闭其他文件。</translation>
+  </message>
+  <message>
+   <source>This document has no AADM column yet: select a column of the model, then Sample design.</source>
+   <translation>此文档还没有 AADM 柱：请选择模型中的柱，然后“提取设计点”。</translation>
+  </message>
+  <message>
+   <source>This should not happen ({kind}: {reason}). The log of the report view shows where.</source>
+   <translation>出现了意外情况（{kind}：{reason}）。详见报告浏览器中的日志。</translation>
+  </message>
+  <message>
+   <source>arrows ×{factor:g}</source>
+   <translation>箭头放大 ×{factor:g}</translation>
+  </message>
+  <message>
+   <source>error</source>
+   <translation>出错</translation>
+  </message>
+  <message>
+   <source>fail</source>
+   <translation>不合格</translation>
+  </message>
+  <message>
+   <source>inconclusive</source>
+   <translation>无法判定</translation>
+  </message>
+  <message>
+   <source>not assessed</source>
+   <translation>未评定</translation>
+  </message>
+  <message>
+   <source>not checked</source>
+   <translation>未检测</translation>
+  </message>
+  <message>
+   <source>not measured</source>
+   <translation>未测得</translation>
+  </message>
+  <message>
+   <source>pass</source>
+   <translation>合格</translation>
+  </message>
+  <message>
+   <source>{count} columns of {file} are shown</source>
+   <translation>已显示 {file} 中的 {count} 根柱</translation>
+  </message>
+  <message>
+   <source>{document} has {count} AADM columns, and a scan belongs to one: use Import scan with that column selected</source>
+   <translation>{document} 有 {count} 根 AADM 柱，而一个扫描只属于一根柱：请选中该柱后使用“导入扫描”</translation>
+  </message>
+  <message>
+   <source>{file} was added to {column}</source>
+   <translation>{file} 已添加到 {column}</translation>
+  </message>
+  <message>
+   <source>{label} cannot be drawn ({reason}); check its column again</source>
+   <translation>无法绘制 {label}（{reason}）；请重新检测该柱</translation>
+  </message>
+  <message>
+   <source>{label} was saved by a newer version of the AADM workbench: update it before changing this object</source>
+   <translation>{label} 由更新版本的 AADM 工作台保存：请先升级再修改此对象</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_About</name>
+  <message>
+   <source>About AADM</source>
+   <translation>关于 AADM</translation>
+  </message>
+  <message>
+   <source>About AADM and doctor</source>
+   <translation>关于 AADM 与环境诊断</translation>
+  </message>
+  <message>
+   <source>Checks precast columns against their connecting rebars.</source>
+   <translation>检测预制柱灌浆套筒与连接钢筋的对位。</translation>
+  </message>
+  <message>
+   <source>Needed for</source>
+   <translation>用途</translation>
+  </message>
+  <message>
+   <source>Package</source>
+   <translation>软件包</translation>
+  </message>
+  <message>
+   <source>Shows the version, and which Python packages are missing for what</source>
+   <translation>显示版本，以及缺少哪些 Python 软件包、影响哪些功能</translation>
+  </message>
+  <message>
+   <source>Version</source>
+   <translation>版本</translation>
+  </message>
+  <message>
+   <source>broken: {reason}</source>
+   <translation>损坏：{reason}</translation>
+  </message>
+  <message>
+   <source>missing</source>
+   <translation>缺少</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Check</name>
+  <message>
+   <source>Against the design</source>
+   <translation>与设计比较</translation>
+  </message>
+  <message>
+   <source>Check</source>
+   <translation>检测</translation>
+  </message>
+  <message>
+   <source>Check column</source>
+   <translation>检测柱</translation>
+  </message>
+  <message>
+   <source>Check {column}</source>
+   <translation>检测 {column}</translation>
+  </message>
+  <message>
+   <source>Decision</source>
+   <translation>判定规则</translation>
+  </message>
+  <message>
+   <source>Method</source>
+   <translation>方法</translation>
+  </message>
+  <message>
+   <source>Not checked yet</source>
+   <translation>尚未检测</translation>
+  </message>
+  <message>
+   <source>Only what fails</source>
+   <translation>只看不合格项</translation>
+  </message>
+  <message>
+   <source>Scans</source>
+   <translation>扫描</translation>
+  </message>
+  <message>
+   <source>Settings of the check</source>
+   <translation>检测设置</translation>
+  </message>
+  <message>
+   <source>Tolerances</source>
+   <translation>允许偏差</translation>
+  </message>
+  <message>
+   <source>Trial assembly, best position (minimax)</source>
+   <translation>试装，最佳位置（最小最大）</translation>
+  </message>
+  <message>
+   <source>Trial assembly, least squares</source>
+   <translation>试装，最小二乘</translation>
+  </message>
+  <message>
+   <source>cancelled</source>
+   <translation>已取消</translation>
+  </message>
+  <message>
+   <source>cancelling…</source>
+   <translation>正在取消…</translation>
+  </message>
+  <message>
+   <source>comparing with the design</source>
+   <translation>正在与设计比较</translation>
+  </message>
+  <message>
+   <source>finding centres</source>
+   <translation>正在提取中心</translation>
+  </message>
+  <message>
+   <source>none yet: Import scan</source>
+   <translation>还没有：请导入扫描</translation>
+  </message>
+  <message>
+   <source>reading the scans</source>
+   <translation>正在读取扫描</translation>
+  </message>
+  <message>
+   <source>{verdict} · goes on: {goes_on}</source>
+   <translation>{verdict} · 能否套入：{goes_on}</translation>
+  </message>
+  <message>
+   <source>… and {count} more, see the table</source>
+   <translation>……另有 {count} 项，见表</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_CheckColumn</name>
+  <message>
+   <source>Check column</source>
+   <translation>检测柱</translation>
+  </message>
+  <message>
+   <source>Measures the selected column in its scans, and shows the verdict on it</source>
+   <translation>在扫描中测量所选柱，并在柱上显示结论</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Design</name>
+  <message>
+   <source>Apply</source>
+   <translation>应用</translation>
+  </message>
+  <message>
+   <source>Change design</source>
+   <translation>修改设计点</translation>
+  </message>
+  <message>
+   <source>Design of {column}</source>
+   <translation>{column} 的设计点</translation>
+  </message>
+  <message>
+   <source>Diameter</source>
+   <translation>直径</translation>
+  </message>
+  <message>
+   <source>Its rebar</source>
+   <translation>对应钢筋</translation>
+  </message>
+  <message>
+   <source>Keeps pairing and directions, in one undo step</source>
+   <translation>保存配对与方向，可一次撤销</translation>
+  </message>
+  <message>
+   <source>Side of the column at the top of the picture: +x, -x, +y, -y, or degrees from +x</source>
+   <translation>图像上方对应柱的哪一侧：+x、-x、+y、-y，或自 +x 起的角度</translation>
+  </message>
+  <message>
+   <source>Sleeve</source>
+   <translation>套筒</translation>
+  </message>
+  <message>
+   <source>Two sleeves have the same rebar: give each its own.</source>
+   <translation>两个套筒对应同一根钢筋：请各配一根。</translation>
+  </message>
+  <message>
+   <source>Up in pictures of rebars</source>
+   <translation>钢筋图像的上方</translation>
+  </message>
+  <message>
+   <source>Up in pictures of sleeves</source>
+   <translation>套筒图像的上方</translation>
+  </message>
+  <message>
+   <source>Why</source>
+   <translation>依据</translation>
+  </message>
+  <message>
+   <source>no rebar</source>
+   <translation>无钢筋</translation>
+  </message>
+  <message>
+   <source>{sleeves} sleeves, {rebars} rebars. Column frame: z up along the column.</source>
+   <translation>{sleeves} 个套筒，{rebars} 根钢筋。柱坐标系：z 沿柱向上。</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Hoisting</name>
+  <message>
+   <source>Choose the folder that is measured into</source>
+   <translation>请选择存放测量结果的文件夹</translation>
+  </message>
+  <message>
+   <source>Folder</source>
+   <translation>文件夹</translation>
+  </message>
+  <message>
+   <source>Folder that is measured into</source>
+   <translation>存放测量结果的文件夹</translation>
+  </message>
+  <message>
+   <source>Full screen</source>
+   <translation>全屏</translation>
+  </message>
+  <message>
+   <source>Hoisting guidance</source>
+   <translation>吊装引导</translation>
+  </message>
+  <message>
+   <source>Hoisting guidance…</source>
+   <translation>吊装引导…</translation>
+  </message>
+  <message>
+   <source>I stand at the side {side}</source>
+   <translation>我站在 {side} 侧</translation>
+  </message>
+  <message>
+   <source>RECORDED, not live</source>
+   <translation>历史记录，非实时</translation>
+  </message>
+  <message>
+   <source>Recorded result</source>
+   <translation>历史结果</translation>
+  </message>
+  <message>
+   <source>Recorded result…</source>
+   <translation>历史结果…</translation>
+  </message>
+  <message>
+   <source>Shows which way to push and turn the hanging column, from a folder that is measured into</source>
+   <translation>根据测量文件夹，显示悬吊柱应向哪边推、转多少</translation>
+  </message>
+  <message>
+   <source>This file holds no hoisting frame</source>
+   <translation>此文件中没有吊装测量</translation>
+  </message>
+  <message>
+   <source>Waiting for the first measurement in the folder</source>
+   <translation>正在等待文件夹中的第一次测量</translation>
+  </message>
+  <message>
+   <source>hold here</source>
+   <translation>保持不动</translation>
+  </message>
+  <message>
+   <source>margin</source>
+   <translation>余量</translation>
+  </message>
+  <message>
+   <source>no new frame for {age:.0f} s: do not rely on it</source>
+   <translation>{age:.0f} 秒没有新数据：不可依据</translation>
+  </message>
+  <message>
+   <source>not measured</source>
+   <translation>未测得</translation>
+  </message>
+  <message>
+   <source>{age:.0f} s ago</source>
+   <translation>{age:.0f} 秒前</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Import</name>
+  <message>
+   <source>A depth map needs the camera's intrinsics: choose the file that holds them.</source>
+   <translation>深度图需要相机内参：请选择内参文件。</translation>
+  </message>
+  <message>
+   <source>A scan belongs to a column, and this document has none: Sample design first.</source>
+   <translation>扫描属于某根柱，而此文档还没有柱：请先“提取设计点”。</translation>
+  </message>
+  <message>
+   <source>Camera</source>
+   <translation>相机</translation>
+  </message>
+  <message>
+   <source>Choose the file of the scan.</source>
+   <translation>请选择扫描文件。</translation>
+  </message>
+  <message>
+   <source>Column</source>
+   <translation>柱</translation>
+  </message>
+  <message>
+   <source>File</source>
+   <translation>文件</translation>
+  </message>
+  <message>
+   <source>Import</source>
+   <translation>导入</translation>
+  </message>
+  <message>
+   <source>Import scan</source>
+   <translation>导入扫描</translation>
+  </message>
+  <message>
+   <source>Intrinsics</source>
+   <translation>内参</translation>
+  </message>
+  <message>
+   <source>It shows</source>
+   <translation>内容</translation>
+  </message>
+  <message>
+   <source>Its unit</source>
+   <translation>单位</translation>
+  </message>
+  <message>
+   <source>Scan</source>
+   <translation>扫描</translation>
+  </message>
+  <message>
+   <source>Side of the column at the top of the picture; empty: not known</source>
+   <translation>图像上方对应柱的哪一侧；留空表示未知</translation>
+  </message>
+  <message>
+   <source>Step of a 16-bit depth map</source>
+   <translation>16 位深度图的每级毫米数</translation>
+  </message>
+  <message>
+   <source>Up in the picture</source>
+   <translation>图像上方</translation>
+  </message>
+  <message>
+   <source>not given</source>
+   <translation>未给出</translation>
+  </message>
+  <message>
+   <source>rebars (the bars below)</source>
+   <translation>钢筋（下层伸出的钢筋）</translation>
+  </message>
+  <message>
+   <source>sleeves (the foot)</source>
+   <translation>套筒（柱底）</translation>
+  </message>
+  <message>
+   <source>{file}: {count} points, imported to {column}</source>
+   <translation>{file}：{count} 个点，已导入 {column}</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_ImportScan</name>
+  <message>
+   <source>Gives the selected column a scan of its sleeves or of its rebars</source>
+   <translation>为所选柱导入套筒或钢筋的扫描</translation>
+  </message>
+  <message>
+   <source>Import scan…</source>
+   <translation>导入扫描…</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Install</name>
+  <message>
+   <source>Install</source>
+   <translation>安装</translation>
+  </message>
+  <message>
+   <source>Install it now</source>
+   <translation>立即安装</translation>
+  </message>
+  <message>
+   <source>Installing {package}</source>
+   <translation>正在安装 {package}</translation>
+  </message>
+  <message>
+   <source>{command} cannot be run: name a Python in the settings</source>
+   <translation>无法运行 {command}：请在设置中指定 Python</translation>
+  </message>
+  <message>
+   <source>{package} could not be installed; the lines above say why.</source>
+   <translation>无法安装 {package}；原因见上。</translation>
+  </message>
+  <message>
+   <source>{package} is installed. Repeat the command.</source>
+   <translation>{package} 已安装。请重新执行命令。</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Job</name>
+  <message>
+   <source>Choose the job file: a .toml as the manual describes it.</source>
+   <translation>请选择任务文件：手册所述的 .toml 文件。</translation>
+  </message>
+  <message>
+   <source>Empty: a folder beside the job file, called after it</source>
+   <translation>留空：任务文件旁的同名文件夹</translation>
+  </message>
+  <message>
+   <source>Job</source>
+   <translation>任务</translation>
+  </message>
+  <message>
+   <source>Job file</source>
+   <translation>任务文件</translation>
+  </message>
+  <message>
+   <source>Report folder</source>
+   <translation>报告文件夹</translation>
+  </message>
+  <message>
+   <source>Results of a job</source>
+   <translation>任务结果</translation>
+  </message>
+  <message>
+   <source>Run</source>
+   <translation>运行</translation>
+  </message>
+  <message>
+   <source>Run job</source>
+   <translation>运行任务</translation>
+  </message>
+  <message>
+   <source>The job ended with {code}</source>
+   <translation>任务以代码 {code} 结束</translation>
+  </message>
+  <message>
+   <source>The job was cancelled: its panel was closed</source>
+   <translation>任务已取消：面板被关闭</translation>
+  </message>
+  <message>
+   <source>cancelled</source>
+   <translation>已取消</translation>
+  </message>
+  <message>
+   <source>{count} columns: {summary}. Report: {file}</source>
+   <translation>{count} 根柱：{summary}。报告：{file}</translation>
+  </message>
+  <message>
+   <source>{program} cannot be run: name a Python with the packages in the settings</source>
+   <translation>无法运行 {program}：请在设置中指定装有所需软件包的 Python</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Packages</name>
+  <message>
+   <source>Check column</source>
+   <translation>检测柱</translation>
+  </message>
+  <message>
+   <source>Check column, depth maps</source>
+   <translation>检测柱、深度图</translation>
+  </message>
+  <message>
+   <source>Report</source>
+   <translation>报告</translation>
+  </message>
+  <message>
+   <source>Report: Excel workbook</source>
+   <translation>报告：Excel 工作簿</translation>
+  </message>
+  <message>
+   <source>Report: HTML</source>
+   <translation>报告：HTML</translation>
+  </message>
+  <message>
+   <source>Report: PDF, pages and cards</source>
+   <translation>报告：PDF、作业单与指示卡</translation>
+  </message>
+  <message>
+   <source>Sample design from an IFC file, Write results to an IFC file</source>
+   <translation>从 IFC 文件提取设计点、将结果写入 IFC 文件</translation>
+  </message>
+  <message>
+   <source>all measuring</source>
+   <translation>所有测量</translation>
+  </message>
+  <message>
+   <source>compressed PCD files</source>
+   <translation>压缩 PCD 文件</translation>
+  </message>
+  <message>
+   <source>methods fusion, pointcloud and image</source>
+   <translation>方法 fusion、pointcloud 与 image</translation>
+  </message>
+  <message>
+   <source>the command aadm, behind Run job and Report</source>
+   <translation>命令 aadm（用于“运行任务”和“报告”）</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Preferences</name>
+  <message>
+   <source>Camera file</source>
+   <translation>相机文件</translation>
+  </message>
+  <message>
+   <source>Decision rule</source>
+   <translation>判定规则</translation>
+  </message>
+  <message>
+   <source>General</source>
+   <translation>常规</translation>
+  </message>
+  <message>
+   <source>Intrinsics that Import scan offers: .toml, .json or the text of the camera</source>
+   <translation>“导入扫描”默认使用的内参：.toml、.json 或相机输出的文本</translation>
+  </message>
+  <message>
+   <source>Method</source>
+   <translation>方法</translation>
+  </message>
+  <message>
+   <source>More points show more and turn slower; checks use all points in any case</source>
+   <translation>点越多显示越细、转动越慢；检测总是使用全部点</translation>
+  </message>
+  <message>
+   <source>Of new columns: a built-in name such as cn, or the path of a .toml file</source>
+   <translation>用于新柱：内置名称（如 cn）或 .toml 文件路径</translation>
+  </message>
+  <message>
+   <source>Of new columns; all but refined are methods of the literature</source>
+   <translation>用于新柱；除 refined 外均为文献方法</translation>
+  </message>
+  <message>
+   <source>Of new columns; guarded: 95 % certainty, simple: the value alone</source>
+   <translation>用于新柱；guarded：95 % 置信，simple：只比较数值</translation>
+  </message>
+  <message>
+   <source>Of the labels in the 3-D view, points</source>
+   <translation>三维视图中标签的字号（磅）</translation>
+  </message>
+  <message>
+   <source>Points of a scan shown at most</source>
+   <translation>扫描最多显示的点数</translation>
+  </message>
+  <message>
+   <source>Python for jobs</source>
+   <translation>运行任务的 Python</translation>
+  </message>
+  <message>
+   <source>Runs jobs and installs packages; empty: the Python that FreeCAD was built with</source>
+   <translation>用于运行任务和安装软件包；留空：FreeCAD 自带的 Python</translation>
+  </message>
+  <message>
+   <source>Scans are imported in</source>
+   <translation>扫描导入单位</translation>
+  </message>
+  <message>
+   <source>Size of labels</source>
+   <translation>标签字号</translation>
+  </message>
+  <message>
+   <source>Tolerance profile</source>
+   <translation>允许偏差标准</translation>
+  </message>
+  <message>
+   <source>Unit of scan files; it is never guessed</source>
+   <translation>扫描文件的单位；绝不猜测</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Report</name>
+  <message>
+   <source>BCF topics for the BIM coordinator</source>
+   <translation>BCF 议题（供 BIM 协调）</translation>
+  </message>
+  <message>
+   <source>CSV tables</source>
+   <translation>CSV 表格</translation>
+  </message>
+  <message>
+   <source>Card for scanning</source>
+   <translation>扫描指示卡</translation>
+  </message>
+  <message>
+   <source>Choose the folder to write into.</source>
+   <translation>请选择输出文件夹。</translation>
+  </message>
+  <message>
+   <source>Excel workbook</source>
+   <translation>Excel 工作簿</translation>
+  </message>
+  <message>
+   <source>Folder</source>
+   <translation>文件夹</translation>
+  </message>
+  <message>
+   <source>FreeCAD document with the results alone</source>
+   <translation>仅含结果的 FreeCAD 文档</translation>
+  </message>
+  <message>
+   <source>HTML, one file to read and keep</source>
+   <translation>HTML，单个文件，便于阅读和存档</translation>
+  </message>
+  <message>
+   <source>PDF</source>
+   <translation>PDF</translation>
+  </message>
+  <message>
+   <source>Page for the crew</source>
+   <translation>班组作业单</translation>
+  </message>
+  <message>
+   <source>Picture of the 3-D view</source>
+   <translation>三维视图图片</translation>
+  </message>
+  <message>
+   <source>Report</source>
+   <translation>报告</translation>
+  </message>
+  <message>
+   <source>Report…</source>
+   <translation>报告…</translation>
+  </message>
+  <message>
+   <source>Write</source>
+   <translation>写入</translation>
+  </message>
+  <message>
+   <source>Writes report.json, and from it reports for people, of all results</source>
+   <translation>写出 report.json，并由其生成供人阅读的报告</translation>
+  </message>
+  <message>
+   <source>Written: {folder}</source>
+   <translation>已写出：{folder}</translation>
+  </message>
+  <message>
+   <source>aadm report ended with {code}</source>
+   <translation>aadm report 以代码 {code} 结束</translation>
+  </message>
+  <message>
+   <source>report.json is always written. And:</source>
+   <translation>总是写出 report.json。另外：</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Rows</name>
+  <message>
+   <source>distance in the trial</source>
+   <translation>试装间距</translation>
+  </message>
+  <message>
+   <source>position</source>
+   <translation>位置</translation>
+  </message>
+  <message>
+   <source>position in the building</source>
+   <translation>绝对位置</translation>
+  </message>
+  <message>
+   <source>spacing</source>
+   <translation>间距</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_RunJob</name>
+  <message>
+   <source>Checks all columns of a job file, and shows the results on the columns</source>
+   <translation>检测任务文件中的所有柱，并在柱上显示结果</translation>
+  </message>
+  <message>
+   <source>Run job…</source>
+   <translation>运行任务…</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_SampleDesign</name>
+  <message>
+   <source>IFC file…</source>
+   <translation>IFC 文件…</translation>
+  </message>
+  <message>
+   <source>Sample design</source>
+   <translation>提取设计点</translation>
+  </message>
+  <message>
+   <source>Take the columns of an IFC file</source>
+   <translation>从 IFC 文件读取柱</translation>
+  </message>
+  <message>
+   <source>Takes sleeves and rebars from the selected columns of the model, or from all columns where none is selected</source>
+   <translation>从模型中所选的柱提取套筒和钢筋；未选择时提取所有柱</translation>
+  </message>
+  <message>
+   <source>The document is empty: open or import the model first, or take the columns of an IFC file.</source>
+   <translation>文档为空：请先打开或导入模型，或从 IFC 文件读取柱。</translation>
+  </message>
+  <message>
+   <source>{count} columns were sampled</source>
+   <translation>已提取 {count} 根柱</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_SavePicture</name>
+  <message>
+   <source>No 3-D view is in front: open a document.</source>
+   <translation>当前没有三维视图：请打开文档。</translation>
+  </message>
+  <message>
+   <source>Save picture</source>
+   <translation>保存图片</translation>
+  </message>
+  <message>
+   <source>Save picture…</source>
+   <translation>保存图片…</translation>
+  </message>
+  <message>
+   <source>Saves the 3-D view as it is now, for reports</source>
+   <translation>保存当前三维视图，用于报告</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Settings</name>
+  <message>
+   <source>Method, tolerances, units and what the 3-D view shows</source>
+   <translation>方法、允许偏差、单位和三维显示</translation>
+  </message>
+  <message>
+   <source>Settings…</source>
+   <translation>设置…</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Table</name>
+  <message>
+   <source>Clause</source>
+   <translation>条款</translation>
+  </message>
+  <message>
+   <source>Deviation</source>
+   <translation>偏差</translation>
+  </message>
+  <message>
+   <source>Limit</source>
+   <translation>限值</translation>
+  </message>
+  <message>
+   <source>Point</source>
+   <translation>点</translation>
+  </message>
+  <message>
+   <source>What</source>
+   <translation>项目</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_Write</name>
+  <message>
+   <source>As properties of the model's objects</source>
+   <translation>写为模型对象的属性</translation>
+  </message>
+  <message>
+   <source>Choose the IFC file that the model came from.</source>
+   <translation>请选择模型所来自的 IFC 文件。</translation>
+  </message>
+  <message>
+   <source>Columns are then found by their GlobalIds</source>
+   <translation>此时按 GlobalId 查找柱</translation>
+  </message>
+  <message>
+   <source>Empty: the file itself, changed in place</source>
+   <translation>留空：直接修改该文件</translation>
+  </message>
+  <message>
+   <source>Even if the file has changed since the check</source>
+   <translation>即使文件在检测后已更改</translation>
+  </message>
+  <message>
+   <source>IFC file</source>
+   <translation>IFC 文件</translation>
+  </message>
+  <message>
+   <source>Into the model's IFC file</source>
+   <translation>写入模型的 IFC 文件</translation>
+  </message>
+  <message>
+   <source>Results were written into {file}</source>
+   <translation>结果已写入 {file}</translation>
+  </message>
+  <message>
+   <source>Results were written onto {count} objects of the model</source>
+   <translation>结果已写到 {count} 个模型对象上</translation>
+  </message>
+  <message>
+   <source>Then save the document</source>
+   <translation>随后保存文档</translation>
+  </message>
+  <message>
+   <source>Write</source>
+   <translation>写入</translation>
+  </message>
+  <message>
+   <source>Write results to model</source>
+   <translation>将结果写入模型</translation>
+  </message>
+  <message>
+   <source>Written to</source>
+   <translation>输出到</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_WriteResults</name>
+  <message>
+   <source>Write results to model…</source>
+   <translation>将结果写入模型…</translation>
+  </message>
+  <message>
+   <source>Writes the results onto the objects of the model, and into its IFC file</source>
+   <translation>将结果写到模型对象上，并写入其 IFC 文件</translation>
+  </message>
+ </context>
+ <context>
+  <name>App::Property</name>
+  <message>
+   <source>A check has laid it on the design; before, its place is a guess</source>
+   <translation>检测已将其对准设计；此前的位置只是估计</translation>
+  </message>
+  <message>
+   <source>Arrows are this many times as long as the deviations; 0: chosen to fit</source>
+   <translation>箭头长度是偏差的倍数；0：自动选择</translation>
+  </message>
+  <message>
+   <source>Column frame in the frame of the model's object</source>
+   <translation>柱坐标系在模型对象坐标系中的位置</translation>
+  </message>
+  <message>
+   <source>Connecting rebars of the design</source>
+   <translation>设计中的连接钢筋数</translation>
+  </message>
+  <message>
+   <source>Design points</source>
+   <translation>设计点</translation>
+  </message>
+  <message>
+   <source>Distance at which the colours end; points beyond are grey</source>
+   <translation>色标的最大距离；更远的点为灰色</translation>
+  </message>
+  <message>
+   <source>Distance from the design, or one colour</source>
+   <translation>按与设计的距离着色，或单色</translation>
+  </message>
+  <message>
+   <source>Distance of each thinned point from the design</source>
+   <translation>各抽稀点与设计的距离</translation>
+  </message>
+  <message>
+   <source>Draw over everything: the foot is inside the column's own concrete</source>
+   <translation>显示在最前：柱底被柱体混凝土遮挡</translation>
+  </message>
+  <message>
+   <source>Form of this object; newer versions of the workbench bring it up to date</source>
+   <translation>此对象的格式；新版工作台会自动升级</translation>
+  </message>
+  <message>
+   <source>From the column's check by AADM</source>
+   <translation>来自 AADM 对该柱的检测</translation>
+  </message>
+  <message>
+   <source>GlobalId in IFC</source>
+   <translation>IFC 中的 GlobalId</translation>
+  </message>
+  <message>
+   <source>Grid axes</source>
+   <translation>轴线</translation>
+  </message>
+  <message>
+   <source>Hash of the file as it was imported</source>
+   <translation>导入时文件的哈希值</translation>
+  </message>
+  <message>
+   <source>How centres are found in a scan</source>
+   <translation>在扫描中提取中心的方法</translation>
+  </message>
+  <message>
+   <source>Intrinsics of the camera, where they are known</source>
+   <translation>相机内参（如已知）</translation>
+  </message>
+  <message>
+   <source>Its last result</source>
+   <translation>最近一次结果</translation>
+  </message>
+  <message>
+   <source>Its scans</source>
+   <translation>其扫描</translation>
+  </message>
+  <message>
+   <source>Largest deviation of a rebar from its design place</source>
+   <translation>钢筋与设计位置的最大偏差</translation>
+  </message>
+  <message>
+   <source>Largest deviation of a sleeve from its design place</source>
+   <translation>套筒与设计位置的最大偏差</translation>
+  </message>
+  <message>
+   <source>Largest distance of a rebar from its sleeve in the best position (minimax)</source>
+   <translation>最佳位置（最小最大）下钢筋与套筒的最大间距</translation>
+  </message>
+  <message>
+   <source>Millimetres in one step of a 16-bit depth map; 0: not given</source>
+   <translation>16 位深度图每级的毫米数；0：未给出</translation>
+  </message>
+  <message>
+   <source>Piece mark</source>
+   <translation>构件编号</translation>
+  </message>
+  <message>
+   <source>Points of the file; the view shows fewer</source>
+   <translation>文件中的点数；视图显示较少</translation>
+  </message>
+  <message>
+   <source>Positions against the design, or the trial assembly: minimax, or least squares</source>
+   <translation>与设计比较的位置，或试装：最小最大、最小二乘</translation>
+  </message>
+  <message>
+   <source>Program and version that it was checked with</source>
+   <translation>检测所用程序及版本</translation>
+  </message>
+  <message>
+   <source>Scan frame in the column frame</source>
+   <translation>扫描坐标系在柱坐标系中的位置</translation>
+  </message>
+  <message>
+   <source>Show deviation arrows</source>
+   <translation>显示偏差箭头</translation>
+  </message>
+  <message>
+   <source>Side of the column at the top of pictures of its rebars: +x, -x, +y, -y</source>
+   <translation>钢筋图像上方对应柱的哪一侧：+x、-x、+y、-y</translation>
+  </message>
+  <message>
+   <source>Side of the column at the top of pictures of its sleeves: +x, -x, +y, -y</source>
+   <translation>套筒图像上方对应柱的哪一侧：+x、-x、+y、-y</translation>
+  </message>
+  <message>
+   <source>Size of a point, pixels</source>
+   <translation>点的大小（像素）</translation>
+  </message>
+  <message>
+   <source>Sleeves of the design</source>
+   <translation>设计中的套筒数</translation>
+  </message>
+  <message>
+   <source>Storey</source>
+   <translation>楼层</translation>
+  </message>
+  <message>
+   <source>The column may be turned by its own symmetry</source>
+   <translation>允许按柱自身的对称性旋转</translation>
+  </message>
+  <message>
+   <source>The job's part</source>
+   <translation>任务部分</translation>
+  </message>
+  <message>
+   <source>The object of the model that this column is</source>
+   <translation>此柱对应的模型对象</translation>
+  </message>
+  <message>
+   <source>The report</source>
+   <translation>报告</translation>
+  </message>
+  <message>
+   <source>The scan's file</source>
+   <translation>扫描文件</translation>
+  </message>
+  <message>
+   <source>Thinned points, scan frame</source>
+   <translation>抽稀的点（扫描坐标系）</translation>
+  </message>
+  <message>
+   <source>Tolerance profile: a built-in name, or the path of a .toml file</source>
+   <translation>允许偏差标准：内置名称或 .toml 文件路径</translation>
+  </message>
+  <message>
+   <source>Unit of the file's lengths; it is never guessed</source>
+   <translation>文件的长度单位；绝不猜测</translation>
+  </message>
+  <message>
+   <source>Verdict of the trial assembly alone</source>
+   <translation>仅试装的结论</translation>
+  </message>
+  <message>
+   <source>What it shows: the sleeves of the foot, or the rebars</source>
+   <translation>内容：柱底套筒或钢筋</translation>
+  </message>
+  <message>
+   <source>What jobs and reports call it</source>
+   <translation>任务和报告中的名称</translation>
+  </message>
+  <message>
+   <source>What stands against it</source>
+   <translation>不合格原因</translation>
+  </message>
+  <message>
+   <source>When it was checked (UTC), where that is known</source>
+   <translation>检测时间（UTC，如已知）</translation>
+  </message>
+  <message>
+   <source>Which points are labelled</source>
+   <translation>标注哪些点</translation>
+  </message>
+  <message>
+   <source>guarded: decide with 95 % certainty; simple: compare the value alone</source>
+   <translation>guarded：以 95 % 置信判定；simple：只比较数值</translation>
+  </message>
+  <message>
+   <source>pass, fail, inconclusive, not_measured or error</source>
+   <translation>pass 合格、fail 不合格、inconclusive 无法判定、not_measured 未测得、error 出错</translation>
+  </message>
+ </context>
+ <context>
+  <name>Workbench</name>
+  <message>
+   <source>AADM</source>
+   <translation>AADM</translation>
+  </message>
+ </context>
+</TS>

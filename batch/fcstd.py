@@ -1,0 +1,49 @@
+"""A FreeCAD document with the results of a check, written by FreeCAD itself, without a screen."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from aadm_workbench.design.freecad_program import ask_freecad
+from aadm_workbench.design.model_file import sha256_of
+from aadm_workbench.errors import AadmError
+from aadm_workbench.report.json import encode
+
+_MODULE = "aadm_workbench.document.annotate"
+
+
+def write_fcstd(report: dict[str, Any], path: Path) -> None:
+    """Write a .FCStd with the annotated columns of a report.
+
+    Where the report's model is a .FCStd that still has the hash that was checked, the columns are shown on it; the file
+    itself stays as it is.
+
+    Raises
+    ------
+    MissingDependencyError
+        Where FreeCAD is not installed.
+    AadmError
+        Where FreeCAD cannot write the document.
+    """
+    model = model_of(report, path)
+    question = {
+        "report": encode(report).decode(),
+        "out": str(path.resolve()),
+        "model": None if model is None else str(model.resolve()),
+    }
+    problem = ask_freecad(_MODULE, question, str(path))
+    if problem:
+        raise AadmError(str(problem))
+
+
+def model_of(report: dict[str, Any], path: Path) -> Path | None:
+    """The .FCStd that was checked, where it lies beside the report or above it and has not changed since."""
+    model = report.get("model") or {}
+    source = str(model.get("source", ""))
+    if not source.lower().endswith(".fcstd"):
+        return None
+    for place in (path.parent / source, path.parent.parent / source, Path(source)):
+        if place.is_file() and sha256_of(place) == model.get("sha256"):
+            return place
+    return None

@@ -1,0 +1,95 @@
+"""What the hoisting window is told."""
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from aadm_workbench.document.hoisting_state import SIDES, guidance_of, newest_measurement, read_measurement
+from aadm_workbench.errors import ReportError
+
+FRAME = {
+    "source": "frame.tiff",
+    "verdict": "fail",
+    "max_mm": 5.0,
+    "correction": {"dx_mm": 4.0, "dy_mm": 3.0, "yaw_deg": -0.5},
+    "pairs": [],
+}
+
+
+def write(folder: Path, name: str, content: object, age_s: float = 0.0) -> Path:
+    path = folder / name
+    path.write_text(json.dumps(content), encoding="utf-8")
+    os.utime(path, (1_000_000 - age_s, 1_000_000 - age_s))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("standing", "right_mm", "ahead_mm"),
+    [("-y", 4.0, 3.0), ("+x", 3.0, -4.0), ("+y", -4.0, -3.0), ("-x", -3.0, 4.0)],
+)
+def test_directions_are_the_readers(tmp_path: Path, standing: str, right_mm: float, ahead_mm: float) -> None:
+    # Who stands at +x looks towards -x: +y is to the right, -x is ahead.
+    found = read_measurement(write(tmp_path, "state.json", FRAME))
+    assert found is not None
+    guidance = guidance_of(found, standing)
+    assert guidance.right_mm == pytest.approx(right_mm)
+    assert guidance.ahead_mm == pytest.approx(ahead_mm)
+    assert guidance.turn_deg == -0.5
+    assert len(SIDES) == 4
+
+
+@pytest.mark.parametrize(
+    ("verdict", "light"),
+    [("pass", "go"), ("fail", "push"), ("inconclusive", "hold"), ("not_measured", "hold"), ("nonsense", "hold")],
+)
+def test_only_a_pass_is_green(tmp_path: Path, verdict: str, light: str) -> None:
+    found = read_measurement(write(tmp_path, "state.json", FRAME | {"verdict": verdict}))
+    assert found is not None
+    assert guidance_of(found, "-y").light == light
+
+
+@pytest.mark.parametrize("correction", [None, {}, {"dx_mm": None, "dy_mm": 1.0}, {"dx_mm": float("nan"), "dy_mm": 1.0}])
+def test_without_a_correction_there_is_no_arrow_and_no_green(tmp_path: Path, correction: object) -> None:
+    found = read_measurement(write(tmp_path, "state.json", FRAME | {"verdict": "pass", "correction": correction}))
+    assert found is not None
+    guidance = guidance_of(found, "-y")
+    assert guidance.right_mm is None
+    assert guidance.light == "hold"
+
+
+def test_margin_is_what_is_left_of_the_limit(tmp_path: Path) -> None:
+    found = read_measurement(write(tmp_path, "state.json", FRAME | {"max_mm": 2.0}))
+    assert found is not None
+    assert guidance_of(found, "-y").margin_mm == pytest.approx(1.0)
+    stricter = read_measurement(write(tmp_path, "state.json", FRAME | {"max_mm": 2.0, "limit_mm": 2.5}))
+    assert stricter is not None
+    assert guidance_of(stricter, "-y").margin_mm == pytest.approx(0.5)
+
+
+def test_the_newest_frame_counts_and_half_a_file_does_not(tmp_path: Path) -> None:
+    assert newest_measurement(tmp_path) is None
+    write(tmp_path, "1.json", FRAME | {"max_mm": 9.0}, age_s=20.0)
+    write(tmp_path, "2.json", FRAME | {"max_mm": 7.0}, age_s=10.0)
+    (tmp_path / "3.json").write_text('{"verdict": "pa', encoding="utf-8")
+    write(tmp_path, "4.json", {"settings": 1})
+    found = newest_measurement(tmp_path)
+    assert found is not None
+    assert found.frame["max_mm"] == 7.0
+
+
+def test_last_frame_of_a_report_is_shown(tmp_path: Path) -> None:
+    report = {
+        "schema": 1,
+        "columns": [{"id": "C-1", "hoisting": []}, {"id": "C-2", "hoisting": [FRAME, FRAME | {"max_mm": 1.0}]}],
+        "profile": {"rules": [{"limits": "sleeve_rebar_distance", "upper_mm": 4.0}]},
+    }
+    found = read_measurement(write(tmp_path, "report.json", report))
+    assert found is not None
+    assert (found.column, found.frame["max_mm"], found.limit_mm) == ("C-2", 1.0, 4.0)
+
+
+def test_a_file_that_cannot_be_read_is_an_error(tmp_path: Path) -> None:
+    with pytest.raises(ReportError, match=r"nowhere\.json"):
+        read_measurement(tmp_path / "nowhere.json")

@@ -1,0 +1,382 @@
+"""The scripted session: from a model to written results, as a person would do it. Runs inside FreeCAD, on a screen.
+
+It finds ``result`` (to be filled), ``folder`` (for its files), ``MODEL`` (text that draws a model), ``SAMPLES``.
+"""
+
+# ruff: noqa: E402, F821, PLW0603 - a script in the order of the session, with names that the runner puts in
+import json
+import time
+from pathlib import Path
+
+import FreeCAD
+import FreeCADGui as Gui
+import numpy as np
+from PySide import QtCore, QtGui
+
+namespace = {}
+exec(MODEL, namespace)
+window = Gui.getMainWindow()
+longest_gap_s = 0.0
+rounds = 0
+
+
+def spin(until, limit_s=60.0):
+    """Let the window live until something has happened; notes the longest time that it did not."""
+    global longest_gap_s, rounds
+    begin = last = time.perf_counter()
+    while not until() and last - begin < limit_s:
+        Gui.updateGui()
+        rounds += 1
+        time.sleep(0.005)
+        now = time.perf_counter()
+        longest_gap_s = max(longest_gap_s, now - last)
+        last = now
+    return bool(until())
+
+
+def settle(seconds=0.5):
+    spin(lambda: False, seconds)
+
+
+def screenshot(name):
+    settle()
+    QtGui.QApplication.primaryScreen().grabWindow(0).save(str(folder / name))
+
+
+def sentences():
+    """The sentences on the screen, which are closed."""
+    settle(0.1)
+    boxes = [box for box in window.findChildren(QtGui.QMessageBox) if box.isVisible()]
+    said = [box.text() for box in boxes]
+    for box in boxes:
+        box.close()
+    settle(0.1)
+    return said
+
+
+def panel(kind):
+    from aadm_workbench.gui.task_panel import open_panel_of
+
+    return open_panel_of(kind)
+
+
+def is_active(name):
+    from importlib import import_module
+
+    from aadm_workbench.gui.commands import COMMANDS
+
+    module, command = COMMANDS[name]
+    return getattr(import_module(f"aadm_workbench.gui.commands.{module}"), command)().IsActive()
+
+
+def run_anyway(name):
+    """Run a command although it is greyed out, as a macro may; returns the sentences that it says."""
+    from importlib import import_module
+
+    from aadm_workbench.gui.commands import COMMANDS
+
+    module, command = COMMANDS[name]
+    getattr(import_module(f"aadm_workbench.gui.commands.{module}"), command)().Activated()
+    return sentences()
+
+
+# Views jump where they are sent: a picture of one that is still turning shows neither here nor there.
+FreeCAD.ParamGet("User parameter:BaseApp/Preferences/View").SetBool("UseNavigationAnimations", False)
+
+# The workbench, as it is found.
+result["freecad"] = ".".join(FreeCAD.Version()[:2])
+result["listed"] = "AADMWorkbench" in Gui.listWorkbenches()
+import sys
+
+result["loaded_early"] = "aadm_workbench.gui.commands.about" in sys.modules
+Gui.activateWorkbench("AADMWorkbench")
+active = Gui.activeWorkbench()
+result.update(name=active.MenuText, tooltip=active.ToolTip)
+result["commands"] = sorted(name for name in Gui.listCommands() if name.startswith("AADM_"))
+result["toolbars"] = [bar.windowTitle() for bar in window.findChildren(QtGui.QToolBar) if bar.isVisible()]
+result["icon_is_drawn"] = not Gui.getIcon(active.Icon).pixmap(64, 64).isNull()
+NEED_SOMETHING = ["AADM_SampleDesign", "AADM_ImportScan", "AADM_CheckColumn", "AADM_WriteResults", "AADM_Report"]
+result["active_without_document"] = [name for name in NEED_SOMETHING if is_active(name)]
+result["said_without_document"] = {name: run_anyway(name) for name in NEED_SOMETHING}
+
+# An empty document, then a model; nothing selected, then the wrong thing.
+document = FreeCAD.newDocument("session")
+document.UndoMode = 1
+result["said_in_empty_document"] = {name: run_anyway(name) for name in NEED_SOMETHING}
+column_body, bars = namespace["make_model"](document, (7800.0, 13200.0, 7200.0))
+torus = document.addObject("Part::Torus", "Ring")
+torus.Placement.Base = (9000, 13200, 7200)
+document.recompute()
+Gui.Selection.clearSelection()
+Gui.Selection.addSelection(torus)
+result["said_with_wrong_selection"] = {name: run_anyway(name) for name in NEED_SOMETHING}
+result["objects_after_nonsense"] = [obj.Name for obj in document.Objects if obj.Name.startswith("AADM")]
+document.removeObject(torus.Name)
+
+# Sample design, undo, redo.
+Gui.Selection.clearSelection()
+Gui.Selection.addSelection(column_body)
+Gui.runCommand("AADM_SampleDesign")
+settle(0.2)
+from aadm_workbench.document import api
+from aadm_workbench.document.places import transform_of
+from aadm_workbench.gui.design_panel import DesignPanel
+
+(column,) = api.columns_in(document)
+design_panel = panel(DesignPanel)
+result["design_rows"] = design_panel.table.rowCount()
+result["column_place"] = transform_of(column.Placement).tolist()
+design_panel.sleeves_up.setCurrentText("sideways")
+design_panel.apply()
+result["said_for_wrong_up"] = sentences()
+design_panel.sleeves_up.setCurrentText("+y")
+design_panel.rebars_up.setCurrentText("+y")
+design_panel.table.cellWidget(0, 3).setCurrentIndex(3)
+design_panel.swap(0, 3)
+design_panel.apply()
+swapped = api.column_design(column)
+result["swapped"] = [swapped.rebars[0].centre.tolist(), swapped.rebars[3].centre.tolist()]
+document.undo()
+back = api.column_design(column)
+result["swapped_back"] = [back.rebars[0].centre.tolist(), back.rebars[3].centre.tolist()]
+Gui.Control.closeDialog()
+design_panel.reject()
+column.SleevesUp = column.RebarsUp = "+y"
+undo_name = document.UndoNames[0] if document.UndoNames else ""
+result["undo_names"] = list(document.UndoNames)
+
+# Import: a broken scan, then the two good ones.
+from aadm_workbench.gui.import_panel import ImportPanel
+
+scans = Path(SAMPLES) / "floor" / "scans"
+intrinsics = folder / "camera.toml"
+intrinsics.write_text("fx = 2425.4796\nfy = 2425.3285\ncx = 959.7418\ncy = 632.7028\nwidth = 1920\nheight = 1200\n")
+
+
+def import_scan(file, kind, camera=str(intrinsics)):
+    Gui.Selection.clearSelection()
+    Gui.Selection.addSelection(column)
+    Gui.runCommand("AADM_ImportScan")
+    importing = panel(ImportPanel)
+    importing.file.set_text(str(file))
+    importing.kind.setCurrentIndex(importing.kind.findData(kind))
+    importing.camera.set_text(camera)
+    importing.depth_scale.setValue(0.03)
+    before = len(column.Scans)
+    importing.start()
+    spin(lambda: len(column.Scans) > before or importing.import_button.isEnabled(), 30)
+    said = sentences()
+    if panel(ImportPanel) is not None:
+        importing.reject()
+    return said
+
+
+result["said_for_broken_scan"] = import_scan(scans / "C-306-bars.tiff", "rebars")
+result["said_without_camera"] = import_scan(scans / "C-302-foot.tiff", "sleeves", "")
+result["said_for_missing_file"] = import_scan(folder / "nowhere.ply", "sleeves")
+result["scans_after_errors"] = len(column.Scans)
+result["said_for_good_scans"] = import_scan(scans / "C-302-foot.tiff", "sleeves") + import_scan(
+    scans / "C-302-bars.tiff", "rebars"
+)
+result["scans"] = [[cloud.Kind, cloud.PointCount, len(cloud.Points)] for cloud in column.Scans]
+
+# Check: cancelled, then to its end, while the window lives.
+from aadm_workbench.gui.check_panel import CheckPanel
+
+Gui.Selection.clearSelection()
+Gui.Selection.addSelection(column_body)
+Gui.runCommand("AADM_CheckColumn")
+checking = panel(CheckPanel)
+checking.start()
+checking.cancel()
+spin(checking.check_button.isEnabled, 30)
+result["result_after_cancel"] = column.Result is not None
+longest_gap_s = 0.0
+rounds = 0
+checking.start()
+spin(lambda: column.Result is not None and checking.check_button.isEnabled(), 60)
+result["longest_gap_s"] = longest_gap_s
+result["rounds"] = rounds
+result["said_by_check"] = sentences()
+found = column.Result
+result["verdict"] = [found.Verdict, found.GoesOn, list(found.Reasons)]
+result["rows"] = [[row.name, row.what, row.verdict] for row in checking.table.rows]
+result["first_shown"] = checking.table.item(0, 1).text()
+result["scan_places"] = [transform_of(cloud.Placement).tolist() for cloud in column.Scans]
+checking.only_failing.setChecked(True)
+result["failing_rows"] = checking.table.rowCount()
+
+# What is seen: the whole, and the foot from below with the colours at their places.
+from aadm_workbench.document.projection import project
+from aadm_workbench.document.result import found_of
+from aadm_workbench.gui.label_keeper import KEEPER
+from aadm_workbench.gui.picture import save_picture
+from aadm_workbench.gui.result_view import world_point
+from aadm_workbench.gui.view_camera import active_view, camera_of, zoom_to
+
+window.resizeDocks(
+    [dock for dock in window.findChildren(QtGui.QDockWidget) if dock.isVisible()][:1], [420], QtCore.Qt.Horizontal
+)
+for dock in window.findChildren(QtGui.QDockWidget):
+    if dock.objectName() in {"Python console", "Report view", "Selection view"}:
+        dock.hide()
+for cloud in column.Scans:
+    cloud.ViewObject.Visibility = False
+view = active_view()
+view.viewIsometric()
+view.fitAll()
+screenshot("column.png")
+checking.table.selectRow(0)
+settle(0.3)
+result["zoomed_height_mm"] = camera_of(view).height_mm
+screenshot("zoomed.png")
+
+
+def colours_at(name, places):
+    """Colours of a picture of the view at places (x, y) of the foot, and the picture's file."""
+    save_picture(view, folder / name)
+    picture = QtGui.QImage(str(folder / name))
+    world = np.array([world_point(column.Result, place) for place in places])
+    pixels, _ = project(world, camera_of(view))
+    seen = []
+    for x, y in pixels:
+        at = QtGui.QColor(picture.pixel(round(x), round(picture.height() - 1 - y)))
+        seen.append([at.red(), at.green(), at.blue()])
+    return seen
+
+
+column.Result.ViewObject.Proxy.pick(None)
+column_body.ViewObject.Visibility = False
+for bar in bars:
+    bar.ViewObject.Visibility = False
+view.viewTop()
+zoom_to(view, np.array(world_point(column.Result, (0, 0))), 760.0)
+settle(0.3)
+points = {point["label"]: point for kind in ("sleeves", "rebars") for point in found_of(found)[kind]["points"]}
+factor = column.Result.ViewObject.Proxy.magnification()
+result["factor"] = factor
+bad, good = points["R5"], points["S8"]
+middle_of_arrow = [bad["design_mm"][k] + 0.5 * factor * (bad["aligned_mm"][k] - bad["design_mm"][k]) for k in (0, 1)]
+edge_of_sleeve = [good["aligned_mm"][0] + good["diameter_mm"] / 2.0, good["aligned_mm"][1]]
+nowhere = [0.0, 345.0]
+result["colours"] = colours_at("foot.png", [middle_of_arrow, edge_of_sleeve, nowhere])
+result["boxes"] = [list(box) for box in KEEPER.boxes]
+column.Result.ViewObject.Shows = "minimax"
+result["colours_minimax"] = colours_at("minimax.png", [middle_of_arrow])
+column.Result.ViewObject.Shows = "position"
+for cloud in column.Scans:
+    cloud.ViewObject.Visibility = cloud.Kind == "sleeves"
+column.Result.ViewObject.Visibility = False
+save_picture(view, folder / "cloud.png")
+column.Result.ViewObject.Visibility = True
+
+# The model moves: the column follows. The unit changes: labels follow.
+column_body.Placement.Base = column_body.Placement.Base + FreeCAD.Vector(0, 500, 0)
+settle(0.2)
+result["followed_mm"] = column.Placement.Base.y, column.Result.Placement.Base.y
+units = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Units")
+from aadm_workbench.document.words import length_text
+
+before = length_text(2.54)
+FreeCAD.Units.setSchema(3)
+result["lengths"] = [before, length_text(2.54)]
+FreeCAD.Units.setSchema(0)
+column_body.Placement.Base = column_body.Placement.Base - FreeCAD.Vector(0, 500, 0)
+settle(0.2)
+if panel(CheckPanel) is not None:
+    checking.reject()
+
+# Write results onto the model, save, write report.json.
+from aadm_workbench.gui.report_panel import ReportPanel
+from aadm_workbench.gui.write_panel import WritePanel
+
+column_body.ViewObject.Visibility = True
+document.saveAs(str(folder / "session.FCStd"))
+Gui.runCommand("AADM_WriteResults")
+writing = panel(WritePanel)
+writing.start()
+settle(0.2)
+result["said_by_write"] = sentences()
+result["on_model"] = [column_body.AADM_Verdict, column_body.AADM_LargestRebarDeviation.Value]
+writing.into_ifc.setChecked(True)
+writing.start()
+result["said_without_ifc"] = sentences()
+writing.reject()
+Gui.runCommand("AADM_Report")
+reporting = panel(ReportPanel)
+reporting.folder.set_text(str(folder / "report"))
+for box in reporting.forms.values():
+    box.setChecked(False)
+reporting.start()
+result["said_by_report"] = sentences()
+result["report"] = json.loads((folder / "report" / "report.json").read_text())["columns"][0]["verdict"]
+result["picture_of_report"] = (folder / "report" / "view.png").is_file()
+reporting.reject()
+document.save()
+
+# Saved, closed, opened.
+name = document.Name
+FreeCAD.closeDocument(name)
+document = FreeCAD.openDocument(str(folder / "session.FCStd"))
+settle(0.3)
+(column,) = api.columns_in(document)
+result["reopened"] = {
+    "visible": column.Result.ViewObject.isVisible(),
+    "view": type(column.Result.ViewObject.Proxy).__name__,
+    "children": [obj.Name for obj in column.ViewObject.Proxy.claimChildren()],
+    "icon": Path(column.ViewObject.Proxy.getIcon()).name,
+    "labels": len(column.Result.ViewObject.Proxy.label_places()),
+}
+
+# Deleting a column takes its scans and its result along; one undo brings all back.
+document.UndoMode = 1
+document.openTransaction("delete")
+Gui.Selection.clearSelection()
+Gui.Selection.addSelection(column)
+Gui.runCommand("Std_Delete", 0)
+document.commitTransaction()
+settle(0.1)
+result["left_after_delete"] = [obj.Name for obj in document.Objects if obj.Name.startswith("AADM_")]
+document.undo()
+settle(0.1)
+result["labels_after_undo"] = sum(len(places) for _, places in KEEPER._alive())
+result["back_after_undo"] = sorted(obj.Name for obj in document.Objects if obj.Name.startswith("AADM_"))
+FreeCAD.closeDocument(document.Name)
+
+# A job of a whole floor: cancelled, refused, then done.
+from aadm_workbench.gui.job_panel import JobPanel
+
+floor = FreeCAD.newDocument("floor")
+Gui.runCommand("AADM_RunJob")
+job = panel(JobPanel)
+job.start()
+result["said_without_job"] = sentences()
+broken = folder / "broken.toml"
+broken.write_text("schema = 1\nnonsense = 2\n")
+job.job.set_text(str(broken))
+job.start()
+spin(lambda: job.process is None, 30)
+result["said_for_broken_job"] = sentences()
+job.job.set_text(str(Path(SAMPLES) / "floor" / "job.toml"))
+job.folder.set_text(str(folder / "cancelled"))
+job.start()
+settle(0.3)
+job.cancel()
+spin(lambda: job.process is None, 30)
+result["said_by_cancelled_job"] = sentences()
+result["shown_by_cancelled_job"] = len(api.columns_in(floor))
+short = folder / "short.toml"
+text = (Path(SAMPLES) / "lab" / "job.toml").read_text(encoding="utf-8")
+short.write_text(text.replace('"scans/', f'"{(Path(SAMPLES) / "lab" / "scans").as_posix()}/'), encoding="utf-8")
+job.job.set_text(str(short))
+job.folder.set_text(str(folder / "lab"))
+longest_gap_s = 0.0
+job.start()
+spin(lambda: job.process is None, 90)
+result["said_by_job"] = sentences()
+result["job_lines"] = [job.lines.item(place).text() for place in range(job.lines.count())]
+result["job_columns"] = [[one.ColumnId, one.Result.Verdict] for one in api.columns_in(floor)]
+result["longest_gap_in_job_s"] = longest_gap_s
+if panel(JobPanel) is not None:
+    job.reject()
+FreeCAD.closeDocument(floor.Name)
