@@ -4,27 +4,36 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from .limits import memory_size, time_span
 from .switches import add_switches, whole_number
+
+if TYPE_CHECKING:
+    from .pools import PoolOptions
 
 METHODS = ("refined", "fusion", "pointcloud", "image")
 
 
-def add_job_arguments(parser: argparse.ArgumentParser, name: str, *, verb: str, writes: str, prints_json: str) -> None:
-    """Declare the arguments of ``aadm NAME JOB.toml``; ``verb`` is what it does to columns, ``writes`` its output."""
+def add_job_arguments(
+    parser: argparse.ArgumentParser, name: str, *, verb: str, writes: str, prints_json: str, more: str = ""
+) -> None:
+    """Declare the arguments of ``aadm NAME JOB.toml``; ``verb`` is what it does to columns, ``writes`` its output.
+
+    ``more`` is what the command adds to its usage.
+    """
     # Written out, because --only would take a job that follows it for one more id.
     parser.usage = (
-        f"aadm {name} JOB.toml [--out DIR] [--only ID ...] [--jobs N] [--method METHOD] [--json] [--quiet] [--debug] "
-        "[-h]"
+        f"aadm {name} JOB.toml [--out DIR] [--only ID ...] [--method METHOD] {more + ' ' if more else ''}"
+        "[--jobs N | --scheduler ADDRESS [--ship-inputs]] [--memory-limit SIZE] [--time-limit TIME] "
+        "[--json] [--quiet] [--debug] [-h]"
     )
     parser.add_argument("job", type=Path, metavar="JOB.toml", help="the job file")
     parser.add_argument("--out", type=Path, metavar="DIR", help=f"folder of {writes} (default: JOB-report beside JOB)")
     parser.add_argument(
         "--only", nargs="+", action="extend", default=[], metavar="ID", help=f"{verb} these columns only"
     )
-    parser.add_argument(
-        "--jobs", type=whole_number, default=1, metavar="N", help=f"{verb} N columns at a time (default: 1)"
-    )
+    _add_pool_arguments(parser, verb)
     parser.add_argument(
         "--method",
         choices=METHODS,
@@ -35,11 +44,45 @@ def add_job_arguments(parser: argparse.ArgumentParser, name: str, *, verb: str, 
     add_switches(parser, prints_json=prints_json)
 
 
+def _add_pool_arguments(parser: argparse.ArgumentParser, verb: str) -> None:
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument(
+        "--jobs",
+        type=whole_number,
+        metavar="N",
+        help=f"{verb} N columns at a time, each in a process (default: as many as there are cores; a few columns are "
+        "done at once, one after the other)",
+    )
+    where.add_argument("--scheduler", metavar="ADDRESS", help="use the workers of this Dask scheduler: tcp://HOST:8786")
+    parser.add_argument(
+        "--ship-inputs", action="store_true", help="send the scans to the workers, which do not see this disk"
+    )
+    parser.add_argument(
+        "--memory-limit",
+        type=memory_size,
+        metavar="SIZE",
+        help="memory of one worker, such as 2GB (default: an even share)",
+    )
+    parser.add_argument(
+        "--time-limit", type=time_span, metavar="TIME", help="time for one column, such as 90s (default: 15min)"
+    )
+
+
+def pool_options(options: argparse.Namespace) -> PoolOptions:
+    """Where the columns of a job are to be worked on."""
+    from .pools import PoolOptions
+
+    return PoolOptions(options.jobs, options.scheduler, options.ship_inputs, options.memory_limit, options.time_limit)
+
+
 def report_folder(options: argparse.Namespace) -> Path:
     """Make the folder of the results before the work, not after it: a night's results must have a place."""
     from aadm_workbench.errors import JobError
 
     folder: Path = options.out or options.job.with_name(f"{options.job.stem}-report")
+    if options.out is None and folder.is_symlink():
+        # Whoever sent the job may have sent the link along.
+        raise JobError(f"{folder}: is a symbolic link; where it leads may be meant, then say so with --out")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

@@ -14,10 +14,12 @@ from aadm_workbench.check import CheckSettings, Measured
 from aadm_workbench.errors import JobError
 from aadm_workbench.model import Assignment, ColumnDesign, FitCell, ShipmentGroup, ShipmentReport
 
+from .engine import Unwatched, work_through
+from .inputs import read_for_shipping
 from .job import Job
 from .match_task import MeasuredColumn, lost_measurement, measure_task
-from .run import RunOptions, job_entry, plan_tasks, tool_entry
-from .spread import in_any_order
+from .program import tool_entry
+from .run import RunOptions, job_entry, opened_pool, plan_tasks
 from .stopwatch import Stopwatch
 
 
@@ -63,9 +65,10 @@ def run_match(job: Job, options: RunOptions, started: Callable[[int], Callable[[
             raise JobError(f"{job.source} has nothing to match: it needs scans of sleeves and scans of rebars")
         finished = started(len(tasks))
         found: dict[int, MeasuredColumn] = {}
-        for place, outcome in in_any_order(tasks, options.processes, measure_task, lost_measurement):
-            found[place] = outcome
-            finished(outcome.id)
+        with opened_pool(options.pool, tasks, None, read_for_shipping, lambda text: None) as pool:
+            for place, outcome in work_through(tasks, pool, measure_task, lost_measurement, Unwatched()):
+                found[place] = outcome
+                finished(outcome.id)
         columns = [found[place] for place in sorted(found)]
         with watch.stage("matching"):
             groups = _groups(columns, settings)

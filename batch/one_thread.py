@@ -13,3 +13,8 @@ def calculate_in_one_thread() -> None:
     The matrices here are small, so nothing is lost; columns are spread over processes instead.
     """
     os.environ.update(dict.fromkeys(_VARIABLES, "1"))
+
+
+def is_in_one_thread() -> bool:
+    """Whether this process was bound to one thread before it began."""
+    return all(os.environ.get(name) == "1" for name in _VARIABLES)

@@ -5,10 +5,14 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from contextlib import ExitStack
+from functools import partial
 
-from aadm_workbench.model import ColumnReport
+from aadm_workbench.model import Verdict
 
+from .pace import Pace
 from .terminal import in_words, say
+
+Step = Callable[[str], None]
 
 
 class StepProgress(ExitStack):
@@ -18,14 +22,20 @@ class StepProgress(ExitStack):
         super().__init__()
         self._doing = doing
         self._quiet = quiet
+        self._say: Step = say
 
-    def start(self, total: int) -> Callable[[str], None]:
+    def start(self, total: int) -> Step:
         """Begin to count; what is returned is to be called after each step with what it was."""
         if self._quiet:
             return lambda step: None
         return self._bar(total) if sys.stderr.isatty() else _lines(total)
 
-    def _bar(self, total: int) -> Callable[[str], None]:
+    def message(self, text: str) -> None:
+        """Show a line that is no step, above a bar where there is one."""
+        if not self._quiet:
+            self._say(text)
+
+    def _bar(self, total: int) -> Step:
         from rich.console import Console
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -34,33 +44,60 @@ class StepProgress(ExitStack):
             BarColumn(),
             MofNCompleteColumn(),
             TimeElapsedColumn(),
+            TextColumn("{task.fields[pace]}", markup=False),
             console=Console(file=sys.stderr),
             transient=True,
+            refresh_per_second=4,
         )
         self.enter_context(bar)
-        task = bar.add_task(self._doing, total=total)
-        return lambda step: bar.update(task, advance=1, description=step)
+        self._say = partial(bar.console.print, markup=False, highlight=False)
+        self.callback(setattr, self, "_say", say)
+        task = bar.add_task(self._doing, total=total, pace="")
+        pace = Pace(total)
+
+        def finished(step: str) -> None:
+            pace.step()
+            bar.update(task, advance=1, description=step, pace=pace.in_words())
+
+        return finished
 
 
 class ColumnProgress(ExitStack):
-    """Counts columns as they are finished; ``quiet`` shows nothing."""
+    """Counts columns as they are finished, and those that failed or ended in an error; ``quiet`` shows nothing."""
 
     def __init__(self, *, quiet: bool) -> None:
         super().__init__()
         self._steps = self.enter_context(StepProgress("checking", quiet=quiet))
+        self._bad = {Verdict.FAIL: 0, Verdict.ERROR: 0}
 
-    def start(self, total: int) -> Callable[[ColumnReport], None]:
-        """Begin to count; what is returned is to be called with each finished column."""
+    def start(self, total: int) -> Callable[[str, str, bool], None]:
+        """Begin to count; what is returned takes a column's id, its verdict, and whether it was checked before."""
         finished = self._steps.start(total)
-        return lambda column: finished(f"{column.id}: {in_words(column.verdict)}")
+
+        def step(name: str, verdict: str, kept: bool) -> None:
+            word = Verdict(verdict)
+            if word in self._bad:
+                self._bad[word] += 1
+            finished(f"{name}: {in_words(word)}{' (kept)' if kept else ''}{self._so_far()}")
+
+        return step
+
+    def message(self, text: str) -> None:
+        """Show a line that is no column."""
+        self._steps.message(text)
+
+    def _so_far(self) -> str:
+        failed, errors = self._bad[Verdict.FAIL], self._bad[Verdict.ERROR]
+        said = [f"{failed} failed"] * bool(failed) + [f"{errors} error{'s' * (errors > 1)}"] * bool(errors)
+        return f" [{', '.join(said)} so far]" if said else ""
 
 
-def _lines(total: int) -> Callable[[str], None]:
-    count = 0
+def _lines(total: int) -> Step:
+    pace = Pace(total)
 
     def finished(step: str) -> None:
-        nonlocal count
-        count += 1
-        say(f"{count}/{total} {step}")
+        pace.step()
+        ahead = pace.in_words()
+        say(f"{pace.done}/{total} {step}{f' ({ahead})' if ahead else ''}")
 
     return finished

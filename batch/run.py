@@ -1,37 +1,49 @@
-"""The runner: a job in, its report out. The model is read once; columns are checked one by one or in processes."""
+"""The runner: a job in, its report out. The model is read once; columns are checked here or in other processes.
+
+Every result goes through its record, as exact text, whether it was made here, by a worker or by an earlier run: so the
+report is the same.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import shutil
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
-from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
 
-from aadm_workbench import __version__
+from aadm_workbench.as_designed import read_design
 from aadm_workbench.assembly.mould import assess_moulds
 from aadm_workbench.check import CheckSettings
 from aadm_workbench.design.model_design import ModelDesign
-from aadm_workbench.design.read import read_model
 from aadm_workbench.errors import DesignError, JobError
 from aadm_workbench.model import ColumnReport, JobReport
 
-from .column_task import ColumnOutcome, ColumnTask, check_task, killed
+from .column_task import ColumnTask
+from .engine import Death, Pool, work_through
+from .inputs import ShippedFile
 from .job import Job, JobColumn
 from .job_table import did_you_mean
-from .spread import in_any_order
+from .journal import Journal, Unkept
+from .order import CheckOrder, fill_order, give_up, ship_order
+from .pools import PoolOptions, open_pool
+from .program import program_key, tool_entry
+from .record import Record
 from .stopwatch import Stopwatch
+from .workers_log import WorkersLog
 
-Finished = Callable[[ColumnReport], None]
-
-_NUMERICAL_PACKAGES = ("numpy", "scipy", "opencv-python-headless", "ifcopenshell")
+SCRATCH_NAME = ".aadm-workers"
 
 
 @dataclass(frozen=True)
 class RunOptions:
-    """What the command line adds to a job: method, which columns (empty: all), how many processes."""
+    """What the command line adds to a job: method, which columns (empty: all), where they are checked."""
 
     method: str = "refined"
     only: tuple[str, ...] = ()
-    processes: int = 1
+    pool: PoolOptions = field(default_factory=PoolOptions)
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,14 +55,37 @@ class JobRun:
     traces: dict[str, str] = field(default_factory=dict)
 
 
-def run_job(job: Job, options: RunOptions, started: Callable[[int], Finished]) -> JobRun:
+class Follower:
+    """Is told how a check goes; this one does not listen."""
+
+    def started(self, total: int) -> None:
+        """So many columns are to be checked."""
+
+    def column(self, record: Record, kept: bool) -> None:
+        """A column is finished, or its kept result still holds."""
+
+    def lost(self, name: str, death: Death, tries_left: int) -> None:
+        """The process that checked a column died."""
+
+    def message(self, text: str) -> None:
+        """Something that a person should know."""
+
+
+def run_job(
+    job: Job,
+    options: RunOptions,
+    follower: Follower | None = None,
+    journal: Journal | Unkept | None = None,
+    folder: Path | None = None,
+) -> JobRun:
     """Check the columns of a job.
 
     Parameters
     ----------
-    started
-        Called with the number of columns before the first is checked; what it returns is called with each report as
-        it is finished, in any order.
+    journal
+        Where results are kept as they come; those that it holds already are used where nothing has changed since.
+    folder
+        Where workers log (``workers.log``) and keep what they need; by default a temporary one.
 
     Returns
     -------
@@ -60,19 +95,105 @@ def run_job(job: Job, options: RunOptions, started: Callable[[int], Finished]) -
     Raises
     ------
     JobError
-        Where a column is asked for that the job does not have.
+        Where a column is asked for that the job does not have, or no scheduler answers.
     DesignError
         Where the model cannot be read.
     MissingDependencyError
         Where several processes are asked for without Dask.
+    AadmError
+        Where results can no longer be kept, or there are no workers any more.
     """
     watch = Stopwatch()
+    follower = follower or Follower()
+    journal = journal or Unkept()
     with watch.stage("total"):
         model, settings, tasks = plan_tasks(job, options, watch)
-        outcomes = _outcomes(tasks, options.processes, started(len(tasks)))
-    seconds = {"columns": {outcome.report.id: outcome.seconds for outcome in outcomes}, **watch.seconds()}
-    traces = {outcome.report.id: outcome.where for outcome in outcomes if outcome.where}
-    return JobRun(_report(job, model, settings, outcomes), seconds, traces)
+        follower.started(len(tasks))
+        _check_all(tasks, options.pool, follower, journal, folder)
+        kept = (journal.record(task.column.id) for task in tasks)
+        report, seconds, traces = _collected(job, model, settings, kept)
+    return JobRun(report, {"columns": seconds, **watch.seconds()}, traces)
+
+
+def _check_all(
+    tasks: Sequence[ColumnTask],
+    options: PoolOptions,
+    follower: Follower,
+    journal: Journal | Unkept,
+    folder: Path | None,
+) -> None:
+    program = program_key()
+    known, interrupted = journal.keys, journal.interrupted
+    orders = [CheckOrder(task, program, known.get(task.column.id, "")) for task in tasks]
+    doubtful = {place for place, task in enumerate(tasks) if task.column.id in interrupted}
+    watcher = _Watcher(tasks, follower, journal)
+    options = replace(options, apart=bool(doubtful))
+    with opened_pool(options, tasks, folder, ship_order, follower.message) as pool:
+        for place, record in work_through(orders, pool, fill_order, give_up, watcher, doubtful):
+            if record is not None:
+                journal.add(record)
+                follower.column(record, kept=False)
+            else:
+                follower.column(journal.record(tasks[place].column.id), kept=True)
+
+
+@contextmanager
+def opened_pool(
+    options: PoolOptions,
+    tasks: Sequence[ColumnTask],
+    folder: Path | None,
+    ship: Callable[[Any], tuple[ShippedFile, ...]],
+    say: Callable[[str], None],
+) -> Iterator[Pool]:
+    """The pool for some columns; what its workers write goes into a folder, or is forgotten with them."""
+    with ExitStack() as stack:
+        scratch = _scratch(stack, folder)
+        log = (lambda line: None) if folder is None else WorkersLog(folder).write
+        job_folder = tasks[0].folder if tasks else Path()
+        yield stack.enter_context(
+            open_pool(options, len(tasks), job_folder, ship=ship, say=say, log=log, log_folder=scratch)
+        )
+
+
+def _scratch(stack: ExitStack, folder: Path | None) -> Path:
+    """A folder for what workers write while they work, gone afterwards; that of a killed run is removed first."""
+    if folder is None:
+        return Path(stack.enter_context(TemporaryDirectory(prefix="aadm-workers-", ignore_cleanup_errors=True)))
+    scratch = folder / SCRATCH_NAME
+    stack.callback(shutil.rmtree, scratch, ignore_errors=True)
+    shutil.rmtree(scratch, ignore_errors=True)
+    scratch.mkdir(exist_ok=True)
+    return scratch
+
+
+class _Watcher:
+    """Notes in the journal, and tells who follows, what becomes of columns."""
+
+    def __init__(self, tasks: Sequence[ColumnTask], follower: Follower, journal: Journal | Unkept) -> None:
+        self._names = [task.column.id for task in tasks]
+        self._follower = follower
+        self._journal = journal
+
+    def began(self, place: int) -> None:
+        self._journal.began(self._names[place])
+
+    def lost(self, place: int, death: Death, tries_left: int) -> None:
+        self._follower.lost(self._names[place], death, tries_left)
+
+
+def _collected(
+    job: Job, model: ModelDesign | None, settings: CheckSettings, records: Iterable[Record]
+) -> tuple[JobReport, dict[str, object], dict[str, str]]:
+    columns: list[ColumnReport] = []
+    seconds: dict[str, object] = {}
+    traces: dict[str, str] = {}
+    # One after the other: the texts of all of them would take as much memory as the reports.
+    for record in records:
+        columns.append(record.column())
+        seconds[record.id] = record.seconds
+        if record.where:
+            traces[record.id] = record.where
+    return _report(job, model, settings, tuple(columns)), seconds, traces
 
 
 def plan_tasks(
@@ -99,7 +220,8 @@ def _model(job: Job) -> ModelDesign | None:
     if job.model is None:
         return None
     path = job.folder / job.model.path
-    model = read_model(path, columns=job.model.columns, sleeves=job.model.sleeves, rebars=job.model.rebars)
+    rules = {"columns": job.model.columns, "sleeves": job.model.sleeves, "rebars": job.model.rebars}
+    model = read_design(path, **rules, units=job.model.units)
     return replace(model, source=job.model.path)
 
 
@@ -110,21 +232,14 @@ def _task(job: Job, column: JobColumn, model: ModelDesign | None, settings: Chec
             design = model.column(column.id)
         except DesignError as error:
             no_design = str(error)
-    return ColumnTask(column, job.folder, design, settings, job.units, job.camera, job.depth_scale_mm, no_design)
-
-
-def _outcomes(tasks: Sequence[ColumnTask], processes: int, finished: Finished) -> list[ColumnOutcome]:
-    outcomes: dict[int, ColumnOutcome] = {}
-    for place, outcome in in_any_order(tasks, processes, check_task, killed):
-        outcomes[place] = outcome
-        finished(outcome.report)
-    return [outcomes[place] for place in sorted(outcomes)]
+    # Workers have another working folder.
+    folder = job.folder.absolute()
+    return ColumnTask(column, folder, design, settings, job.units, job.camera, job.depth_scale_mm, no_design)
 
 
 def _report(
-    job: Job, model: ModelDesign | None, settings: CheckSettings, outcomes: Sequence[ColumnOutcome]
+    job: Job, model: ModelDesign | None, settings: CheckSettings, columns: tuple[ColumnReport, ...]
 ) -> JobReport:
-    columns = tuple(outcome.report for outcome in outcomes)
     return JobReport(
         tool=tool_entry(),
         job=job_entry(job, settings),
@@ -134,11 +249,6 @@ def _report(
         columns=columns,
         mould_drift=assess_moulds(columns, job.profile),
     )
-
-
-def tool_entry() -> dict[str, str]:
-    """What reports say about the program: its version and those of the packages that the numbers come from."""
-    return {"name": "aadm", "version": __version__, **_versions()}
 
 
 def job_entry(job: Job, settings: CheckSettings) -> dict[str, str]:
@@ -151,14 +261,3 @@ def job_entry(job: Job, settings: CheckSettings) -> dict[str, str]:
         "decision": settings.decision,
         "seed": str(settings.seed),
     }
-
-
-def _versions() -> dict[str, str]:
-    """Versions of the packages that the numbers come from, where they are installed under these names."""
-    found = {}
-    for name in _NUMERICAL_PACKAGES:
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:
-            continue
-    return found

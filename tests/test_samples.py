@@ -26,7 +26,7 @@ def truth(sample: str) -> dict[str, Any]:
 
 @cache
 def report(sample: str, method: str = "refined", only: tuple[str, ...] = ()) -> dict[str, Any]:
-    run = run_job(read_job(SAMPLES / sample / "job.toml"), RunOptions(method, only), lambda total: lambda column: None)
+    run = run_job(read_job(SAMPLES / sample / "job.toml"), RunOptions(method, only))
     return json.loads(json.dumps(report_document(run.report)))  # type: ignore[no-any-return]
 
 

@@ -230,7 +230,7 @@ def _sides(face: Array) -> tuple[float, float]:
     across = np.ptp(outline @ np.array([np.cos(turns), np.sin(turns)]), axis=0)
     along = np.ptp(outline @ np.array([-np.sin(turns), np.cos(turns)]), axis=0)
     areas = across * along
-    best = int(np.flatnonzero(areas < areas.min() * (1.0 + 1e-6))[0])
+    best = int(np.flatnonzero(areas <= areas.min() * (1.0 + 1e-6))[0])  # a sphere's foot is a point
     return float(across[best]), float(along[best])
 
 

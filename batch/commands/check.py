@@ -1,20 +1,28 @@
 """Check the columns of a job and write its reports.
 
 Writes DIR/report.json and DIR/timing.json; DIR is JOB-report beside the job unless --out says otherwise. A scan that is
-missing or broken costs its own column only.
+missing or broken costs its own column only. Each result is kept in DIR/journal.jsonl as soon as it is there: after
+Ctrl-C, a crash or a power failure --resume goes on, and the report is the same as if nothing had happened.
 """
 
 from __future__ import annotations
 
 import argparse
+from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import INTERNAL, exit_code_of
-from ..job_command import add_job_arguments, report_folder
+from aadm_workbench.errors import AadmError, JobError
+
+from ..exit_codes import INTERNAL, INTERRUPTED, exit_code_of
+from ..job_command import add_job_arguments, pool_options, report_folder
 from ..one_thread import calculate_in_one_thread
+from ..report_files import add_format_switches, chosen_formats, require_packages
 
 if TYPE_CHECKING:
+    from ..events import Events
+    from ..job import Job
     from ..run import JobRun
 
 SUMMARY = "check the columns of a job"
@@ -22,12 +30,38 @@ EXAMPLE = """\
 examples:
   aadm check floor3.toml
   aadm check floor3.toml --only C-301 C-302 --out tonight --jobs 4
+  aadm check floor3.toml --html --crew
+  aadm check floor3.toml --resume
+  aadm check shipment.toml --scheduler tcp://10.0.0.5:8786 --ship-inputs
   aadm check floor3.toml --method fusion --json > report.json"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    add_job_arguments(parser, "check", verb="check", writes="the reports", prints_json="report.json")
+    add_job_arguments(
+        parser,
+        "check",
+        verb="check",
+        writes="the reports",
+        prints_json="report.json",
+        more="[--resume] [--events FILE] [--write-ifc] [--html] [--pdf] [--xlsx] [--csv] [--bcf] [--bcf-pairs] "
+        "[--crew] [--scan-card] [--language en|zh] [--absolute-paths]",
+    )
+    parser.add_argument(
+        "--resume",
+        action="store_true",
+        help="go on where an earlier run into the same folder ended; what has changed since is checked again",
+    )
+    parser.add_argument(
+        "--events", metavar="FILE", help="write what happens as JSON lines, for programs; - is stdout, without a table"
+    )
+    parser.add_argument(
+        "--write-ifc", action="store_true", help="also write DIR/MODEL-checked.ifc: the model with the results in it"
+    )
+    parser.add_argument(
+        "--absolute-paths", action="store_true", help="keep absolute paths of scans and model in the report"
+    )
+    add_format_switches(parser, also="also write ")
     parser.set_defaults(run=run)
 
 
@@ -38,18 +72,59 @@ def run(options: argparse.Namespace) -> int:
 
     # Before the rest is imported: who has mistyped a key should not wait for it.
     job = read_job(options.job)
-    from ..progress import ColumnProgress
-    from ..run import RunOptions, run_job
+    if options.events == "-" and options.json:
+        raise JobError("--events - and --json both want stdout; write the events into a file")
+    require_packages(chosen_formats(options))
+    if options.write_ifc:
+        from ..model_results import ifc_model_of
+
+        ifc_model_of(job)  # before the night's work, not after it
+    from ..events import Events
+    from ..folder_lock import locked
+    from ..interrupts import end_requests
 
     folder = report_folder(options)
-    with ColumnProgress(quiet=options.quiet) as progress:
-        done = run_job(job, RunOptions(options.method, tuple(options.only), options.jobs), progress.start)
-    return _hand_over(done, folder, options)
+    with closing(Events(options.events)) as events, locked(folder), end_requests():
+        return _run_in(folder, job, events, options)
+
+
+def _run_in(folder: Path, job: Job, events: Events, options: argparse.Namespace) -> int:
+    """Check a job into a folder that nobody else writes into."""
+    from ..follow import ShownCheck
+    from ..journal import PREVIOUS_NAME, Journal
+    from ..run import RunOptions, run_job
+    from ..served_report import without_absolute_paths
+    from ..terminal import say
+
+    with closing(Journal(folder, resume=options.resume)) as journal:
+        if journal.put_aside:
+            say(f"an unfinished check lay in {folder}; its results are in {PREVIOUS_NAME} (--resume goes on with such)")
+        try:
+            with ShownCheck(events, quiet=options.quiet) as shown:
+                run_options = RunOptions(options.method, tuple(options.only), pool_options(options))
+                done = run_job(job, run_options, shown, journal, folder)
+        except (AadmError, KeyboardInterrupt) as stop:
+            if isinstance(stop, AadmError) and not shown.done:
+                raise
+            journal.stop()
+            events.send("interrupted", done=shown.done, columns=shown.total)
+            say(f"aadm: {str(stop) or 'interrupted'}")
+            kept = f"{shown.done} of {shown.total} columns are kept in {journal.path}"
+            say(f"aadm: {kept}; repeat the command with --resume")
+            return INTERRUPTED if isinstance(stop, KeyboardInterrupt) else INTERNAL
+        if not options.absolute_paths:
+            done = replace(done, report=without_absolute_paths(done.report, job))
+        code = _hand_over(done, folder, options)
+        if options.write_ifc and code != INTERNAL:
+            code = _write_model(done, job, folder, options) or code
+        if code != INTERNAL:
+            journal.finish()
+        events.send("finished", exit_code=code, report=str(folder / "report.json"), summary=done.report.summary())
+        return code
 
 
 def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:
     from aadm_workbench.atomic import write_atomically
-    from aadm_workbench.errors import AadmError
     from aadm_workbench.report.json import encode, report_document, write_report
 
     from ..terminal import say, show, show_json
@@ -62,14 +137,43 @@ def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:
     try:
         write_report(done.report, folder / "report.json")
         write_atomically(folder / "timing.json", encode(done.seconds))
+        _write_reports(done, folder, options)
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
         say(f"aadm: {error}")
         code = INTERNAL
     if options.json:
         show_json(encode(report_document(done.report)))
-    elif not options.quiet:
+    elif not options.quiet and options.events != "-":
         advice = list(advice_lines(done.report))
         show(verdict_table(done.report), "", *advice, *([""] if advice else []))
         show(summary_line(done.report), f"Report: {folder / 'report.json'}")
     return code
+
+
+def _write_reports(done: JobRun, folder: Path, options: argparse.Namespace) -> None:
+    """The other reports that were asked for, from what report.json holds."""
+    formats = chosen_formats(options)
+    if formats:
+        from aadm_workbench.report.read import read_report
+
+        from ..report_files import write_reports
+
+        write_reports(read_report(folder / "report.json"), formats, folder, options.language)
+
+
+def _write_model(done: JobRun, job: Job, folder: Path, options: argparse.Namespace) -> int:
+    """Write the model with the results; 0 where that went well."""
+    from aadm_workbench.report.json import report_document
+
+    from ..model_results import write_checked_model, written_lines
+    from ..terminal import say
+
+    try:
+        written = write_checked_model(report_document(done.report), job, folder)
+    except AadmError as error:
+        say(f"aadm: {error}")
+        return INTERNAL
+    if not options.quiet:
+        say("\n".join(written_lines(written)))
+    return 0

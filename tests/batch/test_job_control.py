@@ -84,7 +84,7 @@ def test_points_without_their_scan(write_job: WriteJob) -> None:
 
 def checked(write_job: WriteJob, text: str, up: str = 'up = "-y"\n') -> ColumnReport:
     path = write_job(column_text("C-1", "foot.ply", "bars.ply", up) + text, clouds=("foot.ply", "bars.ply"))
-    (column,) = run_job(read_job(path), RunOptions(), lambda total: lambda report: None).report.columns
+    (column,) = run_job(read_job(path), RunOptions()).report.columns
     return column
 
 

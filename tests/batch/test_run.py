@@ -15,7 +15,9 @@ from aadm_workbench.model import ColumnReport, Verdict
 from aadm_workbench.report.json import encode, report_document
 from batch import column_task, run
 from batch.job_file import read_job
-from batch.run import JobRun, RunOptions, run_job
+from batch.pools import PoolOptions
+from batch.record import Record
+from batch.run import Follower, JobRun, RunOptions, run_job
 
 from .conftest import CENTRES, HEAD, WriteJob, column_text
 
@@ -24,7 +26,8 @@ MODEL_HEAD = HEAD + '[model]\npath = "models/floor3.ifc"\n'
 
 def finished(path: Path, **options: Any) -> JobRun:
     """The run of a job that nobody watches."""
-    return run_job(read_job(path), RunOptions(**options), lambda total: lambda column: None)
+    processes = options.pop("processes", None)
+    return run_job(read_job(path), RunOptions(**options, pool=PoolOptions(processes)))
 
 
 def of_model(name: str, scan: str) -> str:
@@ -96,6 +99,7 @@ def test_a_scan_that_is_missing_or_broken_costs_its_own_column(write_job: WriteJ
     ("error", "reason"),
     [
         (MemoryError(), "there is not enough memory"),
+        (RuntimeError("OpenCV: (-4:Insufficient memory) Failed to allocate 9 bytes"), "there is not enough memory"),
         (OSError(5, "Input/output error"), "[Errno 5] Input/output error"),
         (JobError("the job asks for trial"), "the job asks for trial"),
         (ValueError("singular"), "internal error (ValueError: singular); --debug shows where"),
@@ -111,7 +115,7 @@ def test_any_error_of_a_column_is_its_verdict(
     assert reason in first.reasons[0]
     assert first.size_mm == (600.0, 600.0)
     assert second.verdict is Verdict.NOT_MEASURED
-    assert ("raise error" in done.traces.get("C-1", "")) == isinstance(error, ValueError)
+    assert ("raise error" in done.traces.get("C-1", "")) == isinstance(error, ValueError | RuntimeError)
 
 
 def test_an_interrupt_is_no_verdict(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -159,11 +163,11 @@ def test_columns_of_a_model(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch
     design = replace(inline_design("PCZ-1", table), names=("PCZ-1", "C-301"), global_id="0" * 22)
     asked: list[dict[str, object]] = []
 
-    def read_model(path: Path, **selectors: str | None) -> ModelDesign:
+    def read_design(path: Path, **selectors: str | None) -> ModelDesign:
         asked.append({"path": path, **selectors})
         return ModelDesign(str(path), "f" * 64, "IFC4", columns=(design,))
 
-    monkeypatch.setattr(run, "read_model", read_model)
+    monkeypatch.setattr(run, "read_design", read_design)
     head = MODEL_HEAD + 'columns = "IfcColumn"\n'
     bars = of_model("PCZ-1", "foot.ply").replace("sleeves", "rebars")
     path = write_job(
@@ -171,7 +175,13 @@ def test_columns_of_a_model(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch
     )
     report = finished(path).report
     assert asked == [
-        {"path": path.parent / "models/floor3.ifc", "columns": "IfcColumn", "sleeves": None, "rebars": None}
+        {
+            "path": path.parent / "models/floor3.ifc",
+            "columns": "IfcColumn",
+            "sleeves": None,
+            "rebars": None,
+            "units": "mm",
+        }
     ]
     assert report.model == {"source": "models/floor3.ifc", "sha256": "f" * 64}
     first, second, third = report.columns
@@ -194,12 +204,15 @@ def test_times_and_progress(write_job: WriteJob) -> None:
     path = write_job(column_text("C-1", "foot.ply", "bars.ply"), column_text("C-2"), clouds=("foot.ply", "bars.ply"))
     seen: list[object] = []
 
-    def started(total: int) -> Callable[[ColumnReport], None]:
-        seen.append(total)
-        return lambda column: seen.append(column.id)
+    class Seen(Follower):
+        def started(self, total: int) -> None:
+            seen.append(total)
 
-    seconds = run_job(read_job(path), RunOptions(), started).seconds
-    assert seen == [2, "C-1", "C-2"]
+        def column(self, record: Record, kept: bool) -> None:
+            seen.append((record.id, kept))
+
+    seconds = run_job(read_job(path), RunOptions(), Seen()).seconds
+    assert seen == [2, ("C-1", False), ("C-2", False)]
     assert isinstance(seconds["columns"], dict)
     assert list(seconds["columns"]["C-1"]) == ["read", "extract", "assembly", "total"]
     assert list(seconds["columns"]["C-2"]) == ["total"]

@@ -1,0 +1,81 @@
+"""One run writes into a folder at a time; the system lets go of the lock when the process ends, however it ends."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import socket
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from aadm_workbench.errors import AadmError, JobError
+
+_NAME = ".aadm-lock"
+
+
+@contextlib.contextmanager
+def locked(folder: Path) -> Iterator[None]:
+    """Hold a folder of results for this process alone.
+
+    Raises
+    ------
+    JobError
+        Where another process holds it: said with its number, at once.
+    AadmError
+        Where nothing can be written into the folder.
+    """
+    path = folder / _NAME
+    try:
+        descriptor = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_CLOEXEC", 0), 0o644)
+    except OSError as error:
+        reason = error.strerror or type(error).__name__
+        raise AadmError(f"{folder}: nothing can be written there ({reason}); name another folder with --out") from error
+    try:
+        if not _lock(descriptor):
+            holder = _read(descriptor) or "another process"
+            message = f"{folder}: {holder} is writing its results there; wait for it, or name another folder with --out"
+            raise JobError(message)
+        # A full disk must not keep anybody from being told what is in the folder.
+        with contextlib.suppress(OSError):
+            os.ftruncate(descriptor, 0)
+            os.lseek(descriptor, 0, os.SEEK_SET)
+            os.write(descriptor, f"process {os.getpid()} on {socket.gethostname()}".encode())
+        yield
+    finally:
+        # The file stays: a lock that is removed can be held twice.
+        os.close(descriptor)
+
+
+def _read(descriptor: int) -> str:
+    with contextlib.suppress(OSError):
+        os.lseek(descriptor, 0, os.SEEK_SET)
+        return os.read(descriptor, 200).decode(errors="replace")
+    return ""
+
+
+def _lock(descriptor: int) -> bool:
+    """Whether the lock was free; True as well where the file system knows no locks."""
+    try:
+        system: Any = import_module("fcntl")
+    except ImportError:
+        return _lock_on_windows(descriptor)
+    try:
+        system.flock(descriptor, system.LOCK_EX | system.LOCK_NB)
+    except BlockingIOError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def _lock_on_windows(descriptor: int) -> bool:
+    system: Any = import_module("msvcrt")
+    try:
+        # Far behind the text, which others may read.
+        os.lseek(descriptor, 1 << 20, os.SEEK_SET)
+        system.locking(descriptor, system.LK_NBLCK, 1)
+    except OSError:
+        return False
+    return True

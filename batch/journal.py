@@ -1,0 +1,217 @@
+"""The journal of a check: each column's result, on the disk as soon as it is there.
+
+DIR/journal.jsonl holds one line of JSON for each column that was begun (``{"began": ID}``) and for each that was
+finished (a :class:`~.record.Record`). Lines are only added, by one process, each in one write; what a killed process
+leaves at the end, half a line, is cut off by the next. After a power failure the last second may be missing, and is
+checked again.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from time import monotonic
+from types import MappingProxyType
+
+from aadm_workbench.errors import AadmError
+
+from .record import Record, read_record
+
+NAME = "journal.jsonl"
+PREVIOUS_NAME = "journal.previous.jsonl"
+_FIRST_LINE = b'{"aadm_journal":1}\n'
+_LAST_LINE = b'{"finished":true}\n'
+_STOPPED_LINE = b'{"stopped":true}\n'
+_SECONDS_BETWEEN_FLUSHES = 1.0
+
+
+class Journal:
+    """The journal in a folder, open for writing; the folder is to be locked before.
+
+    Parameters
+    ----------
+    folder
+        Where reports go.
+    resume
+        Whether to go on with what an earlier run left there; otherwise it begins anew, and what a run left that was
+        not finished is kept as ``journal.previous.jsonl``: a night's work is not lost to a forgotten ``--resume``.
+
+    Raises
+    ------
+    AadmError
+        Where it cannot be read or written.
+    """
+
+    def __init__(self, folder: Path, *, resume: bool) -> None:
+        self.path = folder / NAME
+        self._places: dict[str, tuple[int, int]] = {}
+        self._keys: dict[str, str] = {}
+        self._begun: set[str] = set()
+        self.put_aside = False
+        try:
+            if not resume:
+                self._put_aside()
+            self._end = self._sound_end() if resume else 0
+            self._file = os.open(self.path, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o644)
+            os.ftruncate(self._file, self._end)
+        except OSError as error:
+            raise self._wrong(error) from error
+        self._flushed = monotonic()
+        if self._end == 0:
+            self._append(_FIRST_LINE)
+            self.flush()
+
+    @property
+    def keys(self) -> dict[str, str]:
+        """The key of each column whose result is there and may be used again."""
+        return {name: key for name, key in self._keys.items() if key}
+
+    @property
+    def interrupted(self) -> set[str]:
+        """Columns that an earlier run began and never finished: one of them may be why it died."""
+        return self._begun - self._places.keys()
+
+    def began(self, name: str) -> None:
+        """Note that a column is being checked."""
+        self._append(json.dumps({"began": name}).encode() + b"\n")
+
+    def add(self, record: Record) -> None:
+        """Keep a result.
+
+        Raises
+        ------
+        AadmError
+            Where the disk takes no more. What was kept before is whole.
+        """
+        line = record.line()
+        self._note(record, self._end, len(line))
+        self._append(line)
+        if monotonic() - self._flushed > _SECONDS_BETWEEN_FLUSHES:
+            self.flush()
+
+    def record(self, name: str) -> Record:
+        """The result of a column that was kept last.
+
+        Raises
+        ------
+        AadmError
+            Where it is no longer there.
+        """
+        place, size = self._places[name]
+        try:
+            os.lseek(self._file, place, os.SEEK_SET)
+            line = b""
+            while len(line) < size and (more := os.read(self._file, size - len(line))):
+                line += more
+        except OSError as error:
+            raise self._wrong(error) from error
+        record = read_record(line)
+        if record is None:
+            raise AadmError(f"{self.path}: was changed while it was written; check again without --resume")
+        return record
+
+    def finish(self) -> None:
+        """Note that every column was checked and the report is written."""
+        self._append(_LAST_LINE)
+        self.flush()
+
+    def stop(self) -> None:
+        """Note that the check ends before its end, but on request or for a reason that was said: by no column."""
+        with suppress(AadmError):
+            self._append(_STOPPED_LINE)
+
+    def flush(self) -> None:
+        """Bring everything to the disk itself."""
+        try:
+            os.fsync(self._file)
+        except OSError as error:
+            raise self._wrong(error) from error
+        self._flushed = monotonic()
+
+    def close(self) -> None:
+        """Bring everything to the disk, and let go of the file."""
+        with suppress(AadmError):
+            self.flush()
+        os.close(self._file)
+
+    def _append(self, line: bytes) -> None:
+        try:
+            os.lseek(self._file, self._end, os.SEEK_SET)
+            written = os.write(self._file, line)
+            while written < len(line):
+                written += os.write(self._file, line[written:])
+        except OSError as error:
+            # Half a line would be cut off by the next run anyway; this one may still be read from.
+            with suppress(OSError):
+                os.ftruncate(self._file, self._end)
+            raise self._wrong(error) from error
+        self._end += len(line)
+
+    def _put_aside(self) -> None:
+        with suppress(FileNotFoundError):
+            size = self.path.stat().st_size
+            with self.path.open("rb") as stream:
+                stream.seek(max(0, size - len(_LAST_LINE)))
+                if stream.read() != _LAST_LINE and size > len(_FIRST_LINE):
+                    self.path.replace(self.path.with_name(PREVIOUS_NAME))
+                    self.put_aside = True
+
+    def _sound_end(self) -> int:
+        """Read what is there; returns where the last whole line ends."""
+        end = 0
+        with suppress(FileNotFoundError), self.path.open("rb") as stream:
+            if stream.readline() != _FIRST_LINE:
+                return 0
+            end = len(_FIRST_LINE)
+            for line in stream:
+                if not line.endswith(b"\n"):
+                    break
+                self._read_line(line, end)
+                end += len(line)
+        return end
+
+    def _read_line(self, line: bytes, place: int) -> None:
+        record = read_record(line)
+        if record is not None:
+            self._note(record, place, len(line))
+            return
+        if line == _STOPPED_LINE:
+            self._begun.clear()
+            return
+        # A line in the middle that is damaged costs its own column only: it is checked again.
+        with suppress(ValueError):
+            began = json.loads(line)
+            if isinstance(began, dict) and isinstance(began.get("began"), str):
+                self._begun.add(began["began"])
+
+    def _note(self, record: Record, place: int, size: int) -> None:
+        self._places[record.id] = (place, size)
+        self._keys[record.id] = record.key
+
+    def _wrong(self, error: OSError) -> AadmError:
+        reason = error.strerror or type(error).__name__
+        return AadmError(f"{self.path}: the results so far cannot be kept ({reason}); make room or let it be written")
+
+
+class Unkept:
+    """Results of a check that keeps no journal: they live as long as the check."""
+
+    keys: Mapping[str, str] = MappingProxyType({})
+    interrupted: frozenset[str] = frozenset()
+
+    def __init__(self) -> None:
+        self._records: dict[str, Record] = {}
+
+    def began(self, name: str) -> None:
+        """Nothing is noted."""
+
+    def add(self, record: Record) -> None:
+        """Keep a result."""
+        self._records[record.id] = record
+
+    def record(self, name: str) -> Record:
+        """The result of a column."""
+        return self._records[name]

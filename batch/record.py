@@ -1,0 +1,87 @@
+"""What is kept of a column that was checked: one line of text, from which its report comes back bit by bit."""
+
+from __future__ import annotations
+
+import json
+import zlib
+from dataclasses import dataclass, field
+
+from aadm_workbench.model import ColumnReport, Verdict
+
+from .column_task import ColumnOutcome
+from .exact_json import from_exact_json, to_exact_json
+
+_REPORT = ',"report":'
+_CHECKSUM = ',"crc32":"'
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """A column that was checked.
+
+    Parameters
+    ----------
+    id
+        Of the column.
+    key
+        Hash of all that its report follows from; empty for a report that may come out differently the next time (an
+        error: a file may have been missing, a process killed).
+    report
+        The :class:`~aadm_workbench.model.ColumnReport`, as exact JSON.
+    seconds, where
+        As of a :class:`~.column_task.ColumnOutcome`.
+    """
+
+    id: str
+    key: str
+    verdict: str
+    goes_on: str
+    report: str
+    seconds: dict[str, float] = field(default_factory=dict)
+    where: str = ""
+
+    @classmethod
+    def of(cls, outcome: ColumnOutcome, key: str) -> Record:
+        """What is to be kept of an outcome."""
+        report = outcome.report
+        kept_key = "" if report.verdict is Verdict.ERROR else key
+        text = to_exact_json(report)
+        return cls(report.id, kept_key, report.verdict, report.goes_on, text, outcome.seconds, outcome.where)
+
+    def column(self) -> ColumnReport:
+        """The column's report.
+
+        Raises
+        ------
+        ValueError
+            Where another version wrote it.
+        """
+        return from_exact_json(ColumnReport, self.report)
+
+    def line(self) -> bytes:
+        """The record as one line of JSON, its checksum at its end."""
+        head = {
+            "id": self.id,
+            "key": self.key,
+            "verdict": self.verdict,
+            "goes_on": self.goes_on,
+            "seconds": self.seconds,
+            "where": self.where,
+        }
+        text = to_exact_json(head)[:-1] + _REPORT + self.report
+        content = text.encode(errors="surrogatepass")
+        return content + f'{_CHECKSUM}{zlib.crc32(content):08x}"}}\n'.encode()
+
+
+def read_record(line: bytes) -> Record | None:
+    """The record that a line holds; None for a line that broke off or does not agree with its checksum."""
+    content, mark, rest = line.rpartition(_CHECKSUM.encode())
+    if not mark or rest != f'{zlib.crc32(content):08x}"}}\n'.encode():
+        return None
+    try:
+        text = content.decode(errors="surrogatepass")
+        head, mark_of_report, report = text.partition(_REPORT)
+        values = json.loads(head + "}")
+        return Record(report=report, **values) if mark_of_report else None
+    except (ValueError, TypeError):
+        return None

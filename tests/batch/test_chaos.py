@@ -1,0 +1,30 @@
+"""The chaos of benchmarks/chaos.py in small: workers die, inputs are spoilt, the check is killed twice."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from batch.job_file import read_job
+from benchmarks.chaos import run_chaos
+from benchmarks.floors import write_floor
+
+
+def test_a_floor_in_chaos_is_a_floor_in_peace(tmp_path: Path) -> None:
+    pytest.importorskip("distributed")
+    chaos = run_chaos(tmp_path, 24, np.random.default_rng(5), kill_every_s=1.5)
+    assert chaos.differ == []
+    assert chaos.not_noticed == []
+    assert chaos.processes_killed == 2
+    assert len(set(chaos.corrupt)) == 2
+    # The calm check and the last one: some columns fail or are errors.
+    assert chaos.exit_codes[-1] == 12
+
+
+def test_floors_of_any_size(tmp_path: Path) -> None:
+    for shrink in (1, 8):
+        job = read_job(write_floor(tmp_path / str(shrink), 7, shrink=shrink))
+        assert [column.id for column in job.columns] == [f"K-{number:04d}" for number in range(7)]
+        assert all(
+            (job.folder / name).is_file() for column in job.columns for name in (*column.sleeves, *column.rebars)
+        )
