@@ -3,12 +3,13 @@
 #
 # Each release is set up once, in a folder of its own below build/freecad (3 GB each; AADM_CHROOTS names another place);
 # this tree is not changed. Needs root and debootstrap. trixie has FreeCAD 1.0, sid 1.1; the machine's own version is
-# tested first. Documents that one version has saved are opened by the others.
+# tested first. Documents that one version has saved are opened by the others. Packages come from this machine's own
+# Debian mirror, or from AADM_MIRROR.
 set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P)
 chroots=${AADM_CHROOTS:-"$root/build/freecad"}
 documents="$chroots/documents"
-mirror=${AADM_MIRROR:-http://deb.debian.org/debian}
+mirror=${AADM_MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' | head -n 1)}
 packages="ca-certificates fonts-noto-cjk freecad libegl1 libgl1-mesa-dri python3-pip python3-pytest xvfb"
 wheels="numpy scipy opencv-python-headless ifcopenshell jsonschema python-neo-lzf rich"
 [ "$#" -gt 0 ] || set -- trixie sid
