@@ -128,7 +128,8 @@ def inline_design(id: str, table: Mapping[str, Any]) -> ColumnDesign:  # noqa: A
         The column's id in the job.
     table
         ``centres`` [[x, y], ...], ``sleeve_diameter``, ``rebar_diameter`` and, optional, ``rebar_outer_diameter``,
-        ``embedded_length``, ``exposed_length``, ``size`` [x, y]; all mm. Without ``rebar_diameter`` the design has no rebars.
+        ``embedded_length``, ``exposed_length``, ``size`` [x, y]; all mm. Without ``rebar_diameter`` the design has no
+        rebars.
 
     Raises
     ------
