@@ -13,8 +13,23 @@ from typing import Protocol
 from aadm_workbench import __version__
 from aadm_workbench.errors import AadmError
 
-from .commands import check, design, doctor, extract, match, profiles, simulate, study
+from .commands import (
+    check,
+    design,
+    diff,
+    doctor,
+    extract,
+    match,
+    plan,
+    profiles,
+    report,
+    simulate,
+    study,
+    watch,
+    writeback,
+)
 from .exit_codes import BAD_USAGE, INTERNAL, INTERRUPTED
+from .printable import printable
 
 
 class Command(Protocol):
@@ -28,12 +43,27 @@ class Command(Protocol):
         """Declare arguments, and the function that runs the command as ``run``."""
 
 
-COMMANDS: tuple[Command, ...] = (check, match, design, extract, simulate, study, profiles, doctor)
+COMMANDS: tuple[Command, ...] = (
+    check,
+    match,
+    watch,
+    plan,
+    design,
+    extract,
+    simulate,
+    study,
+    report,
+    diff,
+    writeback,
+    profiles,
+    doctor,
+)
 
 _EXIT_CODES = """\
 exit codes:
   0 all pass   10 some column fails   11 some is inconclusive or not measured   12 some ended in an error
-  2 bad usage, job text or model: nothing was checked   70 internal error"""
+  2 bad usage, job text or model: nothing was checked   70 internal error, or results could not be written
+  130 interrupted: what was checked is kept, --resume goes on"""
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -90,7 +120,7 @@ def _never_fail_on_a_sign() -> None:
 
 
 def _say(message: str) -> None:
-    sys.stderr.write(f"aadm: {message}\n")
+    sys.stderr.write(f"aadm: {printable(message)}\n")
 
 
 if __name__ == "__main__":

@@ -49,9 +49,10 @@ class Correction:
     """Displacement of the column: turned by yaw about its own axis, then moved by dx, dy, in the bars' frame.
 
     The turn is counter-clockwise from above, about the origin of the column frame where the column hangs now: the
-    centroid of the design sleeve centres on its foot face. It leaves the smallest largest distance, ``left_mm`` over
-    all pairs; ``margin`` is 1 minus its largest ratio to the limit. ``u_mm`` and ``u_yaw_deg`` are standard
-    uncertainties of the move per axis and of the turn.
+    centroid of the design sleeve centres on its foot face. Of the pairs ``over``, named by their sleeves, it leaves the
+    smallest largest distance; ``left_mm`` is the largest then left of all pairs, ``margin`` 1 minus its ratio to the
+    limit. Pairs that are merely inferred from a pattern do not decide where the column goes. ``u_mm`` and ``u_yaw_deg``
+    are standard uncertainties of the move per axis and of the turn.
     """
 
     dx_mm: float
@@ -62,6 +63,7 @@ class Correction:
     u_mm: float | None = None
     u_yaw_deg: float | None = None
     camera: CameraMove | None = None
+    over: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

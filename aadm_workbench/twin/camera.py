@@ -46,6 +46,13 @@ def _turn(axis: int, angle: float) -> Array:
     return matrix
 
 
+def turned_about(axis: Array, angle: float) -> Array:
+    """Rotation (3, 3) by an angle, rad, about a unit axis (3,), by Rodrigues' formula."""
+    x, y, z = axis
+    cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.asarray(np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross)
+
+
 DEPTH_SCALE_MM = 0.03
 """Step of the depth maps: 65,535 of them reach 1.9 m, beyond the floor under the bars."""
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..exit_codes import ALL_PASS
 from ..job_command import METHODS
 from ..one_thread import calculate_in_one_thread
+from ..study_hoisting import add_hoisting_studies
 from ..switches import add_switches, whole_number
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     methods.add_argument("--out", type=Path, metavar="DIR", help="folder for CSV, summary.json and plots")
     add_switches(methods, prints_json="the numbers")
     methods.set_defaults(run=_study_methods)
+    add_hoisting_studies(kinds, _prepare)
 
 
 def _study_methods(options: argparse.Namespace) -> int:

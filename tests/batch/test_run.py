@@ -142,11 +142,13 @@ def test_the_same_job_gives_the_same_bytes_wherever_it_lies(
 
 
 @pytest.mark.usefixtures("exact_extraction")
-def test_what_is_not_used_is_said(write_job: WriteJob) -> None:
+def test_a_hoisting_frame_that_cannot_be_read_costs_itself_alone(write_job: WriteJob) -> None:
     path = write_job(column_text("C-1", "foot.ply", more='hoisting = "h.ply"\nup = "-y"\n'), clouds=("foot.ply",))
     (column,) = finished(path).report.columns
     assert column.verdict is Verdict.PASS
-    assert column.notes == ("hoisting frames are not measured by this version",)
+    (frame,) = column.hoisting
+    assert frame.verdict is Verdict.ERROR
+    assert "h.ply" in frame.reasons[0]
 
 
 @pytest.mark.usefixtures("exact_extraction")

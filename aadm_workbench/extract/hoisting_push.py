@@ -1,0 +1,183 @@
+"""How far light that bounces inside sleeves pushes their walls: found from where rays pass into the mouths.
+
+Walls show each sleeve to a hundredth of a millimetre, but all of them beside their places by one amount along the
+rays, and nothing in the walls tells it. A ray that is stopped by the face, or passes, tells; at grazing incidence one
+ray is millimetres from the next, so all rays about all mouths are asked together. For every ray three things are
+known: how far behind the face it ended, how far behind it would end on the wall as it appears, and where it crosses the
+face. Given the push and the radius of the mouths' edge, it either passes (and ends on the wall, or on a chamfer) or
+not; what it returned has a likelihood either way.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from aadm_workbench.model import Array, IntArray
+
+_PUSH_REACH_MM, _PUSH_STEP_MM = 1.8, 0.3
+_CHAMFER_MM, _CHAMFER_STEP_MM = (0.0, 0.4, 0.8, 1.2, 1.6), 0.3
+_BLUR, _FINE_BLURS = 3.0, (2.0, 1.5, 1.0, 1.0)
+_COARSE_RAYS, _FINE_RAYS, _NEAR_MM = 1_500, 4_000, 0.7
+_SOFTNESS = 0.03  # of a pixel: an edge is a step, and softer laws lean to where more rays return
+_SOFTNESS_MIN_MM = 0.01
+_STEP_SOFTNESS = 0.06
+_STRAY_SHARE, _STRAY_SPAN_MM = 0.12, 8.0
+_CORRELATION = 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeRays:
+    """Rays near the edges of mouths, in the axes of the face, mm; sorted by ``owner`` (n,).
+
+    Parameters
+    ----------
+    about
+        (n, 2): where a ray crosses the face, from the centre of its sleeve as its wall appears.
+    direction
+        (n, 2) unit: the ray in the plan. ``climb`` (n,) is its rise per mm of plan.
+    beyond
+        (n,): how far beyond the crossing it ended, in the plan.
+    to_wall
+        (n,): how far beyond the crossing it would end on the wall as it appears.
+    pitch
+        (n,): width of a pixel across the edge.
+    face_sigma, wall_sigma
+        (n,): noise of ``beyond`` on either surface.
+    sampling
+        (n,): log ratio of how many rays return from inside and from the face, around it.
+    """
+
+    about: Array
+    direction: Array
+    climb: Array
+    beyond: Array
+    to_wall: Array
+    pitch: Array
+    face_sigma: Array
+    wall_sigma: Array
+    sampling: Array
+    owner: IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class Push:
+    """``push_mm`` of the walls with its ``sigma_mm``; ``chamfer_mm`` by which mouths are wider than bores.
+
+    ``own`` (k,) is how far each sleeve's own rays would move its centre along the view beyond that, with
+    ``own_sigma`` (k,).
+    """
+
+    push_mm: float
+    sigma_mm: float
+    chamfer_mm: float
+    own: Array
+    own_sigma: Array
+
+
+def find_push(rays: EdgeRays, radius_mm: float, sleeves: int, prior_mm: float) -> Push:
+    """The push and the chamfer under which the rays about all mouths are most likely.
+
+    A coarse search asks some of the rays, and a finer one all of those that are near to the edge which that finds.
+    """
+    pushes = np.arange(-_PUSH_REACH_MM, _PUSH_REACH_MM + 1e-9, _PUSH_STEP_MM)
+    chamfers = np.array(_CHAMFER_MM)
+    some = _chosen(rays, np.arange(0, len(rays.owner), len(rays.owner) // _COARSE_RAYS + 1))
+    # seen less sharply, the likelihood has one peak where the grid cannot miss it
+    some = replace(some, wall_sigma=_BLUR * some.wall_sigma)
+    best = _best(some, _fixed(some), pushes, chamfers, radius_mm, prior_mm)
+    about = rays.about + best[0] * rays.direction
+    off_mm = np.abs(np.hypot(about[:, 0], about[:, 1]) - radius_mm - best[1])
+    near = np.flatnonzero(off_mm < _NEAR_MM + rays.pitch)
+    rays = _chosen(rays, near[:: len(near) // _FINE_RAYS + 1])
+    steps = np.array([_PUSH_STEP_MM, _CHAMFER_STEP_MM])
+    for blur in _FINE_BLURS:
+        seen = replace(rays, wall_sigma=blur * rays.wall_sigma)
+        fixed = _fixed(seen)
+        pushes = best[0] + steps[0] * np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
+        chamfers = np.maximum(best[1] + steps[1] * np.array([-1.0, -0.5, 0.0, 0.5, 1.0]), 0.0)
+        best = _best(seen, fixed, pushes, chamfers, radius_mm, prior_mm)
+        steps = 0.55 * steps
+    return _own(rays, fixed, best[0], best[1], radius_mm, sleeves, prior_mm)
+
+
+def _chosen(rays: EdgeRays, index: IntArray) -> EdgeRays:
+    return EdgeRays(**{field.name: getattr(rays, field.name)[index] for field in fields(rays)})
+
+
+@dataclass(frozen=True, eq=False)
+class _Fixed:
+    """What does not depend on push and chamfer: likelihoods of ending on the face, and on the wall."""
+
+    on_face: Array
+    on_wall: Array
+    softness: Array
+
+
+def _fixed(rays: EdgeRays) -> _Fixed:
+    away = np.einsum("ij,ij->i", rays.about, rays.direction) > 0
+    share = np.where(away, _SOFTNESS, _STEP_SOFTNESS)
+    return _Fixed(
+        _density(rays.beyond, rays.face_sigma),
+        _density(rays.beyond - rays.to_wall, rays.wall_sigma),
+        np.maximum(share * rays.pitch, _SOFTNESS_MIN_MM),
+    )
+
+
+def _density(off_mm: Array, sigma_mm: Array) -> Array:
+    normal = np.exp(-0.5 * (off_mm / sigma_mm) ** 2) / (2.5066 * sigma_mm)
+    return np.asarray((1.0 - _STRAY_SHARE) * normal + _STRAY_SHARE / _STRAY_SPAN_MM)
+
+
+def _likelihood(rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radius_mm: float) -> Array:
+    """Log likelihood (n,) of what every ray returned."""
+    edge_mm = radius_mm + chamfer
+    about = rays.about + push * rays.direction
+    distance = np.hypot(about[:, 0], about[:, 1])
+    logit = np.clip((edge_mm - distance) / fixed.softness + rays.sampling, -40.0, 40.0)
+    chance = 1.0 / (1.0 + np.exp(-logit))
+    inside = fixed.on_wall
+    if chamfer > 0.02:
+        along = np.einsum("ij,ij->i", about, rays.direction)
+        # where a ray leaves the cone |p| = edge - height: a chamfer of 45 degrees
+        lean, steep = along + edge_mm * rays.climb, 1.0 - rays.climb**2
+        room = np.maximum(lean**2 + steep * (edge_mm**2 - distance**2), 0.0)
+        to_cone = (np.sqrt(room) - lean) / steep
+        on_cone = to_cone * rays.climb < chamfer
+        cone = _density(rays.beyond[on_cone] - to_cone[on_cone], rays.wall_sigma[on_cone])
+        inside = inside.copy()
+        inside[on_cone] = cone
+    return np.asarray(np.log(chance * inside + (1.0 - chance) * fixed.on_face))
+
+
+def _best(
+    rays: EdgeRays, fixed: _Fixed, pushes: Array, chamfers: Array, radius_mm: float, prior_mm: float
+) -> tuple[float, float]:
+    """The most likely push and chamfer of a grid."""
+    score = [
+        [
+            float(_likelihood(rays, fixed, push, chamfer, radius_mm).sum()) / _CORRELATION
+            - 0.5 * (push / prior_mm) ** 2
+            for chamfer in chamfers
+        ]
+        for push in pushes
+    ]
+    row, column = np.unravel_index(int(np.argmax(score)), (len(pushes), len(chamfers)))
+    return float(pushes[row]), float(chamfers[column])
+
+
+def _own(
+    rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radius_mm: float, sleeves: int, prior_mm: float
+) -> Push:
+    """Curvature of the likelihood about its best point, of all rays and of each sleeve's own."""
+    step = 0.15
+    moved = [_likelihood(rays, fixed, push + k * step, chamfer, radius_mm) for k in (-2, -1, 0, 1, 2)]
+    each = np.array([np.bincount(rays.owner, values, minlength=sleeves) for values in moved]) / _CORRELATION
+    # A parabola through five points smooths what single rays do to the likelihood.
+    offsets = step * np.arange(-2, 3)
+    bend, slope, _ = np.polyfit(offsets, each, 2)
+    bend = np.maximum(-2.0 * bend, 1e-3)
+    total = bend.sum() + prior_mm**-2.0
+    own = np.clip(slope / bend, -1.0, 1.0)
+    return Push(push, float(total**-0.5), chamfer, own, np.asarray(bend**-0.5))

@@ -1,0 +1,153 @@
+"""Say where to put the camera for hoisting frames of a column.
+
+Of all places on the diagonal the one is named from which all sleeves of interest are in the picture, most bars are free
+of each other, and the uncertainty stays below the wanted one; two places for columns that no single picture holds.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..exit_codes import ALL_PASS, UNDECIDED
+from ..job_direction import NEAR
+from ..switches import add_switches, length
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from aadm_workbench.assembly.hoisting_plan import CameraPlan, View
+    from aadm_workbench.model import Camera, ColumnDesign
+
+SUMMARY = "say where to put the camera while a column hangs"
+EXAMPLE = """\
+examples:
+  aadm plan --size 600 --sleeve-diameter 36 --rebar-diameter 20 --per-side 4 --height 180
+  aadm plan floor3.toml --column C-301 --height 150 --u 0.15
+  aadm plan --size 1000 --sleeve-diameter 40 --rebar-diameter 25 --per-side 5 --camera camera.toml --json"""
+_COVER_MM = 60.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("job", nargs="?", type=Path, metavar="JOB.toml", help="take the column and camera of a job")
+    parser.add_argument("--column", metavar="ID", help="the column of the job")
+    parser.add_argument("--size", type=length, metavar="MM", help="side of a square column, instead of a job")
+    parser.add_argument("--per-side", type=int, default=4, metavar="N", help="sleeves on a side (default: 4)")
+    parser.add_argument("--cover", type=length, default=_COVER_MM, metavar="MM", help="from side to sleeve centre")
+    parser.add_argument("--sleeve-diameter", type=length, default=36.0, metavar="MM", help="inner (default: 36)")
+    parser.add_argument("--rebar-diameter", type=length, default=20.0, metavar="MM", help="nominal (default: 20)")
+    parser.add_argument(
+        "--camera", type=Path, metavar="FILE", help="intrinsics (default: the job's, else a Mech-Eye PRO M)"
+    )
+    parser.add_argument(
+        "--height", type=length, default=150.0, metavar="MM", help="of the foot above the bar tops (default: 150)"
+    )
+    parser.add_argument(
+        "--exposed", type=length, default=120.0, metavar="MM", help="length of the bars above the floor (default: 120)"
+    )
+    parser.add_argument(
+        "--u", type=length, default=0.2, metavar="MM", help="wanted standard uncertainty per axis (default: 0.2)"
+    )
+    parser.add_argument("--room", type=length, default=3000.0, metavar="MM", help="room for the camera (default: 3000)")
+    parser.add_argument("--near", choices=tuple(NEAR), default="-x-y", help="corner at which it can stand")
+    parser.add_argument("--sleeves", nargs="+", metavar="S", help="sleeves of interest (default: all)")
+    add_switches(parser, prints_json="the plan")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Plan; the exit code says whether all sleeves of interest are seen."""
+    from aadm_workbench.assembly.hoisting_plan import plan_camera
+    from aadm_workbench.errors import AadmError
+    from aadm_workbench.report.json import encode
+
+    from ..terminal import show, show_json
+
+    design, camera = _subject(options)
+    labels = [point.label for point in design.sleeves]
+    unknown = [label for label in options.sleeves or () if label not in labels]
+    if unknown:
+        raise AadmError(f"the column has no sleeve {', '.join(unknown)}; it has {labels[0]} to {labels[-1]}")
+    plan, views = plan_camera(
+        design,
+        camera,
+        height_mm=options.height,
+        wanted_u_mm=options.u,
+        near=NEAR[options.near],
+        sleeves=options.sleeves,
+        exposed_mm=options.exposed,
+        most_mm=options.room,
+    )
+    if options.json:
+        show_json(encode({"plan": plan, "views": views}))
+    elif not options.quiet:
+        show(*_shown(plan, design))
+    return UNDECIDED if plan.reason else ALL_PASS
+
+
+def _subject(options: argparse.Namespace) -> tuple[ColumnDesign, Camera]:
+    """The column and the camera that are planned for."""
+    from aadm_workbench.errors import JobError
+    from aadm_workbench.scan.camera import read_camera
+    from aadm_workbench.twin.camera import PRO_M
+
+    camera = None if options.camera is None else read_camera(options.camera)
+    if options.job is None:
+        if options.size is None:
+            raise JobError("name a job with --column, or a column with --size")
+        return _square(options), camera or PRO_M
+    from ..job_file import read_job
+    from ..run import RunOptions, plan_tasks
+    from ..stopwatch import Stopwatch
+
+    if options.column is None:
+        raise JobError("say with --column which column of the job is meant")
+    job = read_job(options.job)
+    _, _, tasks = plan_tasks(job, RunOptions(only=(options.column,)), Stopwatch())
+    if tasks[0].design is None or not tasks[0].design.rebars:
+        raise JobError(tasks[0].no_design or f"the design of {options.column} has no bars")
+    return tasks[0].design, camera or job.camera or PRO_M
+
+
+def _square(options: argparse.Namespace) -> ColumnDesign:
+    from aadm_workbench.design.pattern import inline_design
+    from aadm_workbench.errors import JobError
+    from aadm_workbench.twin.parts import ring
+
+    half = options.size / 2 - options.cover
+    if half <= 0 or options.per_side < 2:
+        raise JobError(f"sleeves {options.cover:g} mm from the sides of a column of {options.size:g} mm leave no room")
+    table = {
+        "sleeve_diameter": options.sleeve_diameter,
+        "rebar_diameter": options.rebar_diameter,
+        "size": [options.size, options.size],
+        "centres": ring(half, half, options.per_side).tolist(),
+    }
+    return inline_design("column", table)
+
+
+def _shown(plan: CameraPlan, design: ColumnDesign) -> list[Table | str]:
+    from ..terminal import new_table
+
+    numbers = ("From the first bar", "Below the tops", "Sleeves", "Bars", "u", "Depth")
+    table = new_table("Frame", "Corner", *numbers, numbers=numbers)
+    for number, view in enumerate(plan.views, 1):
+        table.add_row(str(number), view.near, *_cells(view, design))
+    lines: list[Table | str] = [table] if plan.views else []
+    if plan.reason:
+        lines.append(plan.reason)
+    lines.append("Aim at the bars' axis, at 45 % of the gap between bar tops and foot; lengths in mm.")
+    return lines
+
+
+def _cells(view: View, design: ColumnDesign) -> tuple[str, ...]:
+    return (
+        f"{view.distance_mm:.0f}",
+        f"{view.below_tops_mm:.0f}",
+        f"{len(view.sleeves)}/{len(design.sleeves)}",
+        f"{len(view.rebars)}/{len(design.rebars)}",
+        f"{view.u_mm:.2f}",
+        f"{view.depth_mm[0]:.0f} to {view.depth_mm[1]:.0f}",
+    )

@@ -1,0 +1,63 @@
+"""Measure each new frame of a hanging column as it arrives in a folder.
+
+Writes a line for each frame, and FOLDER/aadm-state.json with the last frame and what all frames say since the column
+last moved. Frames that are still being written are waited for; a bad one is reported and skipped. Ends with Ctrl-C, or
+after --frames or --seconds.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..exit_codes import exit_code_of
+from ..one_thread import calculate_in_one_thread
+from ..switches import add_switches, length, whole_number
+
+SUMMARY = "measure each new hoisting frame in a folder"
+EXAMPLE = """\
+examples:
+  aadm watch floor3.toml --column C-301 frames
+  aadm watch floor3.toml --column C-301 frames --present --frames 1 --json"""
+STATE_NAME = "aadm-state.json"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("job", type=Path, metavar="JOB.toml", help="the job file")
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="folder that the camera writes its frames into")
+    parser.add_argument("--column", required=True, metavar="ID", help="the column that hangs")
+    parser.add_argument(
+        "--state", type=Path, metavar="FILE", help=f"the state file (default: {STATE_NAME} in the folder)"
+    )
+    parser.add_argument("--present", action="store_true", help="begin with the frames that are there already")
+    parser.add_argument("--frames", type=whole_number, metavar="N", help="end after this many frames")
+    parser.add_argument("--seconds", type=length, metavar="S", help="end after this time")
+    add_switches(parser, prints_json="the last state")
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Watch a folder; the exit code is that of the last frame."""
+    calculate_in_one_thread()
+    from ..job_file import read_job
+
+    job = read_job(options.job)
+    from ..run import RunOptions, plan_tasks
+    from ..stopwatch import Stopwatch
+    from ..terminal import say, show_json
+    from ..watch_run import Watcher, WatchOptions
+
+    _, _, tasks = plan_tasks(job, RunOptions(only=(options.column,)), Stopwatch())
+    state = options.state or options.folder / STATE_NAME
+    quiet = options.quiet or options.json
+    watcher = Watcher(
+        tasks[0],
+        options.folder,
+        WatchOptions(state, options.frames, options.seconds, options.present),
+        (lambda line: None) if quiet else say,
+    )
+    verdict = watcher.run()
+    if options.json and watcher.frames:
+        show_json(state.read_bytes())
+    return exit_code_of([verdict])

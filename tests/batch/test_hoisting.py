@@ -1,0 +1,160 @@
+"""Hoisting frames in a job, and frames that arrive in a folder."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+pytest.importorskip("open3d")
+pytest.importorskip("manifold3d")
+
+from aadm_workbench.assembly.hoisting_running import combined
+from aadm_workbench.hoisting import measure_hoisting
+from aadm_workbench.model import HoistingMeasurement
+from aadm_workbench.report.json import report_schema
+from aadm_workbench.scan.write import write_depth_tiff
+from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM
+from aadm_workbench.twin.scenes import LAB
+from aadm_workbench.twin.study.hoisting import design_of
+from batch.main import main
+from batch.watch_folder import FolderWatch
+from tests import hoisting_scenes as scenes
+
+_FARTHEST_MM = 65_000 * DEPTH_SCALE_MM
+COLUMN = f"""\
+[[columns]]
+id = "L-1"
+hoisting = ["hang.tiff", "cut.tiff"]
+near = "-x-y"
+[columns.design]
+sleeve_diameter = 26.0
+rebar_diameter = 18.0
+embedded_length = 120.0
+size = [250.0, 250.0]
+centres = {LAB.centres().tolist()}
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A job with one frame, and one that is cut off."""
+    depth = scenes.usual().frame.depth
+    write_depth_tiff(tmp_path / "hang.tiff", np.where(depth < _FARTHEST_MM, depth, np.nan), DEPTH_SCALE_MM)
+    content = (tmp_path / "hang.tiff").read_bytes()
+    (tmp_path / "cut.tiff").write_bytes(content[: len(content) // 2])
+    (tmp_path / "job.toml").write_text(f'schema = 1\nunits = "mm"\n{CAPTURE_TABLES}\n{COLUMN}', encoding="utf-8")
+    return tmp_path
+
+
+def test_a_job_reports_its_hoisting_frames(folder: Path) -> None:
+    assert main(["check", str(folder / "job.toml"), "--quiet"]) == 11
+    report = json.loads((folder / "job-report" / "report.json").read_text(encoding="utf-8"))
+    jsonschema.validate(report, report_schema())
+    (column,) = report["columns"]
+    hang, cut = column["hoisting"]
+    true = {pair.sleeve: pair for pair in scenes.usual().pairs}
+    errors = [abs(pair["distance_mm"] - true[pair["sleeve"]].distance_mm) for pair in hang["pairs"] if pair["seen"]]
+    assert len(errors) >= 7
+    assert np.mean(errors) < 0.15
+    assert set(hang["correction"]) >= {"dx_mm", "dy_mm", "yaw_deg", "camera"}
+    assert cut["verdict"] == "error"
+    assert "cut.tiff" in cut["reasons"][0]
+    assert column["verdict"] == "not_measured"  # hoisting never enters the column's own verdict
+
+
+def test_a_job_can_measure_its_frames_as_published(folder: Path) -> None:
+    main(["check", str(folder / "job.toml"), "--quiet", "--method", "fusion"])
+    report = json.loads((folder / "job-report" / "report.json").read_text(encoding="utf-8"))
+    hang = report["columns"][0]["hoisting"][0]
+    assert hang["method"] == "fusion"
+    assert [pair["sleeve"] for pair in hang["pairs"] if pair["distance_mm"] is not None] == ["S1", "S4", "S10"]
+
+
+def test_watch_measures_new_frames_waits_for_unfinished_ones_and_skips_bad_ones(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    frames = folder / "frames"
+    frames.mkdir()
+    content = (folder / "hang.tiff").read_bytes()
+    (frames / "old.tiff").write_bytes(content)
+
+    def camera() -> None:
+        time.sleep(0.6)
+        (frames / "a.tiff").write_bytes(content)
+        time.sleep(0.5)
+        with (frames / "b.tiff").open("wb") as stream:
+            stream.write(content[:400_000])
+            stream.flush()
+            time.sleep(0.8)
+            stream.write(content[400_000:])
+        time.sleep(0.5)
+        (frames / "c.tiff").write_bytes(b"no picture")
+
+    writer = threading.Thread(target=camera)
+    writer.start()
+    code = main(["watch", str(folder / "job.toml"), str(frames), "--column", "L-1", "--frames", "3", "--seconds", "60"])
+    writer.join()
+    said = capsys.readouterr().err
+    state = json.loads((frames / "aadm-state.json").read_text(encoding="utf-8"))
+    assert code == 12  # the last frame was no picture
+    assert "old.tiff" not in said
+    assert [line.partition(":")[0] for line in said.splitlines()] == ["a.tiff", "b.tiff", "c.tiff"]
+    assert "still for 2 frames" in said
+    assert (state["frames"], state["bad_frames"], state["frame"]["verdict"]) == (3, 1, "error")
+    assert not list(frames.glob(".*"))
+
+
+def test_watch_says_its_last_state_as_json(folder: Path, capsysbinary: pytest.CaptureFixture[bytes]) -> None:
+    options = ["--column", "L-1", "--present", "--frames", "1", "--json", "--state", str(folder / "state.json")]
+    (folder / "cut.tiff").unlink()
+    main(["watch", str(folder / "job.toml"), str(folder), *options])
+    state = json.loads(capsysbinary.readouterr().out)
+    assert state["column"] == "L-1"
+    assert state["running"]["frames"] == 1
+    assert len(state["running"]["pairs"]) == 12
+
+
+def test_an_hour_of_frames_leaves_no_trace_in_memory(tmp_path: Path) -> None:
+    watch = FolderWatch(tmp_path)
+    watch.skip_present()
+    for number in range(3600):
+        path = tmp_path / f"{number:04d}.tiff"
+        path.write_bytes(b"x")
+        watch.done(path)  # as never looked at: only its name would be kept
+        path.unlink()
+        if number % 500 == 0:
+            assert watch.ready() == []
+    assert len(watch.names_done) <= 2000
+
+
+def still_frames(count: int, shift_mm: float = 0.0, seed: int = 0) -> list[HoistingMeasurement]:
+    """One measurement with the noise of single frames added to it."""
+    found = measure_hoisting(scenes.usual().frame.scan(), design_of(LAB), near=scenes.NEAR)
+    rng = np.random.default_rng(seed)
+    return [
+        replace(found, offsets_mm=found.offsets_mm + rng.normal(0.0, 0.03, (12, 2)) + [shift_mm, 0.0])
+        for _ in range(count)
+    ]
+
+
+def test_frames_are_combined_while_the_column_is_still_and_a_move_is_noticed() -> None:
+    running = None
+    first_u = 0.0
+    for number, frame in enumerate(still_frames(500)):
+        running = combined(running, frame)
+        assert running.frames == number + 1
+        first_u = first_u or float(np.median(running.u_mm))
+    assert running is not None
+    assert np.median(running.u_mm) < first_u
+    assert np.abs(running.offsets_mm - still_frames(1, seed=1)[0].offsets_mm).max() < 0.15
+    (moved,) = still_frames(1, shift_mm=1.0)
+    running = combined(running, moved)
+    assert running.frames == 1
+    assert running.moved_mm == pytest.approx(1.0, abs=0.15)
