@@ -51,6 +51,8 @@ class LocalWorkers:
         self._folder = folder
         self._most_bytes = memory_bytes + memory_bytes // 4
         self._started: dict[int, tuple[subprocess.Popen[bytes], float]] = {}
+        self._logs: dict[int, Path] = {}
+        self._last_words = ""
         self._ended: dict[int, str] = {}
         self._too_large: set[int] = set()
         self._false_starts = 0
@@ -75,9 +77,10 @@ class LocalWorkers:
             self._ended[pid] = _in_words(code) + self._why(pid)
             is_false_start = monotonic() - began < _START_S and code != -getattr(signal, "SIGKILL", 0)
             self._false_starts = self._false_starts + 1 if is_false_start else 0
+            self._last_words = last_words(read_log(str(self._logs[pid]))) or self._last_words
         if self._false_starts > MOST_FALSE_STARTS:
-            words = last_words(read_log(str(self._log_of(self._number))))
-            raise AadmError(f"no worker process can be started on this machine: {words or 'each ended at once'}")
+            why = self._last_words or "each ended at once"
+            raise AadmError(f"no worker process can be started on this machine: {why}")
         while len(self._started) < self._processes:
             self._start()
 
@@ -105,7 +108,8 @@ class LocalWorkers:
         # -P: what lies in the working folder by chance is not to be imported.
         command = [sys.executable, "-P", "-m", f"{__package__}.local_worker"]
         environment = {**os.environ, **_ENVIRONMENT, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
-        with self._log_of(self._number).open("wb") as log:
+        log_file = self._folder / f"worker-{self._number}.log"
+        with log_file.open("wb") as log:
             process = subprocess.Popen(
                 [*command, self._address, str(self._folder), str(os.getpid())],
                 stdin=subprocess.DEVNULL,
@@ -116,9 +120,7 @@ class LocalWorkers:
                 start_new_session=True,
             )
         self._started[process.pid] = (process, monotonic())
-
-    def _log_of(self, number: int) -> Path:
-        return self._folder / f"worker-{number}.log"
+        self._logs[process.pid] = log_file
 
     def _end_if_too_large(self, pid: int) -> None:
         psutil: Any = import_module("psutil")

@@ -19,8 +19,8 @@ from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane
 
 _SAMPLE_PIXELS = 90_000
 _PLANES_MAX = 9
-_HYPOTHESES = 200
-_SCORED = 1_500
+_HYPOTHESES = 130
+_SCORED = 1_000
 _REFINED_ON, _MEASURED_ON = 2_500, 6_000
 _FEWEST = 60
 _NEIGHBOURS_MM = (12.0, 160.0)

@@ -19,7 +19,7 @@ from aadm_workbench.model import Array, IntArray
 _PUSH_REACH_MM, _PUSH_STEP_MM = 1.8, 0.3
 _CHAMFER_MM, _CHAMFER_STEP_MM = (0.0, 0.4, 0.8, 1.2, 1.6), 0.3
 _BLUR, _FINE_BLURS = 3.0, (2.0, 1.5, 1.0, 1.0)
-_COARSE_RAYS, _FINE_RAYS, _NEAR_MM = 1_500, 4_000, 0.7
+_COARSE_RAYS, _FINE_RAYS, _NEAR_MM = 1_200, 3_500, 0.7
 _SOFTNESS = 0.03  # of a pixel: an edge is a step, and softer laws lean to where more rays return
 _SOFTNESS_MIN_MM = 0.01
 _STEP_SOFTNESS = 0.06
