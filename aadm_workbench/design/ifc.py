@@ -58,7 +58,7 @@ def read_ifc(
     bodies, unreadable = find_columns(opened, shapes, columns)
     named, excluded = named_candidates(opened, shapes, sleeves)
     bars = find_bars(opened, shapes, rebars)
-    search = SleeveSearch(opened, shapes, named, selected=sleeves is not None, bodies=bodies)
+    search = SleeveSearch(opened, shapes, named, selected=sleeves is not None, bodies=bodies, bars=bars)
     feet, doubles = _one_column_each([(body, search.on(body)) for body in bodies])
     loose_sleeves, refused = loose_sleeves_of(named, feet)
     designs, used_bars = _designs(opened, shapes, feet, bars)

@@ -8,12 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
+from aadm_workbench.design.ifc_bars import BarEnd, FoundBars
 from aadm_workbench.design.ifc_columns import ColumnBody, Foot
 from aadm_workbench.design.ifc_file import OpenedIfc
 from aadm_workbench.design.ifc_shapes import Shapes
 from aadm_workbench.design.ifc_sleeves import (
     BESIDE_MM,
     FEWEST_UNNAMED,
+    OPENING_CLASSES,
     SAME_MOUTH_MM,
     Candidate,
     Evidence,
@@ -23,6 +25,7 @@ from aadm_workbench.design.ifc_sleeves import (
     own_candidates,
     unnamed_candidates,
 )
+from aadm_workbench.design.ifc_under import bars_below
 from aadm_workbench.model import Array
 
 _BEHIND_MM = 5.0
@@ -47,11 +50,25 @@ class SleeveSearch:
     named: Sequence[Candidate]
     selected: bool
     bodies: Sequence[ColumnBody]
+    bars: FoundBars
 
     @cached_property
     def unnamed(self) -> list[Candidate]:
         """Round bodies and openings of the whole model; evaluated only where a column needs them."""
-        return unnamed_candidates(self.opened, self.shapes, [foot for body in self.bodies for foot in body.feet])
+        return unnamed_candidates(self.opened, self.shapes, self._all_feet)
+
+    @cached_property
+    def openings(self) -> list[Candidate]:
+        """Round openings of the whole model: some programs relate only a part of them to the column."""
+        return unnamed_candidates(self.opened, self.shapes, self._all_feet, OPENING_CLASSES)
+
+    @property
+    def _all_feet(self) -> list[Foot]:
+        return [foot for body in self.bodies for foot in body.feet]
+
+    @cached_property
+    def _opening_middles(self) -> Array:
+        return _middles(self.openings)
 
     @cached_property
     def _named_middles(self) -> Array:
@@ -80,7 +97,9 @@ class SleeveSearch:
             foot,
             named,
             own_candidates(self.opened, body, self.shapes),
+            lambda: self._near(foot, self.openings, self._opening_middles),
             lambda: self._near(foot, self.unnamed, self._unnamed_middles),
+            lambda: bars_below(body, foot, self.bars),
         )
 
     def refused_in(self, body: ColumnBody, foot: Foot) -> list[tuple[Candidate, str]]:
@@ -95,18 +114,38 @@ def sleeves_in(
     foot: Foot,
     named: Sequence[Candidate],
     own: Sequence[Candidate] = (),
+    openings: Callable[[], Sequence[Candidate]] = tuple,
     unnamed: Callable[[], Sequence[Candidate]] = tuple,
+    below: Callable[[], Sequence[BarEnd]] = tuple,
 ) -> FoundFoot:
-    """The sleeves in a foot face: those with a name, else like holes of its own, else like ones of others."""
+    """The sleeves in a foot face: those with a name, else like holes; and what else a bar of the model goes into.
+
+    ``own`` are the column's own holes, ``openings`` those that nothing relates to it, ``unnamed`` all round bodies and
+    openings of the model, ``below`` the bars under the column; what takes long is looked at only where it is needed.
+    """
     mouths, refused = mouths_on(foot, named)
-    holes, _ = mouths_on(foot, own)
+    holes = mouths_on(foot, own if mouths else [*own, *openings()])[0]
+    mouths = mouths or alike(holes)
     if not mouths:
+        holes = mouths_on(foot, [*own, *unnamed()])[0]
         mouths = alike(holes)
-    if not mouths:
-        holes = mouths_on(foot, unnamed())[0]
-        mouths = alike(holes)
-    extra = [mouth for mouth in holes if _apart(mouth, mouths)] if mouths else []
-    return FoundFoot(foot, tuple(mouths), tuple(refused), (*_warnings(mouths), *_extra(extra)))
+    extra = [mouth for mouth in holes if _apart(mouth, mouths)]
+    entered = _entered(foot, extra, below()) if extra else []
+    if len(mouths) + len(entered) >= FEWEST_UNNAMED:
+        mouths = [*mouths, *entered]
+        extra = [mouth for mouth in extra if mouth not in entered]
+    return FoundFoot(foot, tuple(mouths), tuple(refused), (*_warnings(mouths), *_extra(extra if mouths else [])))
+
+
+def _entered(foot: Foot, mouths: Sequence[Mouth], below: Sequence[BarEnd]) -> list[Mouth]:
+    """Mouths that a bar stands under: the sleeves of the few bars of another size."""
+    tops = foot.local(np.array([end.top for end in below]).reshape(-1, 3))[:, :2]
+    diameters_mm = np.array([end.diameter_mm for end in below])
+    return [
+        mouth
+        for mouth in mouths
+        if (np.linalg.norm(tops - mouth.centre, axis=1) + diameters_mm / 2.0 <= mouth.bore_mm / 2.0).any()
+    ]
 
 
 def _middles(candidates: Sequence[Candidate]) -> Array:

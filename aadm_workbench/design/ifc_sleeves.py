@@ -39,6 +39,7 @@ BESIDE_MM = 100.0
 
 _LONGEST_MM = 6000.0
 _ALONG_COS = float(np.cos(np.radians(5.0)))
+OPENING_CLASSES = ("IfcFeatureElementSubtraction",)
 _COUPLER_CLASSES = ("IfcMechanicalFastener", "IfcTendonAnchor", "IfcTendonConduit")
 _UNNAMED_CLASSES = (
     "IfcElementComponent",
@@ -162,7 +163,9 @@ def _by_property(opened: OpenedIfc, shapes: Shapes, left: list[NotTaken]) -> tup
     return found, left
 
 
-def unnamed_candidates(opened: OpenedIfc, shapes: Shapes, feet: Sequence[Foot]) -> list[Candidate]:
+def unnamed_candidates(
+    opened: OpenedIfc, shapes: Shapes, feet: Sequence[Foot], classes: Sequence[str] = _UNNAMED_CLASSES
+) -> list[Candidate]:
     """Hollow cylinders and round openings in feet, of classes that sleeves are modelled as, whatever their names."""
     frames = np.array([foot.T_model_foot for foot in feet]).reshape(-1, 4, 4)
     reach_mm = np.array([[*(foot.half_size_mm + BESIDE_MM), foot.height_mm] for foot in feet]).reshape(-1, 3)
@@ -174,7 +177,7 @@ def unnamed_candidates(opened: OpenedIfc, shapes: Shapes, feet: Sequence[Foot]) 
 
     return [
         candidate
-        for element in _each(opened.file, _UNNAMED_CLASSES)
+        for element in _each(opened.file, classes)
         if not element.is_a("IfcReinforcingBar") and not opened.naming.find(NOT_SLEEVE, element)
         for candidate in _candidates(
             element, shapes, Evidence.GEOMETRY, f"{element.is_a()} without a telling name", near

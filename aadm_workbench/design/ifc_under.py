@@ -41,7 +41,7 @@ def bars_under(body: ColumnBody, foot: Foot, mouths: Sequence[Mouth], bars: Foun
     sleeves = np.array([mouth.centre for mouth in mouths]).reshape(-1, 2)
     if not foot.stands:
         return Under((None,) * len(mouths), ("is drawn lying: which bars it will come down on is not in the model",))
-    near = _nearest_to_foot(body, foot, bars)
+    near = bars_below(body, foot, bars)
     tops = foot.local(np.array([end.top for end in near]).reshape(-1, 3))
     reach_mm = min(_WIDEST_PAIR_MM, _PAIR_SPACING_RATIO * smallest_spacing(sleeves) or _WIDEST_PAIR_MM)
     partner = pair(sleeves, tops[:, :2], reach_mm)
@@ -49,8 +49,8 @@ def bars_under(body: ColumnBody, foot: Foot, mouths: Sequence[Mouth], bars: Foun
     return Under(paired, tuple(_warnings(sleeves, tops, partner)))
 
 
-def _nearest_to_foot(body: ColumnBody, foot: Foot, bars: FoundBars) -> list[BarEnd]:
-    """Bars that come from below, one for each place in the plane."""
+def bars_below(body: ColumnBody, foot: Foot, bars: FoundBars) -> list[BarEnd]:
+    """Bars that come up to a column from below, one for each place in the plane: the end nearest to the foot face."""
     tops = foot.local(bars.tops)
     foot_level_mm = float(foot.T_model_foot[2, 3])
     within = (np.abs(tops[:, :2]) < foot.half_size_mm + _WIDEST_PAIR_MM).all(axis=1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from pathlib import Path
 
 import numpy as np
 
@@ -80,7 +81,7 @@ class ModelDesign:
     parse_seconds: float = 0.0
 
     def column(self, key: str) -> ColumnDesign:
-        """The column of that Name, Tag, PieceMark or GlobalId.
+        """The column of that Name, Tag, PieceMark or GlobalId; the only one of a file answers to the file's name too.
 
         Raises
         ------
@@ -92,6 +93,8 @@ class ModelDesign:
         if not found:
             folded = wanted.casefold()
             found = [column for column in self.columns if folded in (name.casefold() for name in column.names)]
+        if not found and len(self.columns) == 1 and wanted == Path(self.source).stem:
+            return self.columns[0]  # formats without names: a mesh, a STEP file of bare bodies
         if len(found) == 1:
             return found[0]
         if found:

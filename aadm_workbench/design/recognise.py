@@ -11,12 +11,12 @@ import numpy as np
 
 from aadm_workbench.design.elements import Element, counted_once, holdings
 from aadm_workbench.design.ifc import loose_rebars_of, loose_sleeves_of
-from aadm_workbench.design.ifc_bars import BarEnd, FoundBars
+from aadm_workbench.design.ifc_bars import FoundBars
 from aadm_workbench.design.ifc_columns import ColumnBody, Foot, feet_of
 from aadm_workbench.design.ifc_design import points_of, with_ids
 from aadm_workbench.design.ifc_search import FoundFoot, sleeves_in
 from aadm_workbench.design.ifc_sleeves import Candidate
-from aadm_workbench.design.ifc_under import Under, bars_under
+from aadm_workbench.design.ifc_under import Under, bars_below, bars_under
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
 from aadm_workbench.design.own_frame import own_frame
 from aadm_workbench.design.recognise_bars import drawn_bars, named_bars
@@ -66,11 +66,12 @@ def recognise(
     if rules.columns is not None:
         chosen = select(elements, origin.source, "columns", rules.columns)
     named, excluded = named_sleeves(elements, origin.source, rules.sleeves)
-    feet = _feet(elements, chosen, named, selected=rules.sleeves is not None)
     bars = named_bars(elements, origin.source, rules.rebars)
     drawn = [] if rules.rebars is not None else drawn_bars(elements)
+    all_bars = replace(bars, ends=(*bars.ends, *drawn))
+    feet = _feet(elements, chosen, named, all_bars, selected=rules.sleeves is not None)
     shared = Counter(name for element in elements for name in set(called_by(element)))
-    designs, used = _designs(feet, bars, drawn, shared)
+    designs, used = _designs(feet, bars, all_bars, shared)
     bars = replace(bars, ends=(*bars.ends, *(end for end in drawn if id(end) in used or not bars.ends)))
     numbers = {number for number, end in enumerate(bars.ends) if id(end) in used}
     loose_sleeves, refused = loose_sleeves_of(named, feet)
@@ -93,17 +94,16 @@ def recognise(
 
 
 def _designs(
-    feet: Sequence[tuple[ColumnBody, FoundFoot]], bars: FoundBars, drawn: Sequence[BarEnd], shared: Counter[str]
+    feet: Sequence[tuple[ColumnBody, FoundFoot]], bars: FoundBars, all_bars: FoundBars, shared: Counter[str]
 ) -> tuple[list[ColumnDesign], set[int]]:
     """The designs of all columns with sleeves, and which bar ends they stand on; bars by shape where no others are."""
-    all_bars = replace(bars, ends=(*bars.ends, *drawn))
     designs: list[ColumnDesign] = []
     used: set[int] = set()
     for body, found in feet:
         if not found.mouths:
             continue
         under = bars_under(body, found.foot, found.mouths, bars)
-        if not all(under.bars) and drawn:
+        if not all(under.bars) and len(all_bars.ends) > len(bars.ends):
             under = bars_under(body, found.foot, found.mouths, all_bars)
         used |= {id(end) for end in under.bars if end is not None}
         designs.append(replace(_design_of(body.element, found, under), names=_names(body.element, shared)))
@@ -150,21 +150,26 @@ def _objects(points: Iterable[AssemblyPoint], guids: dict[str, str | None]) -> t
 
 
 def _feet(
-    elements: Sequence[Element], chosen: Sequence[Element] | None, named: Sequence[Candidate], *, selected: bool
+    elements: Sequence[Element],
+    chosen: Sequence[Element] | None,
+    named: Sequence[Candidate],
+    bars: FoundBars,
+    *,
+    selected: bool,
 ) -> list[tuple[ColumnBody, FoundFoot]]:
     """Columns with their foot faces: those that a rule chose, else by class and name, else by their holes alone."""
     called, others = Nearby(tuple(named)), Nearby(() if selected else tuple(unnamed_sleeves(elements)))
     if chosen is not None:
         # A group that somebody points at holds the column and what is cast into it.
         chosen = [element for element in chosen if not is_thin(element)] or chosen
-        return [found for element in chosen if (found := _on(element, called, others, selected)) is not None]
+        return [found for element in chosen if (found := _on(element, called, others, bars, selected)) is not None]
     certain = [element for element in elements if is_column(element) and not is_thin(element)]
-    feet = [found for element in certain if (found := _on(element, called, others, selected)) is not None]
+    feet = [found for element in certain if (found := _on(element, called, others, bars, selected)) is not None]
     if any(found.mouths for _, found in feet):
         # Where columns say what they are, others must show it by holes of their own.
         called = others = Nearby(())
     uncertain = [e for e in elements if may_hold_sleeves(e) and not is_column(e) and not is_thin(e)]
-    by_shape = [found for element in uncertain if (found := _on(element, called, others, selected)) is not None]
+    by_shape = [found for element in uncertain if (found := _on(element, called, others, bars, selected)) is not None]
     return feet + [
         (body, found) for body, found in by_shape if found.mouths and found.foot.stands and _column_like(found)
     ]
@@ -192,7 +197,9 @@ def _column_like(found: FoundFoot) -> bool:
     return wide_mm <= _WIDEST_PLAN_RATIO * narrow_mm
 
 
-def _on(element: Element, named: Nearby, unnamed: Nearby, selected: bool) -> tuple[ColumnBody, FoundFoot] | None:
+def _on(
+    element: Element, named: Nearby, unnamed: Nearby, bars: FoundBars, selected: bool
+) -> tuple[ColumnBody, FoundFoot] | None:
     """An element as a column; of a lying one's two ends the one with more sleeves. None where it has no extent."""
     solids = [shape for solid in element.solids for shape in [solid.body] if len(shape.vertices)]
     T = own_frame(element.T_model_element, element.solids)
@@ -200,7 +207,10 @@ def _on(element: Element, named: Nearby, unnamed: Nearby, selected: bool) -> tup
     if not body.feet:
         return None
     own = [] if selected else own_holes(element)
-    found = [sleeves_in(foot, named.to(foot), own, partial(unnamed.to, foot, element)) for foot in body.feet]
+    found: list[FoundFoot] = []
+    for foot in body.feet:
+        others, below = partial(unnamed.to, foot, element), partial(bars_below, body, foot, bars)
+        found.append(sleeves_in(foot, named.to(foot), own, others, others, below))
     return body, max(found, key=lambda there: len(there.mouths))
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from aadm_workbench.design.bar_courses import Course
 from aadm_workbench.design.paths import Arc, Leg, Straight, joined
-from aadm_workbench.design.tubes import Tube
+from aadm_workbench.design.tubes import CHAMFER_MM, Tube
 from aadm_workbench.model import Array
 
 ON_AXIS_MM = 0.01
@@ -20,9 +20,6 @@ _PARALLEL_COS = math.cos(math.radians(0.05))
 _TOUCHING_MM = 0.5
 _ROUND_TURN = math.radians(350.0)
 """Faces that together go less far around their axis are fillets and slots."""
-
-_CHAMFER_MM = 20.0
-"""A cone at a mouth that is shorter is a chamfer or a lead-in; a longer one is the sleeve itself."""
 
 _SLIVER_MM = 0.05
 
@@ -256,4 +253,4 @@ def _mouths_mm(run: Sequence[_Segment]) -> tuple[float, float]:
 def _is_wall(part: _Segment) -> bool:
     """Whether a part is the sleeve's wall: a cylinder, or a cone too long for a chamfer."""
     tapers = abs(part.low_mm - part.high_mm) > ON_AXIS_MM
-    return part.length_mm > (_CHAMFER_MM if tapers else _SLIVER_MM)
+    return part.length_mm > (CHAMFER_MM if tapers else _SLIVER_MM)

@@ -16,7 +16,11 @@ from aadm_workbench.model import Array
 _ON_AXIS_MM = 0.5
 """Circles whose centres are off a common axis by less are turned about it."""
 
+CHAMFER_MM = 20.0
+"""A cone at a mouth that is shorter is a chamfer or a lead-in; a longer one is the sleeve itself."""
+
 _ONE_LEVEL_MM = 0.5
+_SAME_DIAMETER_MM = 0.05
 _PARALLEL_COS = np.cos(np.radians(1.0))
 
 
@@ -144,7 +148,12 @@ def _of_turned(turned: Turned) -> list[Tube]:
     radius, height = turned.outline_rz.T
     low, high = float(height.min()), float(height.max())
     ends = [radius[np.abs(height - level) < _ONE_LEVEL_MM] for level in (low, high)]
-    bore_mm = tuple(2.0 * float(found.min()) if found.min() > _ONE_LEVEL_MM else None for found in ends)
+    bore_mm = tuple(
+        _behind_chamfer(2.0 * float(found.min()), 2.0 * radius, np.abs(height - level))
+        if found.min() > _ONE_LEVEL_MM
+        else None
+        for found, level in zip(ends, (low, high), strict=True)
+    )
     return [
         Tube(
             turned.origin + low * turned.axis,
@@ -162,7 +171,7 @@ def _of_mesh(mesh: Mesh, fewest: int) -> list[Tube]:
         first = left[0]
         family = [rim for rim in left if _coaxial(first.circle, rim.circle)]
         left = [rim for rim in left if not any(rim is member for member in family)]
-        found += _between_ends(family, first.circle.normal)
+        found += _between_ends(family, first.circle.normal, mesh.vertices)
     return found
 
 
@@ -174,7 +183,7 @@ def _coaxial(first: Circle, second: Circle) -> bool:
     return bool(abs(float(first.normal @ second.normal)) > _PARALLEL_COS and across_mm < reach_mm)
 
 
-def _between_ends(family: Sequence[Rim], normal: Array) -> list[Tube]:
+def _between_ends(family: Sequence[Rim], normal: Array, vertices: Array) -> list[Tube]:
     """The tube between the outermost rims of one axis; none where all rims lie in one plane."""
     reference = family[0].circle.centre
     level = np.array([float((rim.circle.centre - reference) @ normal) for rim in family])
@@ -192,7 +201,33 @@ def _between_ends(family: Sequence[Rim], normal: Array) -> list[Tube]:
         outer_mm, bores = (None, None), (outer_mm[0], bores[1])
     widest = [diameter for diameter in outer_mm if diameter is not None]
     start, end = (np.mean([rim.circle.centre for rim in rims_there], axis=0) for rims_there in ends)
-    return [Tube(start, end, max(widest, default=None), (bores[0], bores[1]))]
+    behind = [
+        _behind_chamfer_of_facets(bore, centre, normal, vertices)
+        for bore, centre in zip(bores, (start, end), strict=True)
+    ]
+    return [Tube(start, end, max(widest, default=None), (behind[0], behind[1]))]
+
+
+def _behind_chamfer_of_facets(mouth_mm: float | None, centre: Array, normal: Array, vertices: Array) -> float | None:
+    if mouth_mm is None:
+        return None
+    spokes = vertices - centre
+    height = spokes @ normal
+    diameters_mm = 2.0 * np.linalg.norm(spokes - np.outer(height, normal), axis=1)
+    return _behind_chamfer(mouth_mm, diameters_mm, np.abs(height), FEWEST_VERTICES)
+
+
+def _behind_chamfer(mouth_mm: float, diameters_mm: Array, behind_mm: Array, fewest: int = 1) -> float:
+    """The bore behind the chamfer of a mouth.
+
+    ``diameters_mm`` (n,) and ``behind_mm`` (n,) say of each corner how far from the axis and behind the mouth it is;
+    at least ``fewest`` of them make a rim.
+    """
+    near = (behind_mm < CHAMFER_MM) & (diameters_mm > mouth_mm - 2.0 * CHAMFER_MM) & (diameters_mm > _ONE_LEVEL_MM)
+    narrower = np.sort(diameters_mm[near & (diameters_mm < mouth_mm - _SAME_DIAMETER_MM)])
+    rims_mm = narrower[: len(narrower) - fewest + 1]
+    whole = narrower[fewest - 1 :] - rims_mm < _SAME_DIAMETER_MM
+    return float(rims_mm[whole][0]) if whole.any() else mouth_mm
 
 
 def _diameters(end: Sequence[Rim]) -> tuple[float | None, float | None]:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from aadm_workbench.design.ifc_words import REBAR, SLEEVE, find
 from aadm_workbench.document.places import transform_of
 from aadm_workbench.model import Array
 
@@ -132,11 +133,17 @@ def _used_up(document: Any) -> frozenset[str]:
             copied.add(obj.CloneOf.Name)
             names |= _names_in(obj, _MADE_FROM)
         elif _makes_a_body(obj):
-            names |= _names_in(obj, _MADE_FROM)
+            names |= _names_in(obj, _MADE_FROM) - _cast_in(obj)
     shown = [obj for obj in document.Objects if _may_draw(obj) and getattr(obj, "Visibility", True)]
     if shown:  # a document that was saved without a screen may open with everything hidden
         names |= {name for name in copied if not getattr(document.getObject(name), "Visibility", True)}
     return frozenset(names)
+
+
+def _cast_in(obj: Any) -> set[str]:
+    """Sleeves and bars that were added to a structure: in its shape they melt into the concrete, holes and all."""
+    added = {name: obj.Document.getObject(name).Label for name in _names_in(obj, ("Additions",))}
+    return {name for name, label in added.items() if find(SLEEVE, label) or find(REBAR, label)}
 
 
 def _names_in(obj: Any, properties: tuple[str, ...]) -> set[str]:

@@ -63,6 +63,37 @@ def test_holes_of_a_document_by_someone_else(capsys: pytest.CaptureFixture[str])
     assert "no column with grouting sleeves" in capsys.readouterr().err
 
 
+_ADDED = """
+import Arch, FreeCAD, Part
+document = FreeCAD.newDocument()
+column = Arch.makeStructure(length=600, width=600, height=2800)
+column.IfcType = "Column"
+added = []
+for x in (-200.0, 0.0, 200.0):
+    for y in (-200.0, 200.0):
+        foot = FreeCAD.Vector(x, y, 0.0)
+        sleeve = document.addObject("Part::Feature", "Sleeve")
+        sleeve.Shape = Part.makeCylinder(24.0, 310.0, foot).cut(Part.makeCylinder(18.0, 310.0, foot))
+        sleeve.Label = "灌浆套筒"
+        added.append(sleeve)
+document.recompute()
+Arch.addComponents(added, column)
+document.recompute()
+document.saveAs(str(folder / "added.FCStd"))
+result["holes"] = sum(face.Surface.TypeId == "Part::GeomCylinder" for face in column.Shape.Faces)
+"""
+
+
+@pytest.mark.freecad
+def test_sleeves_that_were_added_to_a_structure(tmp_path: Path) -> None:
+    """Arch melts additions into the concrete, so that the column's own shape has no hole left."""
+    runner = FreeCADRunner(find_freecad("freecadcmd", "FreeCADCmd"), tmp_path)
+    assert runner.run(_ADDED)["holes"] == 0
+    (column,) = read_model(tmp_path / "added.FCStd").columns
+    assert [round(point.diameter_mm, 3) for point in column.sleeves] == [36.0] * 6
+    assert column.sleeves[0].centre == pytest.approx([-200.0, -200.0, 0.0], abs=EXACT_MM)
+
+
 def archive(path: Path, **parts: bytes) -> Path:
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as opened:
         for name, content in parts.items():

@@ -394,14 +394,3 @@ def test_sleeves_and_bars_exported_as_columns(author: Callable[..., Any], ring: 
     assert [point.diameter_mm for point in column.rebars] == pytest.approx([20.0] * 12)
     assert [point.centre[2] for point in column.rebars] == pytest.approx([160.0] * 12)
     assert (read.loose_sleeves, read.loose_rebars) == ((), ())
-
-
-def test_a_round_column_is_no_bar(author: Callable[..., Any], ring: Ring) -> None:
-    model = author()
-    model.element("IfcColumn", [model.cylinder(350.0, 3000.0)], model.placement(), Name="Column, starter bars 12 x 20")
-    model.sleeves(model.placement(), [(x * 0.8, y * 0.8) for x, y in ring])
-    model.rebars(model.placement(), [(x * 0.8, y * 0.8) for x, y in ring])
-    read = read_ifc(model.write())
-    (column,) = read.columns
-    assert (len(column.sleeves), len(column.rebars), read.loose_rebars) == (12, 12, ())
-    assert [left.reason for left in read.not_taken] == ["is 700 mm thick: no reinforcing bar"]
