@@ -11,7 +11,7 @@ from aadm_workbench.errors import DesignError
 
 _KERNEL = (".step", ".stp", ".brep", ".brp")
 _MESHES = (".stl", ".obj", ".ply")
-SUPPORTED = (".ifc", ".FCStd", *_KERNEL, *_MESHES)
+SUPPORTED = (".ifc", ".FCStd", *_KERNEL, *_MESHES, ".pcd")
 
 
 def read_model(
@@ -56,6 +56,8 @@ def read_model(
         from aadm_workbench.design.mesh import read_mesh
 
         return read_mesh(path, rules, units=units)
+    if suffix.lower() == ".ifczip":
+        raise DesignError(f"{path}: this is an archive: unpack it (any ZIP program does) and name the .ifc in it.")
     called = f"models of the format {suffix}" if suffix else "models without an extension"
     raise DesignError(
         f"{path}: {called} are not supported. Supported: {', '.join(SUPPORTED)}. Export the model as IFC, or describe "
