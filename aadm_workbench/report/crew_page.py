@@ -141,7 +141,8 @@ class _Page:
             self._caption("crew.from_below", (_LEFT, low + side + 3.0 * MM), side)
             draw_sketch(canvas, below, (_LEFT, low), side)
         elif column["rebars"] or column["sleeves"]:
-            self._caption("crew.from_above", (_LEFT, low + side + 3.0 * MM), side)
+            shown = "crew.from_above" if column["rebars"] else "crew.sleeves_from_above"
+            self._caption(shown, (_LEFT, low + side + 3.0 * MM), side)
             draw_sketch(canvas, crew_sketch(column, advice, self.first), (_LEFT, low), side)
             if below is not None:
                 width = min(narrow, side - 40.0 * MM)

@@ -63,6 +63,15 @@ def test_every_column_has_a_page_with_both_languages(floor: dict[str, Any], tmp_
         assert column["verdict"] != "pass" or light != "red"
 
 
+def test_the_sketch_says_whether_it_shows_bars_or_sleeves(floor: dict[str, Any], tmp_path: Path) -> None:
+    whole = next(column for column in floor["columns"] if column["verdict"] == "pass" and column["rebars"])
+    foot = whole | {"id": "foot alone", "rebars": None, "trial_assembly": None, "goes_on": "not_assessed"}
+    for column, shown in ((whole, "Barsseenfromabove"), (foot, "Sleevesinthefoot")):
+        write_crew_pages(floor | {"columns": [column]}, tmp_path / "crew.pdf")
+        (page,) = pypdf.PdfReader(tmp_path / "crew.pdf").pages
+        assert shown in squeezed(page.extract_text())
+
+
 def test_same_bytes(floor: dict[str, Any], tmp_path: Path) -> None:
     for name in ("a.pdf", "b.pdf"):
         write_crew_pages(floor, tmp_path / name)

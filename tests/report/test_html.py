@@ -231,6 +231,13 @@ def test_fits_small_screens(page: Any, floor: dict[str, Any], tmp_path: Path) ->
         assert page.evaluate("document.documentElement.scrollWidth") <= width
 
 
+def test_a_long_name_does_not_widen_the_page(page: Any, floor: dict[str, Any], tmp_path: Path) -> None:
+    cleared = next(c for c in floor["columns"] if c["verdict"] == "pass" and c["goes_on"] == "pass")
+    opened(page, floor | {"columns": [cleared | {"id": "x" * 300}]}, tmp_path)
+    page.set_viewport_size({"width": 390, "height": 800})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
 def test_hundred_columns(page: Any, floor: dict[str, Any], tmp_path: Path) -> None:
     """Below 3 MB, there at once, and quick to filter."""
     opened(page, hundred(floor), tmp_path)
