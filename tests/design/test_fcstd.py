@@ -175,7 +175,9 @@ def readable(tmp_path: Path) -> Path:
 
 def program(folder: Path, text: str) -> str:
     path = folder / "freecadcmd"
-    path.write_text(f"#!{sys.executable}\nimport pathlib, sys, time\n{text}\n", encoding="utf-8")
+    # A Python behind the words of a shell: a path with spaces cannot stand in a first line.
+    first = f"#!/bin/sh\n'''exec' \"{sys.executable}\" \"$0\" \"$@\"\n' '''\n"
+    path.write_text(f"{first}import pathlib, sys, time\n{text}\n", encoding="utf-8")
     path.chmod(path.stat().st_mode | stat.S_IXUSR)
     return str(path)
 
