@@ -131,6 +131,8 @@ def guidance_of(measurement: Measurement, standing: str) -> Guidance:
 def _frame_of(document: Mapping[str, Any]) -> tuple[str, Mapping[str, Any] | None]:
     if "correction" in document or ("pairs" in document and "verdict" in document):
         return str(document.get("column") or document.get("id") or ""), document
+    if isinstance(document.get("frame"), dict):  # the state of a folder that is watched
+        return str(document.get("column") or ""), document["frame"]
     hoisting = document.get("hoisting")
     frames = hoisting if isinstance(hoisting, list) else [hoisting] if isinstance(hoisting, dict) else []
     if frames and isinstance(frames[-1], dict):

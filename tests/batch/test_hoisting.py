@@ -16,6 +16,7 @@ pytest.importorskip("open3d")
 pytest.importorskip("manifold3d")
 
 from aadm_workbench.assembly.hoisting_running import combined
+from aadm_workbench.document.hoisting_state import guidance_of, read_measurement
 from aadm_workbench.hoisting import measure_hoisting
 from aadm_workbench.model import HoistingMeasurement
 from aadm_workbench.report.json import report_schema
@@ -117,6 +118,14 @@ def test_watch_says_its_last_state_as_json(folder: Path, capsysbinary: pytest.Ca
     main(["watch", str(folder / "job.toml"), str(folder), *options])
     state = json.loads(capsysbinary.readouterr().out)
     assert state["column"] == "L-1"
+    shown = read_measurement(folder / "state.json")  # by FreeCAD's hoisting window
+    assert shown is not None
+    assert shown.column == "L-1"
+    guidance, move = guidance_of(shown, "-y"), state["frame"]["correction"]
+    assert (guidance.right_mm, guidance.ahead_mm) == pytest.approx((move["dx_mm"], move["dy_mm"]))
+    assert guidance.turn_deg == move["yaw_deg"]
+    assert guidance.largest_mm == state["frame"]["max_mm"]
+    assert guidance.margin_mm == pytest.approx(3.0 - state["frame"]["max_mm"])
     assert state["running"]["frames"] == 1
     assert len(state["running"]["pairs"]) == 12
 
