@@ -120,7 +120,8 @@ def guidance_of(measurement: Measurement, standing: str) -> Guidance:
     margin_mm = None if largest_mm is None else measurement.limit_mm - largest_mm
     light = {"pass": "go", "fail": "push"}.get(verdict, "hold")
     reason = "; ".join(str(one) for one in frame.get("reasons") or ())
-    if dx is None or dy is None:
+    if dx is None or dy is None or verdict == "not_measured":
+        # Too little was seen to say where to push, whatever single pairs give.
         return Guidance(None, None, turn, largest_mm, margin_mm, "hold", reason)
     angle = math.radians(SIDES[standing])
     right_mm = dx * math.cos(angle) + dy * math.sin(angle)
@@ -148,6 +149,10 @@ def _limit_of(document: Mapping[str, Any], frame: Mapping[str, Any]) -> float:
     written = _number(frame.get("limit_mm")) or _number(document.get("limit_mm"))
     if written is not None:
         return written
+    pairs = frame.get("pairs")
+    own = [_number(pair.get("limit_mm")) for pair in pairs or () if isinstance(pair, dict)]
+    if any(limit is not None for limit in own):
+        return min(limit for limit in own if limit is not None)
     profile = document.get("profile")
     rules = profile.get("rules", []) if isinstance(profile, dict) else []
     limits = [_number(rule.get("upper_mm")) for rule in rules if rule.get("limits") == "sleeve_rebar_distance"]

@@ -93,3 +93,20 @@ def test_last_frame_of_a_report_is_shown(tmp_path: Path) -> None:
 def test_a_file_that_cannot_be_read_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(ReportError, match=r"nowhere\.json"):
         read_measurement(tmp_path / "nowhere.json")
+
+
+def test_the_limit_is_that_of_the_strictest_pair(tmp_path: Path) -> None:
+    pairs = [{"sleeve": "S1", "limit_mm": 3.0}, {"sleeve": "S2", "limit_mm": 2.5}, {"sleeve": "S3"}]
+    frame = FRAME | {"max_mm": 2.0, "pairs": pairs}
+    found = read_measurement(write(tmp_path, "aadm-state.json", {"column": "C-1", "frame": frame}))
+    assert found is not None
+    assert guidance_of(found, "-y").margin_mm == pytest.approx(0.5)
+
+
+def test_what_was_not_measured_shows_no_way_to_push(tmp_path: Path) -> None:
+    frame = FRAME | {"verdict": "not_measured", "reasons": ["half of the column is out of the picture"]}
+    found = read_measurement(write(tmp_path, "state.json", {"column": "C-1", "frame": frame}))
+    assert found is not None
+    guidance = guidance_of(found, "-y")
+    assert (guidance.right_mm, guidance.ahead_mm, guidance.light) == (None, None, "hold")
+    assert "out of the picture" in guidance.reason
