@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from aadm_workbench.errors import DesignError, JobError
+from aadm_workbench.errors import DesignError
 from aadm_workbench.report.scan_card import CardDesign, ScanCard, design_cards
 
 from .job import Job
-from .job_table import did_you_mean
+from .run import chosen_columns, model_of
 
 
 def job_cards(job: Job, only: Sequence[str] = ()) -> list[ScanCard]:
@@ -19,25 +19,16 @@ def job_cards(job: Job, only: Sequence[str] = ()) -> list[ScanCard]:
     JobError
         Where the job has no such column.
     DesignError
-        Where a column's design is not found in the model.
+        Where the model cannot be read, or does not hold a column.
     """
-    known = [column.id for column in job.columns]
-    for name in only:
-        if name not in known:
-            raise JobError(f'{job.source} has no column "{name}" (--only); {did_you_mean(name, known)}')
-    model = None
-    if job.model is not None:
-        from aadm_workbench.design.read import read_model
-
-        said = job.model
-        model = read_model(job.folder / said.path, columns=said.columns, sleeves=said.sleeves, rebars=said.rebars)
+    columns = chosen_columns(job, only)
+    model = model_of(job)
     designs = []
-    for column in job.columns:
+    for column in columns:
         design = column.design
         if design is None:
             if model is None:
                 raise DesignError(f"column {column.id} has no design")
             design = model.column(column.id)
         designs.append(CardDesign(column.id, design, column.sleeves_up_deg, column.rebars_up_deg))
-    cards = design_cards(designs, job.camera)
-    return [card for card in cards if not only or card.id in only]
+    return design_cards(designs, job.camera)

@@ -200,14 +200,21 @@ def plan_tasks(
     job: Job, options: RunOptions, watch: Stopwatch
 ) -> tuple[ModelDesign | None, CheckSettings, list[ColumnTask]]:
     """The job's model, the settings, and a task for each chosen column; errors as :func:`run_job`."""
-    columns = _chosen(job, options.only)
+    columns = chosen_columns(job, options.only)
     with watch.stage("model"):
-        model = _model(job)
+        model = model_of(job)
     settings = CheckSettings(job.profile, options.method, job.decision, job.checks, job.turns)
     return model, settings, [_task(job, column, model, settings) for column in columns]
 
 
-def _chosen(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
+def chosen_columns(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
+    """The columns of a job that are named, or all of them, in the job's order.
+
+    Raises
+    ------
+    JobError
+        Where the job has no such column.
+    """
     ids = [column.id for column in job.columns]
     for name in only:
         if name not in ids:
@@ -215,8 +222,14 @@ def _chosen(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
     return tuple(column for column in job.columns if not only or column.id in only)
 
 
-def _model(job: Job) -> ModelDesign | None:
-    """The job's model, called as the job calls it; not read where every column brings its own design."""
+def model_of(job: Job) -> ModelDesign | None:
+    """The job's model, called as the job calls it; None where it has none.
+
+    Raises
+    ------
+    DesignError
+        Where the model cannot be read.
+    """
     if job.model is None:
         return None
     path = job.folder / job.model.path

@@ -7,8 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import trimesh
 
 from batch.main import main
+from tests.design.drawn_mesh import bars, concrete
 from tests.report.checked_floor import CASES, floor_report
 
 from .conftest import WriteJob, column_text
@@ -100,6 +102,20 @@ def test_scan_cards_before_any_scan(tmp_path: Path) -> None:
     assert main(["report", str(SAMPLE), "--scan-card", "--only", "C-301", "C-308", "--out", str(tmp_path)]) == 0
     assert (tmp_path / "scan-card.pdf").read_bytes().startswith(b"%PDF")
     assert [path.name for path in tmp_path.iterdir()] == ["scan-card.pdf"]
+
+
+def test_scan_cards_of_a_model_in_metres(tmp_path: Path, capsys: Output) -> None:
+    """The unit that the job declares of its mesh holds for its scan cards as for its check."""
+    mesh = trimesh.util.concatenate([concrete(), *bars()])
+    mesh.apply_scale(0.001)
+    mesh.export(tmp_path / "C-1.stl")
+    job = tmp_path / "job.toml"
+    job.write_text(
+        'schema = 1\n[model]\npath = "C-1.stl"\nunits = "m"\n[[columns]]\nid = "C-1"\nsleeves = "foot.ply"\n',
+        encoding="utf-8",
+    )
+    assert main(["report", str(job), "--scan-card"]) == 0, capsys.readouterr().err
+    assert len(list(tmp_path.rglob("scan-card.pdf"))) == 1
 
 
 def test_diff(report: Path, small: dict[str, Any], tmp_path: Path, capsys: Output) -> None:
