@@ -31,11 +31,10 @@ from aadm_workbench.extract.pattern_fit import (
     Terms,
     as_built,
     loosened,
-    spread,
     started,
-    tukey,
     wall_terms,
 )
+from aadm_workbench.extract.witnesses import spread, tukey
 from aadm_workbench.model import Array, BoolArray, IntArray
 
 _WALL, _PUSH = range(2)

@@ -222,16 +222,3 @@ def wall_terms(
         pooled[:, push] = along
     own_jacobian = np.column_stack([-outward, -outward * depth[:, None], along, minus])
     return distance - state.pooled[radius] - own[:, 5], own_jacobian, pooled
-
-
-def spread(residual: Array) -> float:
-    """Robust standard deviation, mm, of residuals about their median."""
-    if len(residual) < 5:
-        return 0.3
-    return 1.4826 * float(np.median(np.abs(residual - np.median(residual))))
-
-
-def tukey(scaled: Array, cut: float = 4.0) -> Array:
-    """Weights (n,) of Tukey's biweight for residuals in standard deviations."""
-    inside = 1.0 - (scaled / cut) ** 2
-    return np.where(inside > 0.0, inside, 0.0) ** 2

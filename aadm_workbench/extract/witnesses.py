@@ -115,8 +115,9 @@ class WallTerms:
 
     def robust_weight(self) -> Array:
         """Tukey's weight (k, m) over the variance of each point, 1/mm²; zero for what does not belong to the wall."""
-        inside = np.maximum(1.0 - (self.residual / (_TUKEY * self.spread_mm)) ** 2, 0.0)
-        return np.asarray(np.where(self._seen, inside**2, 0.0) / (WALL_CORRELATION * self.spread_mm) ** 2)
+        spread_mm = self.spread_mm
+        weight = np.where(self._seen, tukey(self.residual / spread_mm), 0.0)
+        return np.asarray(weight / (WALL_CORRELATION * spread_mm) ** 2)
 
 
 def spread(residual: Array) -> float:
@@ -124,3 +125,8 @@ def spread(residual: Array) -> float:
     if len(residual) < _FEWEST:
         return _SPREAD_UNKNOWN_MM
     return 1.4826 * float(np.median(np.abs(residual - np.median(residual))))
+
+
+def tukey(scaled: Array) -> Array:
+    """Weights of Tukey's biweight for residuals in standard deviations, of any shape."""
+    return np.asarray(np.maximum(1.0 - (scaled / _TUKEY) ** 2, 0.0) ** 2)
