@@ -50,6 +50,12 @@ IMAGE_UP_SCAN = np.array([0.0, -1.0, 0.0])
 LARGEST_U_TO_LIMIT = 0.409
 """1/sqrt(-2 ln 0.05): with a larger u per axis no radial deviation is within the limit at 95 % (Rice law)."""
 
+NO_CAMERA = (
+    "the cloud does not tell where its camera stood, so its edges are less certain; "
+    "with [camera] and the camera's own depth map or cloud they are better"
+)
+"""Note of a scan whose viewpoint nobody knows."""
+
 CHECKS = ("sleeves", "rebars", "trial")
 
 Stage = Callable[[str], AbstractContextManager[None]]
@@ -201,7 +207,11 @@ def _diameters_mm(points: tuple[AssemblyPoint, ...]) -> list[float]:
 
 def _of_the_files(views: tuple[Scan, ...]) -> tuple[str, ...]:
     """What was noticed while the scans were read."""
-    return tuple(f"{view.source}: {note}" for view in views for note in view.notes)
+    return tuple(
+        f"{view.source}: {note}"
+        for view in views
+        for note in (*view.notes, *(() if view.viewpoint is not None else (NO_CAMERA,)))
+    )
 
 
 def _typical_u_mm(extraction: Extraction) -> float | None:

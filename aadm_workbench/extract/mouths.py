@@ -35,9 +35,11 @@ class Mouths:
 
     ``centre`` (k, 2) first centres; ``rims`` the edges of their rims, where they are no crease to a visible wall;
     ``coverage`` (k,) the share of the circle that shows a rim; ``wall_xy`` (k, m, 2), ``wall_depth`` (k, m) and
-    ``wall_slope`` (k, m, 2) points of the bores, those that are there ``wall_seen`` (k, m).
+    ``wall_slope`` (k, m, 2) points of the bores, those that are there ``wall_seen`` (k, m). ``kept`` are the numbers
+    (k,) of their patches.
     """
 
+    kept: IntArray
     place: Array
     centre: Array
     rims: Outlines
@@ -72,7 +74,9 @@ def mouths_in(
     rims = shape.only(~_shown(bores.points.where(upper), centre, bins))
     deep = bores.where((bores.depth > WALL_DEPTH_MM[0]) & kept[bores.points.owner])
     xy, depth, slope, seen = _rows(deep.where(_opposite(deep, centre)), np.flatnonzero(kept))
-    return Mouths(places[kept], centre[kept], rims.of(kept), shape.coverage[kept], xy, depth, slope, seen)
+    return Mouths(
+        np.flatnonzero(kept), places[kept], centre[kept], rims.of(kept), shape.coverage[kept], xy, depth, slope, seen
+    )
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 
 from aadm_workbench.extract.plane import axes_on, from_plane, in_plane
@@ -18,6 +19,8 @@ _LABEL_CELL_MM = 2.0
 _CHUNK = 400_000
 _BORNE_WITHIN_MM = 6.0  # a wall seen along falls by a few mm from pixel to pixel
 _BORNE_BY = 3
+_HOMOGRAPHY_MIN, _HOMOGRAPHY_POINTS = 200, 4000  # eight unknowns, and lenses that bend the picture must show
+_HOMOGRAPHY_WITHIN = 0.2  # of a pixel: an edge is sought to about a tenth
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,7 +28,8 @@ class Patches:
     """What is seen around k places: ``x``, ``y`` from the place and ``height`` over the plane, (k, n) float32, mm.
 
     NaN where there is no point. ``eye`` (k, 3) is the viewpoint as each place has it; None where it is unknown.
-    ``columns`` is the number of pixels in a row of each patch, 0 for clouds.
+    ``columns`` is the number of pixels in a row of each patch, 0 for clouds. ``seen_x`` and ``seen_y`` (k, n) float32,
+    mm, are where the lines of sight of all pixels cross the plane, also of those without a point; None for clouds.
     """
 
     x: FloatArray
@@ -33,6 +37,14 @@ class Patches:
     height: FloatArray
     eye: Array | None
     columns: int
+    seen_x: FloatArray | None = None
+    seen_y: FloatArray | None = None
+
+    def of(self, chosen: IntArray) -> Patches:
+        """The patches of some places (m,)."""
+        eye = None if self.eye is None else self.eye[chosen]
+        seen = (None if part is None else part[chosen] for part in (self.seen_x, self.seen_y))
+        return Patches(self.x[chosen], self.y[chosen], self.height[chosen], eye, self.columns, *seen)
 
     def borne(self, chosen: IntArray) -> BoolArray:
         """Which of some points (m,) - indices into the flattened patches - have others beside them at a like depth.
@@ -79,7 +91,9 @@ def patches_around(scan: Scan, sample: Thinned, plane: Plane, centres: Array, re
     if sample.taken is not None:
         low, high = _pixel_boxes(scan, sample, plane, centres, reach_mm)
         x, y, height = _windows(scan.points, low, high, plane, centres)
-        return Patches(x, y, height, eye, int((high - low)[:, 1].max()))
+        plane_of_pixel = _plane_of_pixel(scan, sample, plane)
+        seen = (None, None) if plane_of_pixel is None else _crossings(plane_of_pixel, low, high, centres)
+        return Patches(x, y, height, eye, int((high - low)[:, 1].max()), *seen)
     return Patches(*_gathered(scan, plane, centres, reach_mm), eye, 0)
 
 
@@ -130,6 +144,43 @@ def _sampled_boxes(
         if len(close):
             low[k], high[k] = close.min(axis=0) - sample.stride, close.max(axis=0) + sample.stride + 1
     return _inside(low, high, scan)
+
+
+def _plane_of_pixel(scan: Scan, sample: Thinned, plane: Plane) -> Array | None:
+    """Homography (3, 3) from (column, row) to where a pixel's line of sight crosses the plane, mm in its axes.
+
+    A pinhole's pixels map so exactly; with other lenses it is the best fit to what was returned, and None where that
+    is worse than a fifth of the distance of neighbouring pixels.
+    """
+    if scan.viewpoint is None or len(sample.points) < _HOMOGRAPHY_MIN:
+        return None
+    some = slice(None, None, len(sample.points) // _HOMOGRAPHY_POINTS + 1)
+    pixels = np.asarray(sample.pixels()[some, ::-1], np.float64)
+    seen = seen_at(sample.points[some], plane, scan.viewpoint)
+    answer, _ = cv2.findHomography(pixels, seen, 0)
+    if answer is None:
+        return None
+    homography, mapped = np.asarray(answer, np.float64), _mapped(np.asarray(answer, np.float64), pixels)
+    beside = _mapped(homography, pixels + np.array([1.0, 0.0]))
+    off, pitch_mm = np.abs(mapped - seen).max(axis=1), np.abs(beside - mapped).max(axis=1)
+    return homography if np.median(off) < _HOMOGRAPHY_WITHIN * np.median(pitch_mm) else None
+
+
+def _mapped(homography: Array, pixels: Array) -> Array:
+    lifted = np.column_stack([pixels, np.ones(len(pixels))]) @ homography.T
+    return np.asarray(lifted[:, :2] / lifted[:, 2:])
+
+
+def _crossings(homography: Array, low: IntArray, high: IntArray, centres: Array) -> tuple[FloatArray, FloatArray]:
+    """Crossings (k, n) float32, mm, of all pixels of the boxes about their centres; NaN in the padding."""
+    height, width = (high - low).max(axis=0, initial=0)
+    seen = np.full((2, len(centres), height, width), np.nan, np.float32)
+    for k, (first, last) in enumerate(zip(low, high, strict=True)):
+        rows, columns = np.mgrid[first[0] : last[0], first[1] : last[1]]
+        at = _mapped(homography, np.column_stack([columns.ravel(), rows.ravel()])) - centres[k]
+        seen[:, k, : rows.shape[0], : rows.shape[1]] = at.T.reshape(2, *rows.shape)
+    x, y = seen.reshape(2, len(centres), height * width)
+    return x, y
 
 
 def _inside(low: Array, high: Array, scan: Scan) -> tuple[IntArray, IntArray]:

@@ -49,13 +49,17 @@ class PooledFit:
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """All that is seen of k features, their nominal radius, mm, and what is believed before any point is seen."""
+    """All that is seen of k features, their nominal radius, mm, and what is believed before any point is seen.
+
+    ``known`` are centres (k, 2) mm that another witness tells, with its information (k, 2, 2), 1/mm².
+    """
 
     beyond: Rims
     rims: Rims
     walls: Walls
     radius_mm: float
     priors: Priors
+    known: tuple[Array, Array] | None = None
 
 
 class _Terms:
@@ -73,6 +77,8 @@ class _Terms:
         system.add_walls(self.wall, self.wall.knowledge if knowledge else self.wall.bend)
         system.add_edges(self.edge, self.edge.knowledge if knowledge else self.edge.bend, BEYOND)
         system.add_edges(self.rim, self.rim.knowledge if knowledge else self.rim.bend, RIM)
+        if evidence.known is not None:
+            system.add_known(state, *evidence.known)
         system.add_priors(state, evidence.priors, evidence.radius_mm)
         return system
 

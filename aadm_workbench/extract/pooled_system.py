@@ -99,6 +99,11 @@ class System:
         self.shared[place, place] += normal[:, 2, 2].sum()
         self.shared_gradient[place] += gradient[:, 2].sum()
 
+    def add_known(self, state: State, centre: Array, information: Array) -> None:
+        """Add what is known of the centres (k, 2) mm from elsewhere, with information (k, 2, 2), 1/mm²."""
+        self.own[:, :2, :2] += information
+        self.own_gradient[:, :2] += np.einsum("kab,kb->ka", information, state.own[:, :2] - centre)
+
     def add_priors(self, state: State, priors: Priors, radius_mm: float) -> None:
         """Add what is believed before any point is seen."""
         precision = np.array([np.inf, np.inf, priors.lean, priors.lean, priors.own_push, priors.own_radius]) ** -2.0

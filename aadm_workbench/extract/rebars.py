@@ -13,15 +13,19 @@ import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
+from aadm_workbench.extract.edge_shift import BLURRED, Bend, bend_at_edges, eroded_rings, no_bend, shift_of_tops
 from aadm_workbench.extract.found_points import found_points
-from aadm_workbench.extract.patches import patches_around, with_places
+from aadm_workbench.extract.patches import Patches, patches_around, with_places
 from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.pooled import Evidence, PooledFit, fit_pooled
 from aadm_workbench.extract.pooled_system import Priors, State
 from aadm_workbench.extract.sample import Thinned, thinned
+from aadm_workbench.extract.seen_disc import seen_discs
+from aadm_workbench.extract.sight_lines import SightLines, sight_lines_on_tops
 from aadm_workbench.extract.standing import Standing, find_standing, standing_along
 from aadm_workbench.extract.start_circles import CircleEvidence, likeliest_circles
-from aadm_workbench.extract.tops import REACH_MM, Tops, tops_in
+from aadm_workbench.extract.top_planes import top_planes
+from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, Tops, tops_in
 from aadm_workbench.extract.witnesses import Rims, Walls
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Scan
 
@@ -29,7 +33,8 @@ _SAMPLE = 90_000
 _START_DEPTH_MM = 15.0
 _RADIUS_MISFIT = 0.15
 _SOUND_SHARE = 0.55
-_SHAPE_U_PITCHES = 0.1, 0.3  # what ribs leave of the departure from a circle: edge held from both sides, or from one
+_SHAPE_U_PITCHES = 0.08, 0.16  # what ribs leave of the departure from a circle: edge held from both sides, or from one
+_FIT_SHARE = 0.65  # the fit's own covariance has neighbours share more of their errors than they do
 _USUAL_SPOILT, _SPOILT_U_MM = 0.13, 1.5
 _BEYOND_TAIL_MM, _FLYING = 1.2, 0.05
 _FOREIGN = 0.3  # share of outline points that are ribs
@@ -78,8 +83,8 @@ def extract_rebars(
     if standing is None:
         return _nothing(f"the scan shows no upright bar of {diameter_mm:g} mm")
     bars = _measured(scan, sample, standing, places, sizes_mm, _BAR_PRIORS, rng)
-    if bars is None:
-        return _nothing(f"no bar of {diameter_mm:g} mm has a top that could be measured")
+    if isinstance(bars, str):
+        return _nothing(bars)
     return _extraction(bars, standing, diameter_mm)
 
 
@@ -89,7 +94,7 @@ def _turned_to_the_bars(
     """Without a floor the vertical is the bars' own: seen along a first guess, it comes from their sides."""
     for _ in range(_TURNS):
         bars = _measured(scan, sample, standing, None, sizes_mm, _TURNING_PRIORS, rng)
-        if bars is None:
+        if isinstance(bars, str):
             return standing
         turned = standing_along(sample, _mean_axis(bars.points), sizes_mm[0] / 2)
         if turned is None:
@@ -106,8 +111,8 @@ def _measured(
     sizes_mm: tuple[float, ...],
     priors: Priors,
     rng: np.random.Generator,
-) -> _Bars | None:
-    """The bars of the first of some diameters, seen along one vertical; None where no top was found."""
+) -> _Bars | str:
+    """The bars of the first of some diameters, seen along one vertical; the reason where none can be measured."""
     radius_mm, *others_mm = (size / 2 for size in sizes_mm)
     level = Plane(standing.vertical, standing.level_mm)
     centres = standing.centres
@@ -115,11 +120,44 @@ def _measured(
         centres = with_places(centres, in_plane(places, level)[:, :2], radius_mm)
     patches = patches_around(scan, sample, level, centres, radius_mm + REACH_MM)
     beside = None if patches.columns else in_plane(sample.points, level)
-    tops = tops_in(patches, centres, radius_mm, rng, tuple(others_mm), beside)
+    planes = top_planes(patches, radius_mm, rng)
+    tops = tops_in(patches, centres, radius_mm, rng, tuple(others_mm), beside, planes)
     if len(tops.place) == 0:
-        return None
-    fit = _fit(tops, radius_mm, priors)
+        return f"no bar of {sizes_mm[0]:g} mm has a top that could be measured"
+    lines = _lines(patches, tops)
+    bend = _bend(lines, tops, radius_mm)
+    if bend.blurred:
+        return BLURRED
+    if bend.bent:
+        wide = tops_in(patches, centres, radius_mm, rng, tuple(others_mm), beside, planes, BENT_TOP_BAND_MM)
+        if len(wide.place):
+            tops, lines = wide, _lines(patches, wide)
+    fit = _shifted(_fit(tops, radius_mm, priors), tops, lines, bend)
     return _Bars(tops, fit, _points(tops, fit, level))
+
+
+def _lines(patches: Patches, tops: Tops) -> SightLines | None:
+    """The lines of sight about each kept top, crossing its plane."""
+    own = patches.of(tops.kept)
+    over = np.einsum("kni,ki->kn", np.stack([own.x, own.y, own.height], axis=-1), tops.normal.astype(np.float32))
+    return sight_lines_on_tops(own, tops.normal, tops.offset, over - tops.offset[:, None].astype(np.float32))
+
+
+def _bend(lines: SightLines | None, tops: Tops, radius_mm: float) -> Bend:
+    pitch_mm = float(np.median(tops.pitch_mm))
+    if lines is None:
+        return no_bend(pitch_mm, -1.0)
+    seen = seen_discs(lines, np.abs(lines.height) < BENT_TOP_BAND_MM, tops.centre, radius_mm, pitch_mm, -1.0)
+    return bend_at_edges(lines, seen.centre, seen.radius, pitch_mm, -1.0)
+
+
+def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -> PooledFit:
+    """The fit without the shift that all its centres share, as far as that is known."""
+    if lines is None:
+        return fit
+    eroded = eroded_rings(tops.beyond, tops.rims, fit.centre, bend.pitch_mm)
+    shift = shift_of_tops(lines.slope, bend, eroded)
+    return replace(fit, centre=fit.centre - shift.mean, covariance=_FIT_SHARE**2 * fit.covariance + shift.covariance)
 
 
 def _fit(tops: Tops, radius_mm: float, priors: Priors) -> PooledFit:

@@ -12,14 +12,17 @@ import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
+from aadm_workbench.extract.edge_shift import BLURRED, BentDiscs, bend_at_edges, bent_discs, shift_of_mouths
 from aadm_workbench.extract.found_points import found_points
 from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouths_in
-from aadm_workbench.extract.patches import patches_around, with_places
+from aadm_workbench.extract.patches import Patches, patches_around, with_places
 from aadm_workbench.extract.plane import facing, find_planes, from_plane, in_plane, near, turned_over
 from aadm_workbench.extract.pooled import Evidence, PooledFit, fit_pooled, settled
 from aadm_workbench.extract.pooled_system import Priors, State
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm, thinned
+from aadm_workbench.extract.seen_disc import SeenDiscs, seen_discs
+from aadm_workbench.extract.sight_lines import SightLines, sight_lines_on_face
 from aadm_workbench.extract.witnesses import Rims, Walls
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, Kind, Plane, Scan
 
@@ -29,9 +32,15 @@ _WALL_COUNT_MIN = 20
 _WALL_LAW = BracketLaw(0.08, 0.4)  # many points lie on ribs, which only ever stand inwards
 _TAIL_PITCHES, _TAIL_TO_KEPT, _USUALLY_KEPT = 6.0, 1.5, 0.7
 _FIRST_SETTLED_MM = 0.03  # the first fit only tells which share of the pixels the camera keeps
+_WHOLE_WITHIN_MM = 1.5  # between the innermost points of a rim and the disc that is seen: filters move it by less
+_BROKEN_U_MM = 0.3  # of a broken rim, seen by a camera that adds to its edges
 _SIDES, _SIDE_COUNT_MIN = 6, 10
 _RIM_TO_WALL_PITCHES = 0.05
-_WEAR_PITCHES = 0.07  # how far rims may be worn away unnoticed; it shifts centres along the view
+_BENT_PRIORS = Priors(
+    radius=0.15, push=0.6, own_push=0.4
+)  # light that bounces in the bore pushes each wall its own way
+_FIT_SHARE = 0.8  # the fit's own covariance has neighbours share more of their errors than they do
+_WEAR_PITCHES = 0.04  # how far rims may be worn away unnoticed; it shifts centres along the view
 _FOREIGN = 0.01  # share of outline points that are flying pixels or dirt
 _SOUND_SHARE = 0.3
 _RADIUS_MISFIT = 0.08  # relative: a hole this much larger or smaller than nominal is no sleeve
@@ -78,7 +87,7 @@ def extract_sleeves(
         face, centres = _facing_away_from_walls(face, centres, sample, diameter_mm / 2)
     patches = patches_around(scan, sample, face, centres, diameter_mm / 2 + REACH_MM)
     mouths = mouths_in(patches, centres, diameter_mm / 2, pitch_mm, tuple(other / 2 for other in others_mm))
-    return _measured(mouths, face, diameter_mm, pitch_mm)
+    return _measured(mouths, patches, face, diameter_mm, pitch_mm)
 
 
 def _face_with_holes(
@@ -114,11 +123,13 @@ def _facing_away_from_walls(face: Plane, centres: Array, sample: Thinned, radius
     return over, in_plane(lifted, over)[:, :2]
 
 
-def _measured(mouths: Mouths, face: Plane, diameter_mm: float, pitch_mm: float) -> Extraction:
+def _measured(mouths: Mouths, patches: Patches, face: Plane, diameter_mm: float, pitch_mm: float) -> Extraction:
     if len(mouths.place) == 0:
         reason = f"no hole of {diameter_mm:g} mm in the face could be measured"
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
-    fit = _fit(mouths, diameter_mm, pitch_mm)
+    fit = _fit(mouths, sight_lines_on_face(patches.of(mouths.kept)), diameter_mm, pitch_mm)
+    if fit is None:
+        return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=BLURRED)
     sound = (np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT) & _are_round(mouths, fit, pitch_mm)
     points = tuple(point for point, kept in zip(_points(mouths, fit, face, pitch_mm), sound, strict=True) if kept)
     if not points:
@@ -135,7 +146,57 @@ def _measured(mouths: Mouths, face: Plane, diameter_mm: float, pitch_mm: float) 
     return Extraction(Kind.SLEEVE, "refined", points, face, -face.normal, "foot face", quality=quality)
 
 
-def _fit(mouths: Mouths, diameter_mm: float, pitch_mm: float) -> PooledFit:
+def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm: float) -> PooledFit | None:
+    """Fit all mouths together, by the witnesses that are right for what the camera does at edges.
+
+    A mouth that is taped or broken is no disc: it is measured by what is sound of its rim, whatever the others are.
+    None where the picture is out of focus.
+    """
+    if lines is None:
+        return _fit_of_sharp(mouths, diameter_mm, pitch_mm)
+    seen = _seen(lines, mouths.centre, diameter_mm, pitch_mm)
+    whole = np.hypot(*(seen.centre - mouths.centre).T) < _WHOLE_WITHIN_MM
+    if not whole.any():
+        return _fit_of_sharp(mouths, diameter_mm, pitch_mm)
+    if not whole.all():
+        seen = _seen(lines.of(whole), mouths.centre[whole], diameter_mm, pitch_mm)
+    bend = bend_at_edges(lines.of(whole), seen.centre, seen.radius, pitch_mm, 1.0)
+    if bend.blurred:
+        return None
+    if bend.bent:
+        discs = bent_discs(lines.of(whole), seen.centre, diameter_mm / 2, bend, 1.0)
+        return _fit_of_bent(mouths, discs, whole, diameter_mm, pitch_mm)
+    fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
+    shift = shift_of_mouths(lines.slope, fit.centre, seen, whole, diameter_mm / 2, bend)
+    return replace(fit, centre=fit.centre - shift.mean, covariance=_FIT_SHARE**2 * fit.covariance + shift.covariance)
+
+
+def _seen(lines: SightLines, centre: Array, diameter_mm: float, pitch_mm: float) -> SeenDiscs:
+    return seen_discs(lines, np.abs(lines.height) < _FACE_BAND_MM, centre, diameter_mm / 2, pitch_mm, 1.0)
+
+
+def _fit_of_bent(mouths: Mouths, discs: BentDiscs, whole: BoolArray, diameter_mm: float, pitch_mm: float) -> PooledFit:
+    """Where the face bends at the mouths: centres by what lines of sight find, leans by the bores.
+
+    Mouths that are not ``whole`` (k,) have their rims, which stand out by as much as the camera adds to them.
+    """
+    law = RimLaw(pitch_mm, _TAIL_PITCHES * pitch_mm, _FOREIGN)
+    rims = Rims(mouths.rims.xy, mouths.rims.seen & ~whole[:, None], 1.0, law)
+    none = Rims(rims.xy[:, :0], rims.seen[:, :0], 1.0, law)
+    walls = Walls(mouths.wall_xy, mouths.wall_depth, mouths.wall_slope, mouths.wall_seen, _WALL_LAW, side=1.0)
+    centre, information = mouths.centre.copy(), np.zeros((len(whole), 2, 2))
+    centre[whole], information[whole] = discs.centre, np.linalg.inv(discs.own)
+    evidence = Evidence(none, rims, walls, diameter_mm / 2, _BENT_PRIORS, (centre, information))
+    start = State(centre, diameter_mm / 2)
+    first = fit_pooled(evidence, start)
+    scattered = replace(walls, law=BracketLaw(max(_WALL_LAW.width_mm, first.wall_mm), _WALL_LAW.foreign))
+    fit = fit_pooled(replace(evidence, walls=scattered), start)
+    shared = np.tile(_BROKEN_U_MM**2 * np.eye(2), (len(whole), 1, 1))
+    shared[whole] = discs.shared
+    return replace(fit, covariance=fit.covariance + shared)
+
+
+def _fit_of_sharp(mouths: Mouths, diameter_mm: float, pitch_mm: float) -> PooledFit:
     """Fit all mouths together, then again with what the first fit tells of the camera.
 
     At depth steps a camera keeps only a share of the pixels, and not the same share on every side of a mouth: the

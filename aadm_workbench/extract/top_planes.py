@@ -12,7 +12,8 @@ from aadm_workbench.model import Array, BoolArray, FloatArray
 
 _TOP_ZONE_MM = 8.0  # a cut of 15 degrees over a 28 mm bar
 _CORE = 0.95  # of the radius
-_LEVEL_PERCENT = 98.0
+_LAYER_MM = 1.2  # a flat cut within the noise of a camera; what hangs in the air above is spread over more
+_LAYER_SHARE = 0.3  # of the fullest layer: a top of which a piece is broken off still is the highest such layer
 _LEAN_COSINE = 0.85
 _FEWEST = 20
 _ENOUGH = 500  # points of one top
@@ -43,7 +44,7 @@ class TopPlanes:
 def top_planes(patches: Patches, radius_mm: float, rng: np.random.Generator) -> TopPlanes:
     """Planes of the tops among patches about the bars.
 
-    Points that fly above a top are few, so the top is the highest level that many points share.
+    Points that fly above a top are few and scattered, so the top is the highest layer that many points share.
     """
     features = len(patches.x)
     points, seen = _cores(patches, radius_mm)
@@ -72,7 +73,13 @@ def _cores(patches: Patches, radius_mm: float) -> tuple[Array, BoolArray]:
 
 
 def _level(heights: Array) -> float:
-    return float(np.percentile(heights, _LEVEL_PERCENT)) if len(heights) else 0.0
+    """Height of the highest layer that many points (n,) share: slips of the fringe order hang above it by the dozen."""
+    if len(heights) == 0:
+        return 0.0
+    ordered = np.sort(heights)
+    within = np.searchsorted(ordered, ordered + _LAYER_MM, side="right") - np.arange(len(ordered))
+    full = np.flatnonzero(within >= _LAYER_SHARE * within.max())
+    return float(ordered[full[-1]] + 0.5 * _LAYER_MM)
 
 
 def _ransac(points: Array, seen: BoolArray, rng: np.random.Generator) -> tuple[Array, Array]:

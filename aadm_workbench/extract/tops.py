@@ -11,12 +11,15 @@ from aadm_workbench.extract.outlines import Outlines, bins_for, outlines
 from aadm_workbench.extract.patches import Patches
 from aadm_workbench.extract.plan_points import PlanPoints, in_rows, thinned_rows
 from aadm_workbench.extract.top_planes import TopPlanes, top_planes
-from aadm_workbench.model import Array, BoolArray, FloatArray
+from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
 
 REACH_MM = 14.0
 """How far around a bar points are taken, beyond its nominal radius."""
 
-_TOP_BAND_MM, _TOP_BAND_SIGMAS = 0.3, 4.0
+TOP_BAND_MM, BENT_TOP_BAND_MM = 0.3, 1.5
+"""How near to its plane a point is on a top; where surfaces bend at their edges, a narrow band would lose one side."""
+
+_TOP_BAND_SIGMAS = 4.0
 _OUTLINE_ZONE, _OUTLINE_BEYOND_MM = 0.3, 3.0  # of the radius; beyond it
 _RIM_BEYOND_MM = 2.5
 _GOES_ON_SHARE, _GOES_ON_RING, _GOES_ON_DISC = 0.3, (1.25, 1.5), 0.9
@@ -35,9 +38,10 @@ class Tops:
     ``normal`` (k, 3), ``offset`` (k,) and ``residual_mm`` (k,) are the planes of the cuts; ``pitch_mm`` (k,) the
     distance of neighbouring points on them; ``centre`` (k, 2) first centres. ``rims`` lie on the cut, ``beyond`` are
     crossings of rays that passed it. ``side_xy`` (k, m, 2) and ``side_depth`` (k, m) are points of the bars' sides,
-    those that are there ``side_seen`` (k, m).
+    those that are there ``side_seen`` (k, m). ``kept`` are the numbers (k,) of their patches.
     """
 
+    kept: IntArray
     place: Array
     normal: Array
     offset: Array
@@ -58,15 +62,18 @@ def tops_in(
     rng: np.random.Generator,
     others_mm: tuple[float, ...] = (),
     beside: Array | None = None,
+    planes: TopPlanes | None = None,
+    band_mm: float = TOP_BAND_MM,
 ) -> Tops:
     """The tops of upright bars of a radius among patches around places (k, 2) mm, but for those of other radii.
 
     ``beside`` (n, 3) mm, in the same axes: points of the whole scan, where each point belongs to one patch alone.
+    ``planes`` where they are known; what lies within ``band_mm`` of one, or within its noise, is on the top.
     """
-    planes = top_planes(patches, radius_mm, rng)
+    planes = top_planes(patches, radius_mm, rng) if planes is None else planes
     height = planes.height(patches)
-    band_mm = np.maximum(_TOP_BAND_SIGMAS * planes.residual_mm, _TOP_BAND_MM).astype(np.float32)[:, None]
-    on_top = (np.abs(height) < band_mm) & planes.found[:, None]
+    bands_mm = np.maximum(_TOP_BAND_SIGMAS * planes.residual_mm, band_mm).astype(np.float32)[:, None]
+    on_top = (np.abs(height) < bands_mm) & planes.found[:, None]
     pitch_mm = np.sqrt(np.pi * radius_mm**2 / np.maximum(on_top.sum(axis=1), 1))
     bins = bins_for(radius_mm, float(np.median(pitch_mm[planes.found])) if planes.found.any() else radius_mm)
     top = PlanPoints.of(patches.x, patches.y, np.flatnonzero(on_top))
@@ -74,13 +81,14 @@ def tops_in(
     start = np.zeros((len(places), 2))
     centre, other = settled_centres(top, start, radius_mm, bins, zone_mm, innermost=False, others_mm=others_mm)
     rims = outlines(top.where(top.distance(centre) < radius_mm + _RIM_BEYOND_MM), centre, bins, innermost=False)
-    around = top if beside is None else _at_the_height_of(beside, places, planes, band_mm[:, 0], radius_mm)
+    around = top if beside is None else _at_the_height_of(beside, places, planes, bands_mm[:, 0], radius_mm)
     kept = planes.found & ~other & ~_goes_on(around, centre, radius_mm) & (rims.coverage >= _COVERAGE_MIN)
     kept &= pitch_mm < _PITCH_MAX * radius_mm
-    passed = _passed(patches, planes, height < -band_mm, centre, radius_mm)
+    passed = _passed(patches, planes, height < -bands_mm, centre, radius_mm)
     beyond = outlines(passed, centre, bins, innermost=True).only(rims.seen)  # no surface: nothing tells of its edge
     side_xy, side_depth, side_seen = _sides(patches, height, centre, radius_mm, kept)
     return Tops(
+        np.flatnonzero(kept),
         places[kept],
         planes.normal[kept],
         planes.offset[kept],

@@ -45,6 +45,11 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
     (rf", limit ({_NUMBER} … {_NUMBER}) mm", r",限值 \1 mm"),
     (rf"({_LABEL}) not measured: ", r"\1 未测到:"),
     (rf"not measured: ((?:{_LABEL}(?:, )?)+)", r"未测到:\1"),
+    (
+        r"the picture is out of focus: surfaces bend at their edges over several pixels; "  # noqa: ISC004
+        r"move the camera to its working distance, or focus it, and scan again",
+        "图像失焦:表面边缘在数个像素内弯曲;请将相机移至工作距离或重新对焦后再扫描",
+    ),
     (r"no opening: the mouth is plugged or covered", "没有开口:套筒口被堵塞或遮盖"),
     (r"too little of the mouth's rim is seen to measure it", "套筒口边缘可见部分太少,无法测量"),
     (r"outside of what the scan shows of the foot", "在扫描到的柱底范围之外"),

@@ -22,6 +22,7 @@ from aadm_workbench.scan.las import read_las
 from aadm_workbench.scan.npz import read_npz
 from aadm_workbench.scan.pcd import read_pcd
 from aadm_workbench.scan.picture import grey_of
+from aadm_workbench.scan.pixels import on_pixels
 from aadm_workbench.scan.ply import read_ply
 from aadm_workbench.scan.points import to_millimetres, without_return
 from aadm_workbench.scan.pts import read_pts
@@ -96,8 +97,9 @@ def read_scan(
     Scan
         Points in the precision of the file (depth maps float32). The scan frame is that of the camera where one is
         given; else that of the file, after the pose that the file carries. ``viewpoint`` is None where neither tells
-        it. Points that are not finite or exactly zero are no measurement: NaN in an organised scan, left out of
-        another, and counted in ``dropped``.
+        it. A cloud whose points lie on the pixels of a camera at its origin comes as that camera's picture. Points that
+        are not finite or exactly zero are no measurement: NaN in an organised scan, left out of another, and counted in
+        ``dropped``.
 
     Raises
     ------
@@ -140,6 +142,10 @@ def _read_file(path: Path, name: str, declared: Declared, image: Path | None) ->
     file = load(path, name)
     cloud = reader(file, declared)
     points, dropped = _measured(file, cloud, camera)
+    viewpoint = _viewpoint(cloud, camera, points)
+    picture = on_pixels(points) if points.ndim == 2 and (viewpoint is None or not viewpoint.any()) else None
+    if picture is not None:
+        points, viewpoint = picture, np.zeros(3)
     grey = cloud.grey if image is None else _grey_picture(Path(image), points, camera)
     if grey is not None and points.ndim == 3 and grey.shape != points.shape[:2]:
         grey = None
@@ -148,7 +154,7 @@ def _read_file(path: Path, name: str, declared: Declared, image: Path | None) ->
         file.name,
         file.sha256,
         camera,
-        _viewpoint(cloud, camera, points),
+        viewpoint,
         dropped,
         grey,
         (*cloud.notes, *_unit_note(cloud, declared)),

@@ -18,7 +18,6 @@ NOT_YET = {
     (HONEST, "bores that appear beside their place"): "7.6 u off",
     (HONEST, "foot with twice the noise"): "4.1 u off",
     (PLACE, "bars with a piece of the top broken off"): "0.55 mm off",
-    (HONEST, "bars with a burr on one side"): "8.5 u off",
 }
 
 

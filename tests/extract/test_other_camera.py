@@ -129,11 +129,7 @@ CASES = [
 PUSHED, HONEST = "test_they_are_not_all_pushed_towards_the_camera", "test_no_error_hides_behind_its_uncertainty"
 NOT_YET = {
     (PUSHED, Kind.SLEEVE, "dropped", "depth map"): "-0.27 mm",
-    (PUSHED, Kind.REBAR, "mixed", "depth map"): "-0.16 mm",
-    (PUSHED, Kind.REBAR, "dropped", "depth map"): "-0.18 mm",
-    (PUSHED, Kind.REBAR, "mixed", "cloud"): "-0.17 mm",
     (HONEST, Kind.SLEEVE, "dropped", "depth map"): "8 u off",
-    (HONEST, Kind.REBAR, "mixed", "depth map"): "5 u off",
     (HONEST, Kind.REBAR, "dropped", "depth map"): "5 u off",
 }
 

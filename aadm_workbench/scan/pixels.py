@@ -1,0 +1,86 @@
+"""Clouds that are a camera's picture without its rows: the pixel that each point came from, found from the points.
+
+A camera's software measures along the rays of its pixels and often saves only what returned. Seen from the camera, x/z
+and y/z of such points lie on an even grid, to the precision of the file. With the grid the pixels that returned
+nothing are known again, and these tell where edges are.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from aadm_workbench.model import Array, FloatArray, IntArray
+
+_SAMPLE = 30_000
+_FEWEST = 2_000
+_STEP_RANGE = (1e-4, 1e-2)  # of x/z from pixel to pixel: focal lengths of 100 to 10,000 pixels
+_TANGENT_MAX = 10.0  # of the widest lens; farther out are faults
+_SAME_COLUMN = 1e-5  # of x/z: what precision of files leaves between points of one column
+_OFF_GRID, _ON_GRID_SHARE = 0.15, 0.98  # pixels; of the points
+_SIZE_MAX = 6_000
+_SHARED_SHARE = 0.01  # of the points may fall on a pixel that another one has
+_SOUGHT_STEPS = 5
+
+
+def on_pixels(points: FloatArray) -> FloatArray | None:
+    """The points as the picture of a camera at the origin that looks along +z; None where they lie on no grid.
+
+    Parameters
+    ----------
+    points
+        (n, 3) floating, mm, finite.
+
+    Returns
+    -------
+    FloatArray
+        (h, w, 3), the same points, NaN where a pixel returned nothing.
+    """
+    if len(points) < _FEWEST or not (points[:, 2] > 0).all():
+        return None
+    with np.errstate(over="ignore"):
+        across, down = (points[:, :2] / points[:, 2:].astype(np.float64)).T
+    if max(np.abs(across).max(), np.abs(down).max()) > _TANGENT_MAX:
+        return None
+    columns = _grid_places(across)
+    rows = None if columns is None else _grid_places(down)
+    if columns is None or rows is None:
+        return None
+    width, height = int(columns.max()) + 1, int(rows.max()) + 1
+    if max(width, height) > _SIZE_MAX:
+        return None
+    pixel = rows * width + columns
+    filled = np.zeros(height * width, bool)
+    filled[pixel] = True
+    if len(points) - int(np.count_nonzero(filled)) > _SHARED_SHARE * len(points):
+        return None
+    picture = np.full((height * width, 3), np.nan, points.dtype)
+    picture[pixel] = points
+    return picture.reshape(height, width, 3)
+
+
+def _grid_places(tangents: Array) -> IntArray | None:
+    """The place (n,) of each of some values on the even grid that they lie on; None without one."""
+    some = np.sort(tangents[:: len(tangents) // _SAMPLE + 1])
+    gaps = np.diff(some)
+    between = gaps[(gaps > _SAME_COLUMN) & (gaps < _STEP_RANGE[1])]
+    if len(between) < _SOUGHT_STEPS:
+        return None
+    step = float(np.median(between))
+    if not _STEP_RANGE[0] < step < _STEP_RANGE[1]:
+        return None
+    # Points of a column fall into one group; groups are counted from their neighbours, so that no error adds up.
+    place = np.concatenate([[0], np.cumsum(np.rint(gaps / step))])
+    for _ in range(2):
+        if not np.ptp(place) > _SOUGHT_STEPS:
+            return None
+        step, first = np.polyfit(place, some, 1)
+        if not step > 0:
+            return None
+        place = np.rint((some - first) / step)
+    if (np.abs((some - first) / step - place) > _OFF_GRID).mean() > 1.0 - _ON_GRID_SHARE:
+        return None
+    exact = (tangents - first) / step
+    whole = np.rint(exact)
+    if (np.abs(exact - whole) > _OFF_GRID).mean() > 1.0 - _ON_GRID_SHARE:
+        return None
+    return np.asarray(whole - whole.min(), np.int64)
