@@ -48,7 +48,10 @@ class PointResult:
     """One design point and what was measured of it, mm: ``offset_mm`` is measured minus design, in the column frame.
 
     ``u_mm`` is the standard uncertainty of the deviation per axis, with the fit's part; ``probability`` that
-    the true deviation is within the limit. What was not measured is None, and ``reason`` says why.
+    the true deviation is within the limit. ``axis`` is a unit vector that points up along the column, in the column
+    frame, ``u_axis_deg`` its standard uncertainty per axis. ``cov_mm2`` is the covariance of ``scan_mm`` in the face
+    plane, turned into the column frame, before any fit and with the camera's scale error. What was not measured is
+    None, and ``reason`` says why.
     """
 
     label: str
@@ -66,6 +69,9 @@ class PointResult:
     reason: str = ""
     probability: float | None = None
     exposed_length_mm: float | None = None
+    axis: Vector3 | None = None
+    u_axis_deg: float | None = None
+    cov_mm2: tuple[Vector2, Vector2] | None = None
 
 
 @dataclass(frozen=True)
