@@ -15,6 +15,7 @@ import numpy as np
 
 from aadm_workbench.assembly.agreement import agreed
 from aadm_workbench.assembly.best_pose import fit_best_pose
+from aadm_workbench.assembly.common_lean import common_lean
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.existence import SAMPLES, existence_of_a_pose
@@ -128,7 +129,7 @@ def try_assembly(
         pairs, missing = form_pairs(
             design, sleeves, rebars, option.onto.tolist(), measured_diameters=measured_diameters
         )
-        report = _try_pairs(pairs, missing, profile, generator, decision, samples)
+        report = _try_both_ways(pairs, missing, profile, generator, decision, samples, embedded_length_mm(design))
         reports.append(replace(report, turn_deg=math.degrees(option.angle)))
     best = min(reports, key=lambda report: _BEST_FIRST.index(report.verdict))
     listed = tuple(
@@ -158,6 +159,29 @@ def _design_notes(design: ColumnDesign, profile: Profile) -> tuple[str, ...]:
 
 def _in_column_frame(extraction: Extraction, placement: Placement) -> list[AssemblyPoint | None]:
     return [None if placed is None else placed.point for placed in place_points(extraction, placement)]
+
+
+def _try_both_ways(
+    pairs: tuple[Pair, ...],
+    missing: tuple[str, ...],
+    profile: Profile,
+    generator: np.random.Generator,
+    decision: DecisionRule,
+    samples: int,
+    length_mm: float,
+) -> TrialReport:
+    """The trial as measured; where all axes lean alike, it is decided only as far as it does not depend on that."""
+    report = _try_pairs(pairs, missing, profile, generator, decision, samples)
+    shared = common_lean(pairs, length_mm)
+    if not shared or report.best is None:
+        return report
+    said = shared.in_words(length_mm)
+    other = _try_pairs(shared.taken_off(pairs), missing, profile, generator, decision, samples)
+    if other.verdict is report.verdict:
+        return replace(report, notes=(*report.notes, said))
+    verdict = Verdict.NOT_MEASURED if missing else Verdict.INCONCLUSIVE
+    depends = f"{said}; as measured the trial comes to {report.verdict.value}, without that to {other.verdict.value}"
+    return replace(report, verdict=verdict, reasons=(depends, *report.reasons))
 
 
 def _try_pairs(

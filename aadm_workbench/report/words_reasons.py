@@ -37,6 +37,16 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
         rf"({_LABEL}) is in the way: it stands ({_NUMBER}) mm off the place that the other sleeves give it",
         r"\1 挡住就位:偏离其余套筒给出的位置 \2 mm",
     ),
+    (rf"all bars lean alike by ({_NUMBER})°", r"全部钢筋同向倾斜 \1°"),
+    (rf"all sleeves lean alike by ({_NUMBER})°", r"全部套筒同向倾斜 \1°"),
+    (
+        r": they may do so, or the vertical of their scan is off by as much",
+        ":可能确实如此,也可能是扫描的竖直方向偏了同样的角度",
+    ),
+    (
+        r"; as measured the trial comes to (\w+), without that to (\w+)",
+        r";按实测预拼装结论为 \1,扣除后为 \2",
+    ),
     (rf"({_LABEL}) is in the way: ", r"\1 挡住就位:"),
     (rf"its lean alone takes more room than ({_LABEL}) has", r"仅其倾斜就超出 \1 的净空"),
     (

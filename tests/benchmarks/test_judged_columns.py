@@ -1,4 +1,4 @@
-"""Whole columns against a truth from a linear program, in small: rates, stated probabilities, advice that is followed."""
+"""Whole columns against a truth from a linear program, in small: rates, stated probabilities, followed advice."""
 
 import numpy as np
 import pytest
