@@ -113,6 +113,9 @@ def probability_within_disc(offset: Array, covariance: Array, radius: float) -> 
     sigma_narrow, sigma_wide = (float(value) for value in np.sqrt(np.maximum(variances, 0.0)))
     if radius <= 0.0:
         return 0.0
+    length = math.hypot(narrow, wide)
+    if abs(radius - length) >= _TAIL_SIGMAS * sigma_wide:  # so far from the rim that the rest is below rounding
+        return float(length < radius)
     if sigma_narrow <= 1e-12 * radius:
         chord = math.sqrt(max(radius**2 - narrow**2, 0.0)) if abs(narrow) <= radius else -1.0
         return probability_between(wide, sigma_wide, -chord, chord) if chord >= 0.0 else 0.0

@@ -13,14 +13,15 @@ very middle, a pair holds its limit with a probability that bounds that of the w
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from aadm_workbench.assembly.best_pose import WITHIN, BestFit, fit_best_pose
 from aadm_workbench.assembly.constraints import Part, start_pose
-from aadm_workbench.assembly.decision import probability_within_disc
+from aadm_workbench.assembly.decision import PASS_PROBABILITY, probability_within_disc
 from aadm_workbench.assembly.discs import smallest_common_disc
 from aadm_workbench.assembly.eopa import NoFit
 from aadm_workbench.assembly.pairs import Pair
@@ -29,11 +30,17 @@ from aadm_workbench.model import Array, BoolArray, IntArray
 
 SAMPLES = 1000
 
-_FIRST = 300
-"""Where so many draws all say the same, no more are made: the probability is then known to 1 %."""
+_FIRST = 200
+"""Where so many draws all say the same, no more are made: the probability is then known to 1.5 %."""
 
-_SOLVED = 64
+_SOLVED = 40
 """So many draws, each with its opposite, are solved for the bias: it is then known to a tenth of a spread."""
+
+_GRANTED_SIGMAS = 1.7
+"""Of the root of the sum of both variances: about 5 % of gaps are further off, whatever their direction."""
+
+_HOPELESS_SIGMAS = 8.0
+"""No pose exists where the best one is beyond a limit by so many standard uncertainties of the gap known worst."""
 
 _LARGEST_BIAS = 1.0
 """The bias counts up to this many spreads of r: beyond, the scatter hides what is measured, and nothing is known."""
@@ -48,11 +55,13 @@ _GAP = 1e-4
 class Existence:
     """How likely it is that a pose exists, and what has to be known better.
 
-    ``violated`` (n,) is the share of draws in which each pair breaks a limit at the best pose of the measured values.
+    ``contradicted``: the measured values themselves say that there is none. ``violated`` (n,) is the share of draws in
+    which each pair breaks a limit at the best pose of the measured values.
     """
 
     probability: float
     violated: Array
+    contradicted: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,6 +97,45 @@ def existence_of_a_pose(
     """
     if any(pair.covariance is None for pair in pairs):
         return None
+    bounds = np.array([_at_most(pair, float(limit_mm)) for pair, limit_mm in zip(pairs, limits_mm, strict=True)])
+    hardly_seen = bounds < PASS_PROBABILITY
+    if hardly_seen.any():
+        pairs, limits_mm = _granted(pairs, limits_mm, hardly_seen)
+        granted = fit_best_pose(pairs, limits_mm)
+        fit = fit if isinstance(granted, NoFit) else granted
+    found = _of_the_rest(pairs, limits_mm, fit, generator, samples)
+    violated = np.where(hardly_seen, 1.0 - bounds, found.violated)
+    return Existence(min(found.probability, float(bounds.min())), violated, found.contradicted)
+
+
+def _granted(pairs: Sequence[Pair], limits_mm: Array, hardly_seen: BoolArray) -> tuple[tuple[Pair, ...], Array]:
+    """The pairs with those that were hardly seen granted what is not known of them, on top of their limits.
+
+    Where a bar was found says little then. Drawn, several of them would make any column improbable; granted, they speak
+    against one only where they are beyond their limits by more than their uncertainty.
+    """
+    granted, wider_mm = list(pairs), limits_mm.copy()
+    for index in np.flatnonzero(hardly_seen).tolist():
+        pair = pairs[index]
+        u_mm = [math.sqrt(np.trace(one)) for one in (pair.covariance, *_shifts(pair)) if one is not None]
+        extra_mm = _GRANTED_SIGMAS * math.hypot(*u_mm, pair.room_u_mm)
+        wider_mm[index] += extra_mm
+        granted[index] = replace(
+            pair,
+            covariance=np.zeros((2, 2)),
+            bar_shift_covariance=None,
+            sleeve_shift_covariance=None,
+            room_mm=None if pair.room_mm is None else pair.room_mm + extra_mm,
+        )
+    return tuple(granted), wider_mm
+
+
+def _of_the_rest(
+    pairs: Sequence[Pair], limits_mm: Array, fit: BestFit, generator: np.random.Generator, samples: int
+) -> Existence:
+    """As :func:`existence_of_a_pose`, of pairs that were all seen well enough, or that are granted enough."""
+    if np.isfinite(fit.ratio) and fit.ratio - 1.0 > _HOPELESS_SIGMAS * _largest_u(pairs, fit):
+        return Existence(0.0, np.zeros(len(pairs)), True)
     draws = _drawn(pairs, limits_mm, fit, generator, min(_FIRST, samples))
     possible, reach = _possible(draws, fit, None)
     if samples > _FIRST and 0.0 < possible.mean() < 1.0:
@@ -96,8 +144,19 @@ def existence_of_a_pose(
     lengths = np.hypot(draws.vectors[..., 0], draws.vectors[..., 1])
     broken = lengths > draws.limits_mm
     violated = np.array([broken[:, fit.gaps.owner == index].any(axis=1).mean() for index in range(len(pairs))])
-    bound = min(_at_most(pair, float(limit_mm)) for pair, limit_mm in zip(pairs, limits_mm, strict=True))
-    return Existence(min(float(possible.mean()), bound), violated)
+    return Existence(float(possible.mean()), violated, not fit.exists)
+
+
+def _largest_u(pairs: Sequence[Pair], fit: BestFit) -> float:
+    """Largest standard uncertainty of a gap over its limit: no draw moves the largest ratio by more, in its units."""
+    shares = []
+    for limit_mm, owner, part in zip(fit.gaps.limits_mm, fit.gaps.owner, fit.gaps.part, strict=True):
+        pair = pairs[owner]
+        shift = {Part.MOUTH: pair.bar_shift_covariance, Part.TOP: pair.sleeve_shift_covariance}.get(part)
+        variance = sum(float(np.linalg.eigvalsh(one)[-1]) for one in (pair.covariance, shift) if one is not None)
+        room_u_mm = 0.0 if part == Part.CENTRES else pair.room_u_mm
+        shares.append(math.sqrt(max(variance, 0.0) + room_u_mm**2) / limit_mm)
+    return float(max(shares))
 
 
 def _possible(draws: _Draws, fit: BestFit, reach: float | None) -> tuple[BoolArray, float | None]:

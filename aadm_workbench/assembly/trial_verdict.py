@@ -49,7 +49,7 @@ def judge_trial(
     if existence is None:
         verdict = Verdict.PASS if fit.exists else Verdict.FAIL
     else:
-        verdict = decide_probability(existence.probability, fit.exists)
+        verdict = decide_probability(existence.probability, fit.exists or not existence.contradicted)
     by_measure = verdict
     if report.missing and verdict is not Verdict.FAIL:
         verdict = Verdict.NOT_MEASURED

@@ -24,21 +24,21 @@ def test_the_truth_itself_is_known_where_it_has_a_closed_form() -> None:
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: scene.name)
 def test_no_verdict_is_wrong_with_certainty(scene: Scene) -> None:
     """Too few cases for rates of half a percent: more than one wrong one of these would be far beyond them."""
-    found = judged_columns(scene, FIELD, 60, np.random.default_rng(11))
+    found = judged_columns(scene, FIELD, 24, np.random.default_rng(11))
     infeasible = found.cases - found.feasible
-    assert min(found.feasible, infeasible) > 15
+    assert min(found.feasible, infeasible) > 4
     assert found.false_passes * infeasible <= 1.0
     assert found.false_fails * found.feasible <= 1.0
     assert all(abs(one.sigmas) < 4.0 for one in found.bins)
     if scene.u_worse_mm is None and not scene.missing:
-        assert found.undecided_far_off <= 0.1
+        assert found.undecided_far_off <= 0.15
     else:
         assert found.false_passes == 0.0
 
 
 def test_half_of_what_is_stated_to_be_open_is_feasible() -> None:
     """All stated probabilities together: their sum is the number of feasible columns, within three deviations."""
-    found = judged_columns(BY_NAME["28/20"], FIELD, 150, np.random.default_rng(3))
+    found = judged_columns(BY_NAME["28/20"], FIELD, 60, np.random.default_rng(3))
     stated = sum(one.cases * one.stated for one in found.bins)
     variance = sum(one.cases * one.stated * (1.0 - one.stated) for one in found.bins)
     assert abs(stated - found.feasible) < 3.0 * np.sqrt(variance + 1.0)
@@ -46,9 +46,9 @@ def test_half_of_what_is_stated_to_be_open_is_feasible() -> None:
 
 @pytest.mark.parametrize("name", ["36/20", "28/20"])
 def test_advice_that_is_followed_helps(name: str) -> None:
-    found = repaired_columns(BY_NAME[name], FIELD, 40, np.random.default_rng(5))
-    assert found.failing > 15
-    assert found.promised > 8
+    found = repaired_columns(BY_NAME[name], FIELD, 16, np.random.default_rng(5))
+    assert found.failing > 4
+    assert found.promised > 3
     assert found.kept == 1.0
     assert found.good_ones_bent == 0
     assert found.blamed > 0.95
