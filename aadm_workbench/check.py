@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.assembly.absolute import DatumRules, inspect_absolute
+from aadm_workbench.assembly.blame import with_blame
 from aadm_workbench.assembly.column import rules_of_the_erected_column, sum_up
 from aadm_workbench.assembly.control import ControlPose, fit_control_points, shown_up_deg
 from aadm_workbench.assembly.datum import with_absolute
@@ -130,6 +131,7 @@ def check_column(
         with stage("assembly"):
             trial = _try(design, measured[Kind.SLEEVE], measured[Kind.REBAR], settings)
             repair = _repair(design, measured[Kind.SLEEVE], measured[Kind.REBAR], trial, settings)
+            trial = with_blame(trial, repair)
     return replace(_report(design, measured, trial, checks, settings.profile), repair=repair)
 
 

@@ -15,8 +15,10 @@ from .job_table import JobTable
 
 _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
 _COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "near", "design", "control_points")
-_LENGTHS = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter", "embedded_length", "exposed_length")
-_DESIGN = (*_LENGTHS, "size", "centres")
+_LENGTHS = ("embedded_length", "exposed_length")
+_SIZES = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter")
+"""One length, or a list with one for each centre."""
+_DESIGN = (*_LENGTHS, *_SIZES, "size", "centres")
 
 
 def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColumn, ...]:
@@ -75,6 +77,12 @@ def _design(column: JobTable, name: str) -> ColumnDesign | None:
         table.length(key)
     table.numbers("size", 2)
     table.number_lists("centres", 2)
+    for key in _SIZES:
+        written = table.values.get(key)
+        if isinstance(written, list):
+            table.numbers(key, len(written))
+        else:
+            table.length(key)
     design: dict[str, Any] = dict(table.values)
     try:
         return inline_design(name, design)

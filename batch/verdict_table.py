@@ -56,11 +56,18 @@ def advice_lines(report: JobReport) -> Iterator[str]:
 
 
 def _reason(column: ColumnReport, comparison: Comparison | None) -> str:
-    """Why a failing point fails; else the first of the column's reasons; and how many more the report holds."""
+    """What is in the way, or why a failing point fails, else the column's first reason; and how many more there are."""
     if not column.reasons:
         return ""
     reason = column.reasons[0]
-    if column.verdict is Verdict.FAIL and comparison is not None and comparison.reason in column.reasons:
+    trial = column.trial_assembly
+    in_the_way = trial is not None and bool(trial.in_the_way)
+    if (
+        column.verdict is Verdict.FAIL
+        and not in_the_way
+        and comparison is not None
+        and comparison.reason in column.reasons
+    ):
         reason = comparison.reason
     more = len(column.reasons) - 1
     return reason + (f" (+{more} more)" if more else "")

@@ -53,8 +53,9 @@ def _comparisons(column: ColumnReport) -> Iterator[Comparison]:
                 label = "-".join(pair.between)
                 yield Comparison(label, pair.deviation_mm, _limit_on_its_side(pair), pair.verdict, pair.reason)
     trial = column.trial_assembly
-    if trial is not None and trial.minimax is not None:
-        for one in trial.minimax.pairs:
+    pose = None if trial is None else trial.best or trial.minimax
+    if pose is not None:
+        for one in pose.pairs:
             yield Comparison(f"{one.sleeve}/{one.rebar}", one.distance_mm, one.limit_mm, one.verdict, one.reason)
 
 

@@ -12,7 +12,8 @@ def best_assignment(margins: Array) -> list[tuple[int, int]]:
 
     Where all rows (or all columns, of which there may be fewer) can be given a margin of zero or more, the smallest
     margin is made as large as possible, and then the sum. Where not all can, as many as possible are, and the same
-    holds for these; a column that goes nowhere does not spoil the others.
+    holds for these; a column that goes nowhere does not spoil the others. What is not known counts nothing, neither for
+    nor against: it takes the place of no pair that goes on.
 
     Parameters
     ----------
@@ -27,9 +28,7 @@ def best_assignment(margins: Array) -> list[tuple[int, int]]:
     threshold = _highest_threshold(margins, going, most) if most else np.inf
     filled = np.where(allowed, margins, 0.0)
     bonus = 1.0 + 2.0 * max(margins.shape) * float(np.ptp(np.append(filled, 0.0)))
-    value = (
-        filled + np.where(allowed & (filled >= threshold), bonus, 0.0) - np.where(allowed, 0.0, bonus * margins.size)
-    )
+    value = filled + np.where(going & (filled >= threshold), bonus, 0.0)
     rows, columns = _assigned(value)
     return [(row, column) for row, column in zip(rows, columns, strict=True) if allowed[row, column]]
 

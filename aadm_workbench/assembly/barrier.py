@@ -16,6 +16,7 @@ _LEVEL_ROUNDS = 6
 _HALVINGS = 10
 _SMALLEST_AIM = 1e-12
 _SMALLEST_SLACK = 1e-15
+_RIDGE = 1e-13
 
 
 def vectors(p: Array, q: Array, z: Array) -> Array:
@@ -58,8 +59,17 @@ def _direction(q: Array, gradient: Array, lam: Array, slack: Array, mu: Array, w
     _add_curvature(hessian, q, lam * weights)
     push = mu[:, None] / slack
     right = np.concatenate([-np.einsum("kn,kni->ki", push, gradient), push.sum(axis=1, keepdims=True) - 1.0], axis=1)
-    move = np.linalg.solve(hessian, right[:, :, None])[:, :, 0]
+    move = _solved(hessian, right)
     return move[:, :3], move[:, 3]
+
+
+def _solved(hessian: Array, right: Array) -> Array:
+    """Solutions (k, 4); where rounding has left a matrix without an inverse, of one that is a hair stiffer."""
+    try:
+        return np.asarray(np.linalg.solve(hessian, right[:, :, None])[:, :, 0])
+    except np.linalg.LinAlgError:
+        stiffer = _RIDGE * np.maximum(np.trace(hessian, axis1=1, axis2=2), _SMALLEST_SLACK)
+        return np.asarray(np.linalg.solve(hessian + stiffer[:, None, None] * np.eye(4), right[:, :, None])[:, :, 0])
 
 
 def _line_search(

@@ -15,10 +15,13 @@ def sum_up(
 
     The verdict is the worst of what was asked for (None: not asked for): error, fail, not measured, inconclusive,
     pass. Whether it goes on is the trial's verdict alone: a bar may be 4 mm from design and the column still go on.
+    What is in the way is the first reason.
     """
     parts = [part for part in (sleeves, rebars, trial) if part is not None]
     goes_on = Verdict.NOT_ASSESSED if trial is None else trial.verdict
     reasons = tuple(reason for part in parts if part.verdict is not Verdict.PASS for reason in part.reasons)
+    if trial is not None and trial.in_the_way:
+        reasons = (trial.reasons[0], *(reason for reason in reasons if reason != trial.reasons[0]))
     return worst(part.verdict for part in parts), goes_on, reasons
 
 

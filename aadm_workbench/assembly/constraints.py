@@ -1,13 +1,19 @@
-"""What a pose has to meet for every rebar to enter its sleeve, linear in a small turn and a shift.
+"""What a pose has to meet for every rebar to enter its sleeve: distances of points, each within its limit.
 
-In the half-turn coordinates of :mod:`.minimax` each limit, of a distance and of the room over the ribs alike, reads
-|p + τ·q + t| ≤ limit: a disc, so that :mod:`.discs` can find the pose that keeps furthest inside all of them.
+A pair gives up to three of them. The centres must keep the limit of the distance; and over the embedded length the axes
+must keep the room over the ribs, at the mouth and at the bar's top, which holds in between as well:
+
+    mouth:  |bar − its shift − sleeve| ≤ room        top:  |bar − (sleeve + its shift)| ≤ room
+
+In the half-turn coordinates of :mod:`.minimax` each reads |p + τ·q + t| ≤ limit: a disc, so that :mod:`.discs` can find
+the pose that keeps furthest inside all of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import IntEnum
 
 import numpy as np
 
@@ -17,6 +23,32 @@ from aadm_workbench.assembly.upright import turn
 from aadm_workbench.model import Array, IntArray
 
 _SHORTEST_TURNING_MM = 1e-9
+
+_CERTAIN_SIGMAS = 5.0
+"""A room that holds with so many standard uncertainties to spare, whatever the pose, is left out."""
+
+
+class Part(IntEnum):
+    """Where a distance is taken."""
+
+    CENTRES = 0
+    MOUTH = 1
+    TOP = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Gaps:
+    """Points of the bars, ``source`` (c, 2) mm, that must come within ``limits_mm`` (c,) of ``target`` (c, 2) mm.
+
+    ``owner`` (c,) is the index of the pair that each belongs to, ``part`` (c,) its :class:`Part`. A limit may be zero
+    or below: the bar is as wide as its sleeve.
+    """
+
+    source: Array
+    target: Array
+    limits_mm: Array
+    owner: IntArray
+    part: IntArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,12 +78,13 @@ class StartPose:
 
 @dataclass(frozen=True, eq=False)
 class PoseConstraints:
-    """The limits of c discs, (c,) mm, their vectors (c, 2) mm and the index of the pair that each belongs to, (c,)."""
+    """The limits of c discs, (c,) mm, their vectors (c, 2) mm and the pair and part that each belongs to, (c,)."""
 
     vectors: Array
     turning: Array
     limits_mm: Array
     owner: IntArray
+    part: IntArray
     start: StartPose
 
 
@@ -64,11 +97,40 @@ def start_pose(pairs: Sequence[Pair], limits_mm: Array, yaw: float, shift: Array
     return StartPose(yaw, shift, unscaled.origin, reach_mm / float(np.median(limits_mm)))
 
 
-def pose_constraints(pairs: Sequence[Pair], limits_mm: Array, yaw: float, shift: Array) -> PoseConstraints:
-    """The limits of all distances and of all clearances.
+def gaps_of(pairs: Sequence[Pair], limits_mm: Array) -> Gaps:
+    """All distances that have a limit: of the centres, and of the axes at both ends of the embedded length.
 
-    Clearances that the limit of the distance implies are left out. A limit may be zero or below: the bar is as wide
-    as its sleeve.
+    Rooms that the limit of the distance implies, with their uncertainties, are left out.
+
+    Parameters
+    ----------
+    limits_mm
+        (n,) float64, of the distance of each pair.
+    """
+    rows = [
+        (pair.rebar_xy, pair.sleeve_xy, float(limit_mm), index, Part.CENTRES)
+        for index, (pair, limit_mm) in enumerate(zip(pairs, limits_mm, strict=True))
+    ]
+    for index, pair in enumerate(pairs):
+        if pair.room_mm is None:
+            continue
+        if _takes_room(pair, float(limits_mm[index]), pair.bar_shift, pair.bar_shift_covariance):
+            rows.append((pair.rebar_xy - pair.bar_shift, pair.sleeve_xy, pair.room_mm, index, Part.MOUTH))
+        if _takes_room(pair, float(limits_mm[index]), pair.sleeve_shift, pair.sleeve_shift_covariance):
+            rows.append((pair.rebar_xy, pair.sleeve_xy + pair.sleeve_shift, pair.room_mm, index, Part.TOP))
+    source, target, limits, owner, part = zip(*rows, strict=True)
+    return Gaps(np.array(source), np.array(target), np.array(limits), np.array(owner), np.array(part))
+
+
+def _takes_room(pair: Pair, limit_mm: float, shift: Array, covariance: Array | None) -> bool:
+    """Whether the room may be too small where the distance is at its limit and the axis moves by that shift."""
+    u_mm = 0.0 if covariance is None else float(np.sqrt(max(np.linalg.eigvalsh(covariance)[-1], 0.0)))
+    needed_mm = limit_mm + float(np.hypot(*shift)) + _CERTAIN_SIGMAS * (u_mm + pair.room_u_mm)
+    return needed_mm > (pair.room_mm or 0.0)
+
+
+def pose_constraints(pairs: Sequence[Pair], limits_mm: Array, yaw: float, shift: Array) -> PoseConstraints:
+    """The limits of all distances and of all clearances, as discs.
 
     Parameters
     ----------
@@ -77,19 +139,9 @@ def pose_constraints(pairs: Sequence[Pair], limits_mm: Array, yaw: float, shift:
     yaw, shift
         Radians and (2,) mm: the pose to start from.
     """
-    start = start_pose(pairs, limits_mm, yaw, shift)
-    p, q = start.vectors_of(np.array([pair.rebar_xy for pair in pairs]), np.array([pair.sleeve_xy for pair in pairs]))
-    vectors, turning, limits, owner = list(p), list(q), list(limits_mm), list(range(len(pairs)))
-    for index, pair in enumerate(pairs):
-        if pair.room_mm is None:
-            continue
-        for lean in leans_at(pair, yaw):
-            if limits_mm[index] + float(np.hypot(*lean)) > pair.room_mm:
-                vectors.append(p[index] - lean)
-                turning.append(q[index])
-                limits.append(pair.room_mm)
-                owner.append(index)
-    return PoseConstraints(np.array(vectors), np.array(turning), np.array(limits), np.array(owner), start)
+    start, gaps = start_pose(pairs, limits_mm, yaw, shift), gaps_of(pairs, limits_mm)
+    vectors, turning = start.vectors_of(gaps.source, gaps.target)
+    return PoseConstraints(vectors, turning, gaps.limits_mm, gaps.owner, gaps.part, start)
 
 
 def leans_at(pair: Pair, yaw: float) -> tuple[Array, Array]:

@@ -2,7 +2,9 @@
 
 A deviation in the plane is a length, so with equal uncertainties per axis it follows the Rice law and in general
 the normal law integrated over the disc of the limit; signed deviations follow the normal law (JCGM 106:2012, 7).
-A guarded decision asks for 95 % of conformance probability before it says pass or fail, after ISO 14253-1:2017.
+A guarded decision asks for 95 % of conformance probability before it says pass or fail, after ISO 14253-1:2017. It
+fails only what the measured value itself says is beyond the limit: with a large uncertainty hardly any value has 5 % of
+probability, and ignorance is no proof.
 """
 
 from __future__ import annotations
@@ -33,10 +35,13 @@ class Decision:
     probability: float | None
 
 
-def decide_probability(probability: float) -> Verdict:
-    """Verdict of a guarded decision: at least 95 % is a pass, at most 5 % a fail, between them inconclusive."""
-    if probability >= PASS_PROBABILITY:
-        return Verdict.PASS
+def decide_probability(probability: float, within: bool) -> Verdict:
+    """Verdict of a guarded decision, from the probability and on which side of its limit the measured value is.
+
+    At least 95 % of a value within its limit is a pass, at most 5 % of one beyond it a fail, all else inconclusive.
+    """
+    if within:
+        return Verdict.PASS if probability >= PASS_PROBABILITY else Verdict.INCONCLUSIVE
     return Verdict.FAIL if probability <= FAIL_PROBABILITY else Verdict.INCONCLUSIVE
 
 
@@ -52,20 +57,20 @@ def decide_radial(offset_mm: Array, covariance: Array | None, limit_mm: float, d
     limit_mm
         Radius of the permitted disc; a value on the limit passes.
     """
+    within = math.hypot(float(offset_mm[0]), float(offset_mm[1])) <= limit_mm
     if decision == "simple" or covariance is None:
-        within = math.hypot(float(offset_mm[0]), float(offset_mm[1])) <= limit_mm
         return Decision(Verdict.PASS if within else Verdict.FAIL, None)
     probability = probability_within_disc(offset_mm, covariance, limit_mm)
-    return Decision(decide_probability(probability), probability)
+    return Decision(decide_probability(probability, within), probability)
 
 
 def decide_per_axis(offset_mm: Array, covariance: Array | None, limit_mm: float, decision: DecisionRule) -> Decision:
     """Whether both components of an offset lie within ±``limit_mm``; as :func:`decide_radial`."""
+    within = float(np.abs(offset_mm).max()) <= limit_mm
     if decision == "simple" or covariance is None:
-        within = float(np.abs(offset_mm).max()) <= limit_mm
         return Decision(Verdict.PASS if within else Verdict.FAIL, None)
     probability = probability_within_square(offset_mm, covariance, limit_mm)
-    return Decision(decide_probability(probability), probability)
+    return Decision(decide_probability(probability, within), probability)
 
 
 def decide_signed(
@@ -73,10 +78,11 @@ def decide_signed(
 ) -> Decision:
     """Whether a signed value lies between its limits (``lower_mm`` None: it has only an upper one)."""
     lower = -math.inf if lower_mm is None else lower_mm
+    within = lower <= value_mm <= upper_mm
     if decision == "simple" or u_mm is None:
-        return Decision(Verdict.PASS if lower <= value_mm <= upper_mm else Verdict.FAIL, None)
+        return Decision(Verdict.PASS if within else Verdict.FAIL, None)
     probability = probability_between(value_mm, u_mm, lower, upper_mm)
-    return Decision(decide_probability(probability), probability)
+    return Decision(decide_probability(probability, within), probability)
 
 
 def probability_between(value: float, u: float, lower: float, upper: float) -> float:
@@ -107,6 +113,9 @@ def probability_within_disc(offset: Array, covariance: Array, radius: float) -> 
     sigma_narrow, sigma_wide = (float(value) for value in np.sqrt(np.maximum(variances, 0.0)))
     if radius <= 0.0:
         return 0.0
+    length = math.hypot(narrow, wide)
+    if abs(radius - length) >= _TAIL_SIGMAS * sigma_wide:  # so far from the rim that the rest is below rounding
+        return float(length < radius)
     if sigma_narrow <= 1e-12 * radius:
         chord = math.sqrt(max(radius**2 - narrow**2, 0.0)) if abs(narrow) <= radius else -1.0
         return probability_between(wide, sigma_wide, -chord, chord) if chord >= 0.0 else 0.0

@@ -34,7 +34,13 @@ class DiscSolution:
 
 
 def smallest_common_disc(
-    p: Array, q: Array, weights: Array, *, decide_at: float | None = None, start: Array | None = None
+    p: Array,
+    q: Array,
+    weights: Array,
+    *,
+    decide_at: float | None = None,
+    start: Array | None = None,
+    gap: float = _GAP,
 ) -> DiscSolution:
     """Minimise the largest w_i·|p_i + τ·q_i + t|² over τ and t.
 
@@ -49,6 +55,8 @@ def smallest_common_disc(
         as its value or its bound says so.
     start
         (n,) multipliers of a problem like these; by default all are equal.
+    gap
+        A problem is left once its value is proven to be within this share of the smallest.
     """
     weights = np.broadcast_to(weights, p.shape[:2])
     z = np.zeros((len(p), 3))
@@ -57,7 +65,7 @@ def smallest_common_disc(
     best, best_z = _largest(p, q, weights, z), z.copy()
     bound = proven_bound(p, q, weights, multipliers)
     level = 1.5 * best + 1e-30
-    open_ = np.flatnonzero(_undecided(best, bound, decide_at))
+    open_ = np.flatnonzero(_undecided(best, bound, decide_at, gap))
     for _ in range(_ROUNDS):
         if not len(open_):
             break
@@ -68,13 +76,13 @@ def smallest_common_disc(
         better = reached < best[open_]
         best[open_[better]], best_z[open_[better]] = reached[better], zk[better]
         bound[open_] = np.maximum(bound[open_], proven_bound(pk, qk, wk, lam))
-        open_ = open_[_undecided(best[open_], bound[open_], decide_at)]
+        open_ = open_[_undecided(best[open_], bound[open_], decide_at, gap)]
     share = multipliers / multipliers.sum(axis=1, keepdims=True)
     return DiscSolution(best_z, best, share, np.minimum(bound, best))
 
 
-def _undecided(best: Array, bound: Array, decide_at: float | None) -> BoolArray:
-    undecided = best - bound > _GAP * best
+def _undecided(best: Array, bound: Array, decide_at: float | None, gap: float) -> BoolArray:
+    undecided = best - bound > gap * best
     if decide_at is not None:
         undecided &= (best > decide_at) & (bound <= decide_at)
     return np.asarray(undecided)

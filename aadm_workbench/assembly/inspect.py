@@ -9,7 +9,10 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from aadm_workbench.assembly.agreement import agree_on_points, agree_on_spacing, agreed
+from aadm_workbench.assembly.blame import blame_of_group
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.exposed import inspect_exposed_length
 from aadm_workbench.assembly.match import Match, Placement
@@ -33,10 +36,14 @@ from aadm_workbench.model import (
     GroupReport,
     PointResult,
     Profile,
+    Rule,
     RuleResult,
     SpacingResult,
     Verdict,
 )
+
+_FEWEST_TO_BLAME = 4
+"""With three points or fewer, no majority says where the others should be."""
 
 NO_ABSOLUTE_POSITION = "absolute position not checked: the job gives no control points"
 
@@ -48,6 +55,7 @@ class _Inspected:
     points: tuple[PointResult, ...]
     spacing: tuple[SpacingResult, ...]
     rules: tuple[RuleResult, ...]
+    blame: str = ""
 
     @property
     def verdict(self) -> Verdict:
@@ -140,7 +148,19 @@ def _inspect(
         rules.append(inspect_exposed_length(design, placed, rule, design_exposed_mm))
     rules += [not_assessed(rule, NO_ABSOLUTE_POSITION) for rule in (*skipped, *more_skipped)]
     rules += [not_assessed(rule, NO_ABSOLUTE_POSITION) for rule in rules_for(profile, "group_position")]
-    return _Inspected(by_position[0], by_spacing[0], tuple(rules))
+    blame = _blame(design, by_position[0], position_rules[0]) if position_rules else ""
+    return _Inspected(by_position[0], by_spacing[0], tuple(rules), blame)
+
+
+def _blame(design: Sequence[AssemblyPoint], points: Sequence[PointResult], rule: Rule) -> str:
+    """Who is really off, where the fit of all points lets others fail."""
+    failing = {point.label for point in points if point.verdict is Verdict.FAIL}
+    known = [(target, point.aligned_mm) for target, point in zip(design, points, strict=True) if point.aligned_mm]
+    if not failing or len(known) < _FEWEST_TO_BLAME:
+        return ""
+    measured = np.array([aligned for _, aligned in known])[:, :2]
+    places = np.array([target.centre for target, _ in known])[:, :2]
+    return blame_of_group([target.label for target, _ in known], measured, places, failing, rule)
 
 
 def _agreed_rules(inspected: Sequence[_Inspected]) -> tuple[RuleResult, ...]:
@@ -182,6 +202,7 @@ def _reasons(match: Match, first: _Inspected, verdict: Verdict) -> tuple[str, ..
         for rule in first.rules
         if rule.rule.endswith("exposed_length") and rule.verdict is Verdict.FAIL and rule.counted
     ]
+    reasons = [first.blame, *reasons] if first.blame else reasons
     if match.orientation != "ambiguous":
         return tuple(reasons)
     if verdict is Verdict.PASS:

@@ -20,7 +20,24 @@ from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 EMBEDMENT_DIAMETERS = 8.0
 """Embedded length of a bar in its diameters, where the design says nothing (JGJ 355-2015, unverified)."""
 
+LEAN_U_RAD = 0.005
+"""Standard uncertainty of a lean per axis where the extraction states none: about 0.3°, by which sleeves and bars lean
+as built, so that the lean counts as unknown."""
+
+STRAIGHT_U_RAD = 0.002
+"""Standard uncertainty, per axis, of a bar's direction below the part of it that was seen: half of the 4 mm a metre by
+which a bar may be bent as delivered (GB/T 1499.2-2018, 6.5, unverified), a limit taken as k = 2."""
+
+SIZE_U_MM = 0.06
+"""Standard uncertainty of a diameter of the design: ±0.1 mm, rectangular, the step in which catalogues give sizes. Ribs
+are the largest and bores the smallest that the standards permit, so that the play of manufacture only adds room."""
+
+MEASURED_SIZE_U_MM = 0.1
+"""Standard uncertainty of an inner diameter from a scan, pooled over the sleeves of one size."""
+
 _LEAST_EMBEDMENT_MM = 10.0
+
+_SAME_SIZE_MM = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +56,14 @@ class Pair:
         (inner diameter of the sleeve − diameter of the bar over its ribs) / 2; None where one is not known.
     covariance
         (2, 2) mm² of rebar minus sleeve; None where one of the two has none.
+    bar_shift_covariance, sleeve_shift_covariance
+        (2, 2) mm² of these shifts; None where they are exact.
+    room_u_mm
+        Standard uncertainty of the room.
+    seen_length_mm
+        Length of the bar below its top whose side was seen, up to the embedded length; None where it is not known.
+    sleeve_u_mm, rebar_u_mm
+        Standard uncertainty per axis of each of the two, of its centre and of its lean over the embedded length.
     """
 
     sleeve: str
@@ -49,6 +74,12 @@ class Pair:
     sleeve_shift: Array
     room_mm: float | None
     covariance: Array | None
+    bar_shift_covariance: Array | None = None
+    sleeve_shift_covariance: Array | None = None
+    room_u_mm: float = 0.0
+    seen_length_mm: float | None = None
+    sleeve_u_mm: float = 0.0
+    rebar_u_mm: float = 0.0
 
 
 def embedded_length_mm(design: ColumnDesign) -> float:
@@ -95,7 +126,9 @@ def form_pairs(
         if sleeve is None or rebar is None:
             continue
         inner_mm = sleeve.diameter_mm if measured_diameters else design.sleeves[index].diameter_mm
-        outer_mm = design.rebar_outer_diameter_mm or over_ribs_mm(design.rebars[other].diameter_mm)
+        bar_shift = _shift_covariance(rebar, length_mm) + _unstraight(rebar, length_mm)
+        sleeve_shift = _shift_covariance(sleeve, length_mm)
+        outer_mm = outer_diameter_mm(design, design.rebars[other])
         pairs.append(
             Pair(
                 sleeve=design.sleeves[index].label,
@@ -106,9 +139,48 @@ def form_pairs(
                 sleeve_shift=length_mm * sleeve.axis[:2] / sleeve.axis[2],
                 room_mm=None if outer_mm is None else (inner_mm - outer_mm) / 2.0,
                 covariance=_together(flat_covariance(sleeve), flat_covariance(rebar)),
+                bar_shift_covariance=bar_shift,
+                sleeve_shift_covariance=sleeve_shift,
+                room_u_mm=float(np.hypot(MEASURED_SIZE_U_MM if measured_diameters else SIZE_U_MM, SIZE_U_MM)) / 2.0,
+                seen_length_mm=None if rebar.seen_length_mm is None else min(rebar.seen_length_mm, length_mm),
+                sleeve_u_mm=_u_mm(flat_covariance(sleeve), sleeve_shift),
+                rebar_u_mm=_u_mm(flat_covariance(rebar), bar_shift),
             )
         )
     return tuple(pairs), tuple(missing)
+
+
+def outer_diameter_mm(design: ColumnDesign, bar: AssemblyPoint) -> float | None:
+    """Diameter of a bar over its ribs, mm: its own, that of all bars of the design, or from the table of sizes.
+
+    None where none of them knows it. One for all bars is not taken for a bar of another size than most of them.
+    """
+    if bar.outer_diameter_mm is not None:
+        return bar.outer_diameter_mm
+    sizes = [other.diameter_mm for other in design.rebars]
+    usual_mm = max(sizes, key=sizes.count)
+    if design.rebar_outer_diameter_mm is not None and abs(bar.diameter_mm - usual_mm) < _SAME_SIZE_MM:
+        return design.rebar_outer_diameter_mm
+    return over_ribs_mm(bar.diameter_mm)
+
+
+def _unstraight(rebar: AssemblyPoint, length_mm: float) -> Array:
+    """Covariance (2, 2), mm², of what a bar may bend below its seen part; all is unseen where nobody says."""
+    unseen_mm = max(length_mm - (rebar.seen_length_mm or 0.0), 0.0)
+    return (STRAIGHT_U_RAD * unseen_mm) ** 2 * np.eye(2)
+
+
+def _u_mm(*parts: Array | None) -> float:
+    return float(np.sqrt(sum(float(np.trace(part)) / 2.0 for part in parts if part is not None)))
+
+
+def _shift_covariance(point: AssemblyPoint, length_mm: float) -> Array:
+    """Covariance (2, 2), mm², of how far an axis moves in the plane over a length, from that of its direction."""
+    if point.axis_covariance is None:
+        return (LEAN_U_RAD * length_mm) ** 2 * np.eye(2)
+    x, y, z = point.axis.tolist()
+    by_axis = length_mm * np.array([[1.0 / z, 0.0, -x / z**2], [0.0, 1.0 / z, -y / z**2]])
+    return np.asarray(by_axis @ point.axis_covariance @ by_axis.T)
 
 
 def _together(first: Array | None, second: Array | None) -> Array | None:

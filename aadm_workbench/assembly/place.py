@@ -12,10 +12,14 @@ from aadm_workbench.model import Array, AssemblyPoint, Extraction
 
 @dataclass(frozen=True, eq=False)
 class PlacedPoint:
-    """A measured point: ``point`` in the column frame, ``scan_mm`` (3,) where it is in the scan frame."""
+    """A measured point: ``point`` in the column frame, ``scan_mm`` (3,) where it is in the scan frame.
+
+    ``from_camera`` (3,) mm is the way to it from the origin of the scan frame, in the axes of the column frame.
+    """
 
     point: AssemblyPoint
     scan_mm: Array
+    from_camera: Array
     exposed_length_mm: float | None = None
 
 
@@ -29,7 +33,10 @@ def place_points(extraction: Extraction, placement: Placement) -> tuple[PlacedPo
         None
         if index < 0
         else PlacedPoint(
-            _placed(extraction.points[index], placement.T_design_scan), extraction.points[index].centre, exposed[index]
+            _placed(extraction.points[index], placement.T_design_scan),
+            extraction.points[index].centre,
+            placement.T_design_scan[:3, :3] @ extraction.points[index].centre,
+            exposed[index],
         )
         for index in placement.matched.tolist()
     )
@@ -42,8 +49,13 @@ def _placed(point: AssemblyPoint, T_design_scan: Array) -> AssemblyPoint:
         point,
         centre=rotation @ point.centre + T_design_scan[:3, 3],
         axis=-axis if axis[2] < 0.0 else axis,
-        covariance=None if point.covariance is None else rotation @ point.covariance @ rotation.T,
+        covariance=_turned(point.covariance, rotation),
+        axis_covariance=_turned(point.axis_covariance, rotation),
     )
+
+
+def _turned(covariance: Array | None, rotation: Array) -> Array | None:
+    return None if covariance is None else rotation @ covariance @ rotation.T
 
 
 def flat_covariance(point: AssemblyPoint) -> Array | None:

@@ -21,7 +21,7 @@ from aadm_workbench.assembly.decision import (
 )
 from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
 from aadm_workbench.assembly.tolerances import describe_clause
-from aadm_workbench.model import Array, AssemblyPoint, PointResult, Rule, Vector3, Verdict
+from aadm_workbench.model import Array, AssemblyPoint, PointResult, Rule, Vector2, Vector3, Verdict
 
 
 def inspect_positions(
@@ -58,7 +58,9 @@ def inspect_positions(
     covariances = residual_covariances(flat, [flat_covariance(point) for point in points], scale_error)
     known = dict(zip(found, covariances, strict=True))
     return tuple(
-        _unmeasured(target, rule, missing) if point is None else _measured(target, point, known[index], rule, decision)
+        _unmeasured(target, rule, missing)
+        if point is None
+        else _measured(target, point, known[index], rule, decision, scale_error)
         for index, (target, point) in enumerate(zip(design, placed, strict=True))
     )
 
@@ -116,8 +118,29 @@ def _unmeasured(target: AssemblyPoint, rule: Rule | None, missing: str) -> Point
     )
 
 
+def covariance_before_fit(measured: PlacedPoint, scale_error: float) -> Array | None:
+    """Covariance (2, 2), mm², of a centre as the scan has it, in the plane of the column frame.
+
+    Parameters
+    ----------
+    scale_error
+        Relative standard uncertainty of the camera's lengths: it moves a point along its line from the camera, the
+        origin of the scan frame. What of that is common to all points is still in it, for no fit was made.
+    """
+    own = flat_covariance(measured.point)
+    if own is None:
+        return None
+    stretch = scale_error * measured.from_camera[:2]
+    return own + np.outer(stretch, stretch)
+
+
 def _measured(
-    target: AssemblyPoint, measured: PlacedPoint, covariance: Array | None, rule: Rule | None, decision: DecisionRule
+    target: AssemblyPoint,
+    measured: PlacedPoint,
+    covariance: Array | None,
+    rule: Rule | None,
+    decision: DecisionRule,
+    scale_error: float,
 ) -> PointResult:
     offset = measured.point.centre[:2] - target.centre[:2]
     deviation_mm = math.hypot(float(offset[0]), float(offset[1]))
@@ -142,7 +165,22 @@ def _measured(
         reason=_reason(target.label, deviation_mm, u_mm, rule, decided.verdict),
         probability=decided.probability,
         exposed_length_mm=measured.exposed_length_mm,
+        axis=as_vector(measured.point.axis),
+        u_axis_deg=None if measured.point.axis_covariance is None else _u_deg(measured.point.axis_covariance),
+        cov_mm2=_rows(covariance_before_fit(measured, scale_error)),
     )
+
+
+def _u_deg(axis_covariance: Array) -> float:
+    """Standard uncertainty of a direction per axis: its covariance (3, 3) has two axes across it."""
+    return math.degrees(math.sqrt(max(float(np.trace(axis_covariance)) / 2.0, 0.0)))
+
+
+def _rows(covariance: Array | None) -> tuple[Vector2, Vector2] | None:
+    if covariance is None:
+        return None
+    (xx, xy), (yx, yy) = covariance.tolist()
+    return (xx, xy), (yx, yy)
 
 
 def _reason(label: str, deviation_mm: float, u_mm: float | None, rule: Rule | None, verdict: Verdict) -> str:

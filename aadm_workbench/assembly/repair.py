@@ -1,8 +1,10 @@
 """What would let a column go on its bars: the fewest bars to bend, by which vectors, or the sleeve to reject.
 
-Of all sets of the smallest size the one is chosen in which every bar stays within its own limit of position, then the
-one that bends least. Advice is all that this is: it is subject to the engineer's release, and beyond the profile's
-``rebar_adjustment`` it is no bend but a disposal plan agreed with the designer.
+Bars that stand beyond their own limit of position are tried first, then those whose sleeves do, then all: a bar that
+is right is not bent after one that is wrong. Of all sets of the smallest size the one is chosen in which every bar
+stays within its own limit, then the one that bends least. The limits are narrowed by what is not known, and the trial
+is made again with the bars as they then stand. Advice is all that this is: it is subject to the engineer's release, and
+beyond the profile's ``rebar_adjustment`` it is no bend but a disposal plan agreed with the designer.
 """
 
 from __future__ import annotations
@@ -12,20 +14,20 @@ from dataclasses import replace
 
 import numpy as np
 
+from aadm_workbench.assembly.best_pose import fit_best_pose
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.eopa import NoFit
-from aadm_workbench.assembly.existence import probability_of_a_pose
-from aadm_workbench.assembly.minimax import fit_minimax
-from aadm_workbench.assembly.repair_case import RepairCase, repair_case
+from aadm_workbench.assembly.existence import existence_of_a_pose
+from aadm_workbench.assembly.repair_case import RepairCase, guarded_case, repair_case
 from aadm_workbench.assembly.repair_plan import RepairPlan, after_repair, choose_plan
 from aadm_workbench.assembly.repair_search import of_bars_that_stay, smallest_sets, within_reach
-from aadm_workbench.assembly.repair_steps import repair_steps
-from aadm_workbench.assembly.repair_words import NOTHING_FOUND, advice_on_pose, advice_on_steps
+from aadm_workbench.assembly.repair_steps import repair_steps, still_beyond
+from aadm_workbench.assembly.repair_words import ADVICE_TO_RESCAN, NOTHING_FOUND, advice_on_steps
 from aadm_workbench.assembly.tolerances import describe_clause
-from aadm_workbench.assembly.trial_pose import evaluate_pose
-from aadm_workbench.assembly.trial_verdict import collisions
+from aadm_workbench.assembly.trial_pose import evaluate_best_pose
 from aadm_workbench.model import (
     AssemblyPoint,
+    BoolArray,
     ColumnDesign,
     Profile,
     RepairAction,
@@ -65,27 +67,37 @@ def advise_repair(
     case = repair_case(design, sleeves, rebars, trial, profile)
     if case is None:
         return None
-    found = _best_plan(case)
-    if found is None:
-        return RepairReport(RepairAction.DISPOSAL_PLAN, NOTHING_FOUND, exact=False)
-    plan, exact = found
-    report = _tried_again(_report(case, plan, exact, trial), case, plan, decision, generator)
-    advice = advice_on_steps(report, trial) if plan.bends else advice_on_pose(report, case, plan)
+    if case.best.exists:
+        plan, exact = RepairPlan((), case.best.yaw, case.best.shift, True, case.best.ratio), True
+    else:
+        found = _best_plan(guarded_case(case)) or _best_plan(case)
+        if found is None:
+            return RepairReport(RepairAction.DISPOSAL_PLAN, NOTHING_FOUND, exact=False)
+        plan, exact = found
+    report = _tried_again(_report(case, plan, exact), case, plan, decision, generator)
+    advice = advice_on_steps(report, trial) if plan.bends else ADVICE_TO_RESCAN
     notes = (f"not measured, and not in this advice: {', '.join(trial.missing)}",) if trial.missing else ()
     return replace(report, advice=advice, notes=(*report.notes, *notes))
 
 
 def _best_plan(case: RepairCase) -> tuple[RepairPlan, bool] | None:
-    """The plan to advise, and whether no smaller set of bars would do.
+    """The plan to advise among the first kind of bars that helps, and whether no smaller set of these would do."""
+    kinds = (case.rebar_fails, case.rebar_fails | case.sleeve_fails, np.ones(len(case.pairs), dtype=bool))
+    plans = (_plan_among(case, among) for among in kinds if among.any())
+    return next((found for found in plans if found is not None), None)
+
+
+def _plan_among(case: RepairCase, among: BoolArray) -> tuple[RepairPlan, bool] | None:
+    """The plan to advise of those that bend only some bars (n,).
 
     A larger set within the adjustment limit takes the place of a smaller one beyond it only where it keeps every bar
     near its own place: one bar that stands far off is no reason to bend its neighbours after it.
     """
     count, stay = len(case.pairs), of_bars_that_stay(case.constraints)
-    sets, exact = smallest_sets([stay], count)
-    if case.adjustment_mm is not None:
+    sets, exact = smallest_sets([stay], count, among)
+    if sets and case.adjustment_mm is not None:
         reach = within_reach(case.constraints, case.rebars, case.sleeves, case.places, case.adjustment_mm)
-        reachable, proven = smallest_sets([stay, reach], count)
+        reachable, proven = smallest_sets([stay, reach], count, among)
         if reachable:
             plan = choose_plan(case, reachable, [stay, reach], case.adjustment_mm)
             if plan.within_own or len(reachable[0].bent) == len(sets[0].bent):
@@ -93,13 +105,10 @@ def _best_plan(case: RepairCase) -> tuple[RepairPlan, bool] | None:
     return (choose_plan(case, sets, [stay], None), exact) if sets else None
 
 
-def _report(case: RepairCase, plan: RepairPlan, exact: bool, trial: TrialReport) -> RepairReport:
+def _report(case: RepairCase, plan: RepairPlan, exact: bool) -> RepairReport:
     steps = repair_steps(case, plan)
-    if steps:
-        present = {step.action for step in steps}
-        action = next(action for action in _GRAVEST_FIRST if action in present)
-    else:
-        action = RepairAction.REPOSITION if trial.collisions else RepairAction.RESCAN
+    present = {step.action for step in steps}
+    action = next((action for action in _GRAVEST_FIRST if action in present), RepairAction.RESCAN)
     return RepairReport(
         action=action,
         advice="",
@@ -113,18 +122,18 @@ def _report(case: RepairCase, plan: RepairPlan, exact: bool, trial: TrialReport)
 def _tried_again(
     report: RepairReport, case: RepairCase, plan: RepairPlan, decision: DecisionRule, generator: np.random.Generator
 ) -> RepairReport:
-    """The trial once all steps are done; at the plan's own pose where that of the least distance still collides."""
+    """The trial once all steps are done, and the bars that then still stand beyond their own limit."""
     pairs = after_repair(case, plan)
-    rebars, sleeves = np.array([pair.rebar_xy for pair in pairs]), case.sleeves
-    fit = fit_minimax(rebars, sleeves, case.limits_mm)
+    fit = fit_best_pose(pairs, case.limits_mm)
     if isinstance(fit, NoFit) or any(step.bend_mm is None for step in report.steps):
         return report
-    after = evaluate_pose(pairs, fit.yaw, fit.shift, case.distance_rule, decision)
-    notes: tuple[str, ...] = ()
-    if collisions(after):
-        after = evaluate_pose(pairs, plan.yaw, plan.shift, case.distance_rule, decision)
-        notes = ("it goes in without touching at the pose given here, not at that of the least distance",)
-    probability = None
+    existence = None
     if decision == "guarded":
-        probability = probability_of_a_pose(pairs, case.limits_mm, fit.yaw, fit.shift, generator, SAMPLES)
-    return replace(report, after=after, margin=fit.margin, probability=probability, notes=notes)
+        existence = existence_of_a_pose(pairs, case.limits_mm, fit, generator, SAMPLES)
+    return replace(
+        report,
+        after=evaluate_best_pose(pairs, case.limits_mm, fit, case.distance_rule, decision),
+        margin=fit.margin,
+        probability=None if existence is None else existence.probability,
+        still_fails=still_beyond(case, pairs),
+    )

@@ -56,7 +56,9 @@ class RepairPlan:
 def choose_plan(
     case: RepairCase, sets: Sequence[BarSet], limits: Sequence[Limits], reach_mm: float | None
 ) -> RepairPlan:
-    """The plan that keeps bars within their own limits, if one does, and of these the one that bends least.
+    """The plan that bends the fewest bars that are right, keeps all bars within their own limits, and bends least.
+
+    The first comes before the second, and that before the third.
 
     Parameters
     ----------
@@ -67,11 +69,21 @@ def choose_plan(
     reach_mm
         How far a bar may be bent; None for any distance.
     """
-    sets = sorted(sets, key=lambda found: found.ratio)[:_MOST_SETS]
+    sets = sorted(sets, key=lambda found: (_good(case, found.bent), found.ratio))[:_MOST_SETS]
     plans = [_plan(case, found.bent, found.z, found.ratio, None, reach_mm) for found in sets]
     if case.position_limit_mm is not None and sets[0].bent:
         plans += _within_own_limits(case, sets, limits, reach_mm)
-    return min(plans, key=lambda plan: (not plan.within_own, round(plan.longest_mm, 3), plan.ratio))
+    return min(plans, key=lambda plan: _preference(case, plan))
+
+
+def _preference(case: RepairCase, plan: RepairPlan) -> tuple[int, bool, float, float]:
+    good = _good(case, tuple(bend.pair for bend in plan.bends))
+    return good, not plan.within_own, round(plan.longest_mm, 3), plan.ratio
+
+
+def _good(case: RepairCase, bent: tuple[int, ...]) -> int:
+    """How many of these pairs have neither a bar nor a sleeve that stands beyond its own limit."""
+    return int((~(case.rebar_fails | case.sleeve_fails))[list(bent)].sum())
 
 
 def after_repair(case: RepairCase, plan: RepairPlan) -> tuple[Pair, ...]:

@@ -72,16 +72,24 @@ def solve_sets(sets: Sequence[tuple[int, ...]], limits: Sequence[Limits], pairs:
     return _stacked(sets, limits, pairs).solved()
 
 
-def smallest_sets(limits: Sequence[Limits], pairs: int) -> tuple[list[BarSet], bool]:
+def smallest_sets(limits: Sequence[Limits], pairs: int, among: BoolArray) -> tuple[list[BarSet], bool]:
     """All sets of the smallest size that let the column in, and whether no smaller set does.
 
     Beyond :data:`EXACT_BARS` bars a beam of the best sets is followed, and what it finds is returned as not exact;
     nothing where not even all bars together help.
+
+    Parameters
+    ----------
+    among
+        (pairs,): which bars may be bent.
     """
-    everything = tuple(range(pairs))
-    if len(limits) > 1 and solve_sets([everything], limits, pairs).ratio_squared[0] > FEASIBLE:
-        return [], True
+    everything = tuple(np.flatnonzero(among).tolist())
     hopeless = {int(owner) for limit in limits for owner in limit.owner[limit.limits_mm <= 0.0]}
+    if not hopeless <= set(everything):
+        return [], True
+    restricted = len(limits) > 1 or len(everything) < pairs
+    if restricted and solve_sets([everything], limits, pairs).ratio_squared[0] > FEASIBLE:
+        return [], True
     level = [tuple(sorted(hopeless))]
     for size in range(len(hopeless), pairs + 1):
         stack = _stacked(level, limits, pairs)
@@ -91,7 +99,7 @@ def smallest_sets(limits: Sequence[Limits], pairs: int) -> tuple[list[BarSet], b
             return (found, True) if size <= EXACT_BARS else ([_without_idle(found[0], limits, pairs)], False)
         order = np.argsort(solution.ratio_squared, kind="stable")
         kept = order if size < EXACT_BARS else order[:_BEAM]
-        level = _branch(stack, solution, kept)
+        level = _branch(stack, solution, kept, among)
         if not level:
             return [], size < EXACT_BARS
     return [], False
@@ -148,12 +156,12 @@ def _without_idle(best: BarSet, limits: Sequence[Limits], pairs: int) -> BarSet:
         best = _set(fewer[row], solution, row)
 
 
-def _branch(stack: _Stack, solution: DiscSolution, rows: IntArray) -> list[tuple[int, ...]]:
-    """The sets with one more bar, each of those that prove why the set without it does not help."""
+def _branch(stack: _Stack, solution: DiscSolution, rows: IntArray, among: BoolArray) -> list[tuple[int, ...]]:
+    """The sets with one more bar, each of those that prove why the set without it does not help and may be bent."""
     grown: dict[tuple[int, ...], None] = {}
     for row in rows.tolist():
         proof = _proof(stack, solution.multipliers[row], row) & stack.of_staying
-        for bar in np.unique(stack.owner[proof]).tolist():
+        for bar in np.unique(stack.owner[proof & among[stack.owner]]).tolist():
             grown[tuple(sorted((*stack.sets[row], bar)))] = None
     return list(grown)
 

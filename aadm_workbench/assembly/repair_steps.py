@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from aadm_workbench.assembly.eopa import NoFit, fit_eopa_planar
+from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.repair_case import RepairCase
 from aadm_workbench.assembly.repair_places import own_places
 from aadm_workbench.assembly.repair_plan import Bend, RepairPlan, after_repair
@@ -25,6 +28,14 @@ def repair_steps(case: RepairCase, plan: RepairPlan) -> tuple[RepairStep, ...]:
     )
 
 
+def still_beyond(case: RepairCase, pairs: Sequence[Pair]) -> tuple[str, ...]:
+    """Labels of the bars that a check would then find beyond their limit of position, after the fit of all bars."""
+    if case.position_limit_mm is None:
+        return ()
+    off_mm = _deviations(np.array([pair.rebar_xy for pair in pairs]), case.rebar_design)
+    return tuple(pair.rebar for pair, off in zip(pairs, off_mm, strict=True) if off > case.position_limit_mm)
+
+
 def _step(
     case: RepairCase, bend: Bend, before_mm: float, after_mm: float, rebar_off_mm: float, sleeve_off_mm: float
 ) -> RepairStep:
@@ -33,10 +44,11 @@ def _step(
     keeps_own = bend.by is not None and (limit_mm is None or after_mm <= limit_mm)
     sleeve_is_off = case.sleeve_rule is not None and sleeve_off_mm > case.sleeve_rule.upper
     rebar_is_right = limit_mm is None or rebar_off_mm <= limit_mm
+    sleeve_to_blame = sleeve_is_off and rebar_is_right
     may_bend = case.adjustment_mm is not None and bend.length_mm <= case.adjustment_mm + 1e-9
     if may_bend and keeps_own:
         action, reason = RepairAction.BEND, ""
-    elif sleeve_is_off and rebar_is_right:
+    elif sleeve_to_blame:
         action = RepairAction.REJECT_SLEEVE
         reason = (
             f"{pair.sleeve} is {sleeve_off_mm:.2f} mm off the place that the other sleeves give it, {pair.rebar} is not"
@@ -59,6 +71,8 @@ def _step(
         position_limit_mm=limit_mm,
         sleeve_off_mm=sleeve_off_mm,
         reason=reason,
+        blamed=pair.sleeve if sleeve_to_blame else pair.rebar,
+        off_mm=sleeve_off_mm if sleeve_to_blame else rebar_off_mm,
     )
 
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
 from aadm_workbench.assembly.decision import PASS_PROBABILITY
-from aadm_workbench.assembly.repair_case import RepairCase
-from aadm_workbench.assembly.repair_plan import RepairPlan
 from aadm_workbench.model import RepairAction, RepairReport, RepairStep, TrialReport, Verdict
 
 DISPOSAL_PLAN = "a disposal plan (特殊处理方案) agreed with the designer is needed"
 NOTHING_FOUND = f"no set of bars was found whose bending would let the column in: {DISPOSAL_PLAN}"
+
+ADVICE_TO_RESCAN = "rescan closer: at the measured values the column goes in, no bar has to be bent"
 
 _MOST_NAMED = 3
 _RELEASE = "subject to the engineer's release"
@@ -25,20 +23,7 @@ def advice_on_steps(report: RepairReport, trial: TrialReport) -> str:
     parts = [_of_step(step) for step in report.steps]
     first = "rescan closer; if that confirms it, " if trial.verdict is Verdict.INCONCLUSIVE else ""
     bars = "" if report.exact else " (the best that was found; fewer bars might do)"
-    return f"{_RELEASE}: {first}{'; '.join(parts)}{bars}{_outcome(report)}"
-
-
-def advice_on_pose(report: RepairReport, case: RepairCase, plan: RepairPlan) -> str:
-    """Where no bar has to be bent: another pose, or a better scan."""
-    if report.action is RepairAction.RESCAN:
-        return "rescan closer: at the measured values the column goes in, no bar has to be bent"
-    # Bars that move against the sleeves are a column that moves the other way.
-    dx, dy = (float(value) for value in case.shift - plan.shift)
-    yaw_deg = math.degrees(case.yaw - plan.yaw)
-    return (
-        f"{_RELEASE}: no bar has to be bent; the column goes in without touching where it is set down "
-        f"({dx:+.1f}, {dy:+.1f}) mm and {yaw_deg:+.2f}° off the pose of the least distance"
-    )
+    return f"{_RELEASE}: {first}{'; '.join(parts)}{bars}{_outcome(report)}{_still(report)}"
 
 
 def _of_step(step: RepairStep) -> str:
@@ -58,3 +43,11 @@ def _outcome(report: RepairReport) -> str:
     if report.probability is not None and report.probability < PASS_PROBABILITY:
         then += f", and the trial may stay inconclusive (a pose exists with {100.0 * report.probability:.0f} %)"
     return then
+
+
+def _still(report: RepairReport) -> str:
+    """What fails even then: the position of bars that the trial does not ask for."""
+    if not report.still_fails:
+        return ""
+    one = len(report.still_fails) == 1
+    return f". Still beyond {'its' if one else 'their'} own limit of position then: {', '.join(report.still_fails)}"

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from aadm_workbench.assembly.best_pose import fit_best_pose
 from aadm_workbench.assembly.eopa import NoFit
 from aadm_workbench.assembly.match import Match
-from aadm_workbench.assembly.minimax import fit_minimax
 from aadm_workbench.assembly.pairs import form_pairs
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.rules import applicable_rules
@@ -20,6 +20,9 @@ from aadm_workbench.assembly.trial_pose import evaluate_pose
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, FitCell, Profile
 
 SAME_PLACE_MM = 0.5
+
+NO_ROOM_MARGIN = -1.0
+"""Margin of a column one of whose bars is as wide as its sleeve: as of a distance of twice its limit."""
 
 _Points = Sequence[AssemblyPoint | None]
 
@@ -94,20 +97,11 @@ def _in_turn(
     limits_mm = distance_limits(pairs, rule)
     if limits_mm is None:
         return FitCell(None, turn_deg=turn_deg, reason="neither a limit of the distance nor the room is known")
-    fit = fit_minimax(
-        np.array([pair.rebar_xy for pair in pairs]).reshape(-1, 2),
-        np.array([pair.sleeve_xy for pair in pairs]).reshape(-1, 2),
-        limits_mm,
-    )
+    fit = fit_best_pose(pairs, limits_mm)
     if isinstance(fit, NoFit):
         return FitCell(None, turn_deg=turn_deg, reason=fit.reason)
     pose = evaluate_pose(pairs, fit.yaw, fit.shift, rule, "simple")
-    rooms = [
-        result.clearance_mm / max(pair.room_mm or 0.0, 1.0)
-        for pair, result in zip(pairs, pose.pairs, strict=True)
-        if result.clearance_mm is not None and result.clearance_mm < 0.0
-    ]
-    margin = min([fit.margin, *rooms])
+    margin = NO_ROOM_MARGIN if fit.margin is None else fit.margin
     if missing and margin >= 0.0:
         return FitCell(None, pose.max_mm, turn_deg, f"not measured: {', '.join(missing)}")
     return FitCell(margin, pose.max_mm, turn_deg)

@@ -1,7 +1,8 @@
 """Virtual trial assembly: will this column go on these bars (paper, 2.1.3).
 
-Bars are brought onto sleeves in the plane in two ways. Least squares, as published, says how they differ; minimax, the
-pose with the smallest largest distance, says whether they go together, and the verdict follows it.
+Bars are brought onto sleeves in the plane. Least squares, as published, says how they differ; minimax is the pose with
+the smallest largest distance; and the best pose leaves most of distance and room over the ribs together. The column
+goes on where some pose keeps every limit and every room: the verdict follows the probability that there is one.
 """
 
 from __future__ import annotations
@@ -13,9 +14,11 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.assembly.agreement import agreed
+from aadm_workbench.assembly.best_pose import fit_best_pose
+from aadm_workbench.assembly.common_lean import common_lean
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.eopa import NoFit, fit_eopa_planar
-from aadm_workbench.assembly.existence import SAMPLES, probability_of_a_pose
+from aadm_workbench.assembly.existence import SAMPLES, existence_of_a_pose
 from aadm_workbench.assembly.inspect import describe_ambiguity
 from aadm_workbench.assembly.match import Match, Placement
 from aadm_workbench.assembly.minimax import fit_minimax
@@ -24,7 +27,7 @@ from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.rules import applicable_rules
 from aadm_workbench.assembly.symmetry import SymmetricTurn, symmetric_turns
 from aadm_workbench.assembly.tolerances import describe_clause
-from aadm_workbench.assembly.trial_pose import evaluate_pose
+from aadm_workbench.assembly.trial_pose import evaluate_best_pose, evaluate_pose
 from aadm_workbench.assembly.trial_verdict import collisions, judge_trial, judge_without_limits
 from aadm_workbench.model import (
     Array,
@@ -126,7 +129,7 @@ def try_assembly(
         pairs, missing = form_pairs(
             design, sleeves, rebars, option.onto.tolist(), measured_diameters=measured_diameters
         )
-        report = _try_pairs(pairs, missing, profile, generator, decision, samples)
+        report = _try_both_ways(pairs, missing, profile, generator, decision, samples, embedded_length_mm(design))
         reports.append(replace(report, turn_deg=math.degrees(option.angle)))
     best = min(reports, key=lambda report: _BEST_FIRST.index(report.verdict))
     listed = tuple(
@@ -141,7 +144,8 @@ def try_assembly(
 
 def _design_notes(design: ColumnDesign, profile: Profile) -> tuple[str, ...]:
     """What of the design itself bears on the trial: an assumed size, and pairs that miss the limit as drawn."""
-    notes = [] if design.rebar_outer_diameter_mm else [f"diameter over the ribs after {RIBBED_BAR_SOURCE}"]
+    given = design.rebar_outer_diameter_mm or all(bar.outer_diameter_mm for bar in design.rebars)
+    notes = [] if given else [f"diameter over the ribs after {RIBBED_BAR_SOURCE}"]
     for rule in applicable_rules(profile, "sleeve_rebar_distance")[0][:1]:
         for sleeve, rebar in zip(design.sleeves, design.rebars, strict=False):
             apart_mm = float(np.hypot(*(rebar.centre - sleeve.centre)[:2]))
@@ -155,6 +159,29 @@ def _design_notes(design: ColumnDesign, profile: Profile) -> tuple[str, ...]:
 
 def _in_column_frame(extraction: Extraction, placement: Placement) -> list[AssemblyPoint | None]:
     return [None if placed is None else placed.point for placed in place_points(extraction, placement)]
+
+
+def _try_both_ways(
+    pairs: tuple[Pair, ...],
+    missing: tuple[str, ...],
+    profile: Profile,
+    generator: np.random.Generator,
+    decision: DecisionRule,
+    samples: int,
+    length_mm: float,
+) -> TrialReport:
+    """The trial as measured; where all axes lean alike, it is decided only as far as it does not depend on that."""
+    report = _try_pairs(pairs, missing, profile, generator, decision, samples)
+    shared = common_lean(pairs, length_mm)
+    if not shared or report.best is None:
+        return report
+    said = shared.in_words(length_mm)
+    other = _try_pairs(shared.taken_off(pairs), missing, profile, generator, decision, samples)
+    if other.verdict is report.verdict:
+        return replace(report, notes=(*report.notes, said))
+    verdict = Verdict.NOT_MEASURED if missing else Verdict.INCONCLUSIVE
+    depends = f"{said}; as measured the trial comes to {report.verdict.value}, without that to {other.verdict.value}"
+    return replace(report, verdict=verdict, reasons=(depends, *report.reasons))
 
 
 def _try_pairs(
@@ -176,21 +203,20 @@ def _try_pairs(
     fit = fit_minimax(source, target, np.ones(len(pairs)) if limits is None else limits)
     if isinstance(fit, NoFit):
         return TrialReport(Verdict.NOT_MEASURED, missing=missing, reasons=(fit.reason,))
-    least_squares = evaluate_pose(pairs, squares.yaw, squares.t, rule, decision)
-    minimax = evaluate_pose(pairs, fit.yaw, fit.shift, rule, decision)
     report = TrialReport(
         verdict=Verdict.NOT_ASSESSED,
-        least_squares=least_squares,
-        minimax=minimax,
+        least_squares=evaluate_pose(pairs, squares.yaw, squares.t, rule, decision),
+        minimax=(minimax := evaluate_pose(pairs, fit.yaw, fit.shift, rule, decision)),
         collisions=collisions(minimax),
         missing=missing,
     )
-    if limits is None:
+    best = None if limits is None else fit_best_pose(pairs, limits)
+    if limits is None or best is None or isinstance(best, NoFit):
         return judge_without_limits(report)
-    probability = None
-    if decision == "guarded":
-        probability = probability_of_a_pose(pairs, limits, fit.yaw, fit.shift, generator, samples)
-    return judge_trial(report, pairs, limits, fit, probability, profile)
+    pose = evaluate_best_pose(pairs, limits, best, rule, decision)
+    existence = existence_of_a_pose(pairs, limits, best, generator, samples) if decision == "guarded" else None
+    report = replace(report, best=pose, collisions=collisions(pose))
+    return judge_trial(report, pairs, best, existence, profile)
 
 
 def distance_limits(pairs: Sequence[Pair], rule: Rule | None) -> Array | None:

@@ -1,22 +1,27 @@
-"""The verdict on a trial assembly, after its minimax pose."""
+"""The verdict on a trial assembly: does a pose exist in which every pair keeps its limit and its room."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from aadm_workbench.assembly.best_pose import BestFit
 from aadm_workbench.assembly.decision import decide_probability
-from aadm_workbench.assembly.existence import pose_exists
-from aadm_workbench.assembly.minimax import MinimaxPose
+from aadm_workbench.assembly.existence import Existence
 from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.rules import applicable_rules, not_assessed, rule_result
 from aadm_workbench.assembly.upright import turn
 from aadm_workbench.assembly.window import find_window
-from aadm_workbench.model import Array, PairResult, PoseWindow, Profile, RuleResult, TrialPose, TrialReport, Verdict
+from aadm_workbench.model import PairResult, PoseWindow, Profile, RuleResult, TrialPose, TrialReport, Verdict
 
 QUANTITY = "sleeve_rebar_distance"
+NO_POSE = "no pose brings every rebar into its sleeve"
+
+_MOST_RESCANNED = 2
+_OF_THE_WORST = 0.5
 
 
 def collisions(pose: TrialPose) -> tuple[str, ...]:
@@ -25,47 +30,42 @@ def collisions(pose: TrialPose) -> tuple[str, ...]:
 
 
 def judge_trial(
-    report: TrialReport,
-    pairs: Sequence[Pair],
-    limits_mm: Array,
-    fit: MinimaxPose,
-    probability: float | None,
-    profile: Profile,
+    report: TrialReport, pairs: Sequence[Pair], fit: BestFit, existence: Existence | None, profile: Profile
 ) -> TrialReport:
     """Verdict of a trial with its margin, its window and its reasons.
 
-    A collision at the minimax pose fails. Else the probability that a pose exists decides, or, where there is none,
-    the largest ratio of distance to limit. What does not fail but lacks a pair is not measured.
+    The probability that a pose exists decides, or, where there is none, whether one does by value alone; a trial fails
+    only where the measured values themselves say that none does. What does not fail but lacks a pair is not measured.
 
     Parameters
     ----------
     report
-        Holding the poses, the collisions and the missing points.
-    limits_mm
-        (n,) float64, of the distances.
-    probability
-        That a pose exists; None decides by value alone.
+        Holding the poses and the missing points.
+    fit
+        The best pose.
+    existence
+        How likely it is that a pose exists; None decides by value alone.
     """
-    if report.minimax is None:
-        return report
-    if probability is None:
-        verdict = Verdict.PASS if fit.ratio <= 1.0 else Verdict.FAIL
+    if existence is None:
+        verdict = Verdict.PASS if fit.exists else Verdict.FAIL
     else:
-        verdict = decide_probability(probability)
-    by_distance = verdict
-    if report.collisions:
-        verdict = Verdict.FAIL
+        verdict = decide_probability(existence.probability, fit.exists or not existence.contradicted)
+    by_measure = verdict
     if report.missing and verdict is not Verdict.FAIL:
         verdict = Verdict.NOT_MEASURED
+    rescan: tuple[tuple[str, str], ...] = ()
+    if by_measure is Verdict.INCONCLUSIVE and existence is not None:
+        rescan = points_to_rescan(pairs, fit, existence)
     return replace(
         report,
         verdict=verdict,
-        reasons=_reasons(report, verdict, by_distance, probability),
-        rules=_rules(profile, report.minimax, by_distance),
-        probability=probability,
+        reasons=_reasons(report, verdict, by_measure, existence, rescan),
+        rules=_rules(profile, report, by_measure),
+        probability=None if existence is None else existence.probability,
         margin=fit.margin,
-        window=_window(pairs, fit, limits_mm),
-        notes=_notes(report, pairs, fit, limits_mm),
+        window=_window(fit) if fit.exists else None,
+        notes=_notes(pairs),
+        rescan=tuple(label for label, _ in rescan),
     )
 
 
@@ -78,50 +78,92 @@ def judge_without_limits(report: TrialReport) -> TrialReport:
     return replace(report, verdict=Verdict.NOT_ASSESSED, reasons=(reason,))
 
 
+def points_to_rescan(pairs: Sequence[Pair], fit: BestFit, existence: Existence) -> tuple[tuple[str, str], ...]:
+    """Labels of the points whose uncertainty leaves it open whether a pose exists, and what is to be said of each.
+
+    Of the pairs that break a limit in most draws, and that decide at the best pose or cannot be decided at any, each
+    gives the one of its two points that is known worse.
+    """
+    weight = existence.violated * np.array([pair_u_mm(pair) for pair in pairs])
+    if not weight.any():
+        weight = fit.multipliers
+    order = np.argsort(-weight, kind="stable")[:_MOST_RESCANNED]
+    return tuple(_to_rescan(pairs[k]) for k in order.tolist() if weight[k] >= _OF_THE_WORST * weight[order[0]])
+
+
+def pair_u_mm(pair: Pair) -> float:
+    """Standard uncertainty per axis of a pair, mm, of its centres and of both leans over the embedded length."""
+    parts = (pair.covariance, pair.bar_shift_covariance, pair.sleeve_shift_covariance)
+    return math.sqrt(sum(float(np.trace(part)) / 2.0 for part in parts if part is not None))
+
+
+def _to_rescan(pair: Pair) -> tuple[str, str]:
+    label = pair.sleeve if pair.sleeve_u_mm > pair.rebar_u_mm else pair.rebar
+    return label, f"{label} (u = {max(pair.sleeve_u_mm, pair.rebar_u_mm):.2f} mm)"
+
+
 def _collides(pair: PairResult) -> bool:
     return pair.clearance_mm is not None and pair.clearance_mm < 0.0
 
 
-def _reasons(report: TrialReport, verdict: Verdict, by_distance: Verdict, probability: float | None) -> tuple[str, ...]:
-    pairs = () if report.minimax is None else report.minimax.pairs
+def _reasons(
+    report: TrialReport,
+    verdict: Verdict,
+    by_measure: Verdict,
+    existence: Existence | None,
+    rescan: tuple[tuple[str, str], ...],
+) -> tuple[str, ...]:
+    pairs = () if report.best is None else report.best.pairs
     reasons: list[str] = []
     if verdict is Verdict.FAIL:
-        reasons += [pair.reason for pair in pairs if pair.reason and (pair.verdict is Verdict.FAIL)]
-        if by_distance is Verdict.FAIL and not reasons:
-            reasons.append("no pose brings every rebar into its sleeve")
-    if probability is not None and by_distance is not Verdict.PASS:
-        reasons.append(f"the probability that a pose exists is {100.0 * probability:.1f} %")
-    if by_distance is Verdict.INCONCLUSIVE:
-        reasons[-1] += ", too close to the limit for the uncertainty: rescan closer"
+        reasons += [pair.reason for pair in pairs if pair.reason and (pair.verdict is Verdict.FAIL or _collides(pair))]
+        reasons = reasons or [NO_POSE]
+    if existence is not None and by_measure is not Verdict.PASS:
+        text = f"the probability that a pose exists is {100.0 * existence.probability:.1f} %"
+        if by_measure is Verdict.INCONCLUSIVE:
+            named = " and ".join(said for _, said in rescan)
+            text += ", too close to the limit for the uncertainty: rescan closer" + (
+                f", above all {named}" * bool(named)
+            )
+        reasons.append(text)
     if report.missing:
         reasons.append(f"not measured: {', '.join(report.missing)}")
     return tuple(reasons)
 
 
-def _rules(profile: Profile, minimax: TrialPose, by_distance: Verdict) -> tuple[RuleResult, ...]:
+def _rules(profile: Profile, report: TrialReport, by_measure: Verdict) -> tuple[RuleResult, ...]:
     rules, skipped = applicable_rules(profile, QUANTITY)
+    largest_mm = 0.0 if report.minimax is None else report.minimax.max_mm
     results = []
     for index, rule in enumerate(rules):
-        looser = Verdict.PASS if minimax.max_mm <= rule.upper else Verdict.FAIL
-        verdict = by_distance if index == 0 else looser
-        reason = "" if verdict is Verdict.PASS else f"largest distance {minimax.max_mm:.2f} mm, limit {rule.upper:g} mm"
-        results.append(rule_result(rule, verdict, reason, minimax.max_mm))
+        looser = Verdict.PASS if largest_mm <= rule.upper else Verdict.FAIL
+        verdict = by_measure if index == 0 else looser
+        reason = "" if verdict is Verdict.PASS else _why(report, largest_mm, rule.upper)
+        results.append(rule_result(rule, verdict, reason, largest_mm))
     return (*results, *(not_assessed(rule, "it is no limit of a single pair") for rule in skipped))
 
 
-def _window(pairs: Sequence[Pair], fit: MinimaxPose, limits_mm: Array) -> PoseWindow | None:
-    """How far the column, the sleeves, can move from the minimax pose while all distances stay in their limits."""
-    rotation = turn(fit.yaw)
-    bars = np.array([rotation @ pair.rebar_xy + fit.shift for pair in pairs])
-    return find_window(np.array([pair.sleeve_xy for pair in pairs]), bars, limits_mm)
+def _why(report: TrialReport, largest_mm: float, limit_mm: float) -> str:
+    text = f"largest distance {largest_mm:.2f} mm, limit {limit_mm:g} mm"
+    if largest_mm <= limit_mm and report.collisions:
+        text += f"; no room over the ribs in {', '.join(report.collisions)}"
+    return text
 
 
-def _notes(report: TrialReport, pairs: Sequence[Pair], fit: MinimaxPose, limits_mm: Array) -> tuple[str, ...]:
+def _window(fit: BestFit) -> PoseWindow | None:
+    """How far the column, the sleeves, can move from the best pose while all gaps stay in their limits."""
+    bars = fit.gaps.source @ turn(fit.yaw).T + fit.shift
+    return find_window(fit.gaps.target, bars, fit.gaps.limits_mm)
+
+
+def _notes(pairs: Sequence[Pair]) -> tuple[str, ...]:
     notes = []
     if any(pair.room_mm is None for pair in pairs):
         notes.append("clearance over the ribs not checked: the outer diameter of a bar is not known")
-    if report.collisions and fit.ratio <= 1.0 and pose_exists(pairs, limits_mm, fit.yaw, fit.shift):
+    seen = [pair.seen_length_mm for pair in pairs if pair.seen_length_mm is not None]
+    if seen:
         notes.append(
-            "another pose within the limits is free of collisions, but it is not the one with the least distance"
+            f"of the embedded length of the bars {min(seen):.0f} to {max(seen):.0f} mm were seen; "
+            "below, a bar is taken to be straight within 4 mm a metre (GB/T 1499.2-2018, 6.5, unverified)"
         )
     return tuple(notes)

@@ -138,7 +138,7 @@ def _rebars(bars: Sequence[BarEnd | None], sleeves: Sequence[AssemblyPoint], T: 
         apart_mm = float(np.linalg.norm(centre[:2] - sleeve.centre[:2]))
         point = bar.point(f"upright under the foot, {apart_mm:.1f} mm beside the axis of {sleeve.label}")
         axis = bar.axis @ T[:3, :3]
-        points.append(replace(point, label=f"R{number}", centre=centre, axis=axis))
+        points.append(replace(point, label=f"R{number}", centre=centre, axis=axis, outer_diameter_mm=bar.over_ribs_mm))
     return tuple(points)
 
 

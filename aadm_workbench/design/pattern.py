@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from dataclasses import replace
+from typing import Any, TypeGuard
 
 import numpy as np
 
@@ -128,8 +129,8 @@ def inline_design(id: str, table: Mapping[str, Any]) -> ColumnDesign:  # noqa: A
         The column's id in the job.
     table
         ``centres`` [[x, y], ...], ``sleeve_diameter``, ``rebar_diameter`` and, optional, ``rebar_outer_diameter``,
-        ``embedded_length``, ``exposed_length``, ``size`` [x, y]; all mm. Without ``rebar_diameter`` the design has no
-        rebars.
+        ``embedded_length``, ``exposed_length``, ``size`` [x, y]; all mm. Each of the diameters is one number, or a list
+        with one for each centre. Without ``rebar_diameter`` the design has no rebars.
 
     Raises
     ------
@@ -137,33 +138,52 @@ def inline_design(id: str, table: Mapping[str, Any]) -> ColumnDesign:  # noqa: A
         Where a value is missing, is no length, or contradicts another.
     """
     centres = _centres(id, table.get("centres"))
-    sleeve_mm = _length(id, table, "sleeve_diameter")
+    sleeve_mm = _sizes(id, table, "sleeve_diameter", len(centres))
     if sleeve_mm is None:
         raise DesignError(f"The design of column {id} has no sleeve_diameter (inner, at the mouth, mm): add it.")
-    rebar_mm = _length(id, table, "rebar_diameter")
-    outer_mm = _length(id, table, "rebar_outer_diameter")
+    rebar_mm = _sizes(id, table, "rebar_diameter", len(centres))
+    outer_mm = _sizes(id, table, "rebar_outer_diameter", len(centres))
     embedded_mm = _length(id, table, "embedded_length")
-    widest_mm = max(rebar_mm or 0.0, outer_mm or 0.0)
-    if widest_mm >= sleeve_mm:
+    _check_that_bars_enter(id, sleeve_mm, rebar_mm, outer_mm)
+    if rebar_mm and outer_mm and len(set(rebar_mm)) > 1 and not _is_list(table["rebar_outer_diameter"]):
         raise DesignError(
-            f"The design of column {id}: a bar of {widest_mm:g} mm does not enter a sleeve of {sleeve_mm:g} mm. "
-            "sleeve_diameter is the inner diameter."
+            f"The design of column {id} has bars of several sizes and one rebar_outer_diameter: give a list, one each."
         )
-    order = label_order(centres)
-    placed = [(number, centres[index]) for number, index in enumerate(order, start=1)]
+    order = label_order(centres).tolist()
+    points = [(number, index, centres[index]) for number, index in enumerate(order, start=1)]
     why = "the job's text"
+    sleeves = [_upright(Kind.SLEEVE, number, xy, 0.0, sleeve_mm[index], why) for number, index, xy in points]
+    rebars = []
+    if rebar_mm is not None:
+        rebars = [
+            _upright(Kind.REBAR, number, xy, embedded_mm or 0.0, rebar_mm[index], why) for number, index, xy in points
+        ]
+    unlike = outer_mm is not None and len(set(outer_mm)) > 1
+    if outer_mm is not None and unlike:
+        rebars = [replace(bar, outer_diameter_mm=outer_mm[index]) for bar, index in zip(rebars, order, strict=False)]
     return ColumnDesign(
         id=id,
-        sleeves=tuple(_upright(Kind.SLEEVE, number, xy, 0.0, sleeve_mm, why) for number, xy in placed),
-        rebars=tuple(_upright(Kind.REBAR, number, xy, embedded_mm or 0.0, rebar_mm, why) for number, xy in placed)
-        if rebar_mm is not None
-        else (),
+        sleeves=tuple(sleeves),
+        rebars=tuple(rebars),
         size_mm=_size(id, table.get("size")),
         names=(id,),
-        rebar_outer_diameter_mm=outer_mm,
+        rebar_outer_diameter_mm=None if outer_mm is None or unlike else outer_mm[0],
         embedded_length_mm=embedded_mm,
         exposed_length_mm=_length(id, table, "exposed_length"),
     )
+
+
+def _check_that_bars_enter(
+    column: str, sleeve_mm: Sequence[float], rebar_mm: Sequence[float] | None, outer_mm: Sequence[float] | None
+) -> None:
+    nothing = [0.0] * len(sleeve_mm)
+    for number, sizes in enumerate(zip(sleeve_mm, rebar_mm or nothing, outer_mm or nothing, strict=True), start=1):
+        inner_mm, widest_mm = sizes[0], max(sizes[1:])
+        if widest_mm >= inner_mm:
+            raise DesignError(
+                f"The design of column {column}, centre {number}: a bar of {widest_mm:g} mm does not enter a sleeve of "
+                f"{inner_mm:g} mm. sleeve_diameter is the inner diameter."
+            )
 
 
 def _upright(kind: Kind, number: int, xy: Array, z: float, diameter_mm: float, why: str) -> AssemblyPoint:
@@ -201,6 +221,21 @@ def _length(column: str, table: Mapping[str, Any], key: str) -> float | None:
     return float(value)
 
 
+def _sizes(column: str, table: Mapping[str, Any], key: str, count: int) -> list[float] | None:
+    """One length for each centre, in the order of the centres; None where the key is absent."""
+    value = table.get(key)
+    if not _is_list(value):
+        length_mm = _length(column, table, key)
+        return None if length_mm is None else [length_mm] * count
+    if len(value) != count:
+        raise DesignError(
+            f"{key} of column {column} lists {len(value)} lengths for {count} centres: give one each, or one number."
+        )
+    if any(item is None for item in value):
+        raise DesignError(f"{key} of column {column} has an empty place: give one length for each centre.")
+    return [_length(column, {key: item}, key) or 0.0 for item in value]
+
+
 def _size(column: str, written: Any) -> tuple[float, float] | None:
     if written is None:
         return None
@@ -209,7 +244,7 @@ def _size(column: str, written: Any) -> tuple[float, float] | None:
     return float(written[0]), float(written[1])
 
 
-def _is_list(value: Any) -> bool:
+def _is_list(value: Any) -> TypeGuard[Sequence[Any]]:
     return isinstance(value, Sequence) and not isinstance(value, str)
 
 

@@ -102,6 +102,7 @@ def _point_entry(point: AssemblyPoint) -> dict[str, Any]:
         "why": point.why,
         "length_mm": None if point.length_mm is None else float(point.length_mm),
         "object_name": point.object_name,
+        "outer_diameter_mm": None if point.outer_diameter_mm is None else float(point.outer_diameter_mm),
     }
 
 
@@ -116,4 +117,5 @@ def _point(kind: Kind, entry: Mapping[str, Any]) -> AssemblyPoint:
         why=entry["why"],
         length_mm=entry["length_mm"],
         object_name=entry.get("object_name"),
+        outer_diameter_mm=entry.get("outer_diameter_mm"),
     )

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.model import Array, Kind
+from aadm_workbench.report.shown_pose import shown_pose
 
 SHOWN = ("position", "minimax", "least_squares")
 """Against the design; in the trial assembly, laid on in the one way or the other."""
@@ -69,7 +70,8 @@ def marks_of(found: Mapping[str, Any], shown: str, magnification: float) -> Mark
     """
     if shown == "position":
         return _positions(found, magnification)
-    trial = (found.get("trial_assembly") or {}).get(shown)
+    tried = found.get("trial_assembly")
+    trial = (tried or {}).get(shown) if shown == "least_squares" else shown_pose(tried)
     return _trial(found, trial, magnification) if trial else Marks((), (), ())
 
 

@@ -17,6 +17,7 @@ from aadm_workbench.document.properties import HIDDEN, READ_ONLY, Property, appl
 from aadm_workbench.document.schema import SCHEMA, SCHEMA_PROPERTY, bring_up_to_date
 from aadm_workbench.document.stateless import Stateless
 from aadm_workbench.document.words import in_words
+from aadm_workbench.report.shown_pose import shown_pose
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
 _RESULT = "AADM result"
@@ -131,7 +132,7 @@ def make_result(column: Any, report: Mapping[str, Any], found: Mapping[str, Any]
     result.Reasons = [str(reason) for reason in found.get("reasons") or ()]
     result.LargestSleeveDeviation = _largest(found.get("sleeves"), "points", "deviation_mm")
     result.LargestRebarDeviation = _largest(found.get("rebars"), "points", "deviation_mm")
-    best = (found.get("trial_assembly") or {}).get("minimax")
+    best = shown_pose(found.get("trial_assembly"))
     result.LargestPairDistance = _largest(best, "pairs", "distance_mm")
     tool = report.get("tool") or {}
     result.Tool = f"{tool.get('name', 'aadm')} {tool.get('version', '')}".strip()

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from aadm_workbench.model import Kind
+from aadm_workbench.report.shown_pose import shown_pose
 
 POSITION = "position"
 SPACING = "spacing"
@@ -39,7 +40,7 @@ def result_rows(found: Mapping[str, Any], trial: str = "minimax") -> list[Row]:
     Parameters
     ----------
     trial
-        Distances of pairs are taken from the pose ``minimax`` or ``least_squares``.
+        Distances of pairs are taken from the best pose (``minimax``) or ``least_squares``.
     """
     rows = [row for kind in Kind for row in _group_rows(found, kind)] + list(_pair_rows(found, trial))
     return sorted(rows, key=lambda row: (_ORDER.index(row.verdict) if row.verdict in _ORDER else 0, -row.share))
@@ -78,7 +79,8 @@ def _pair_rows(found: Mapping[str, Any], trial: str) -> Iterator[Row]:
     report = found.get("trial_assembly") or {}
     clauses = {rule["rule"]: rule["clause"] for rule in report.get("rules") or ()}
     places = {point["label"]: _place(point) for point in (found.get("sleeves") or {}).get("points") or ()}
-    for pair in (report.get(trial) or {}).get("pairs") or ():
+    pose = report.get(trial) if trial == "least_squares" else shown_pose(report)
+    for pair in (pose or {}).get("pairs") or ():
         name = f"{pair['sleeve']}–{pair['rebar']}"
         clause = _clause(clauses, "sleeve_rebar_distance")
         yield _row(name, DISTANCE, pair.get("distance_mm"), pair, clause, places.get(pair["sleeve"]))

@@ -54,6 +54,8 @@ from aadm_workbench.model.reports import (
     JobReport,
 )
 from aadm_workbench.model.results import (
+    BestPair,
+    BestPose,
     Candidate,
     Fit,
     GroupReport,
@@ -90,6 +92,8 @@ __all__ = [
     "Array",
     "AssemblyPoint",
     "Assignment",
+    "BestPair",
+    "BestPose",
     "BoolArray",
     "Camera",
     "CameraMove",

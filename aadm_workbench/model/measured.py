@@ -36,6 +36,14 @@ class AssemblyPoint:
         Design only: length of the bar or of the sleeve, where the model gives it.
     object_name
         Design only: the object of a FreeCAD document, or the body of another file, that this point was taken from.
+    outer_diameter_mm
+        Design only: of a bar, over its ribs, where it is given for this bar.
+    axis_covariance
+        (3, 3) float64, without unit (mm of offset a mm of length, squared), of the unit axis, in the frame of the axis
+        and singular along it; None where it is not known.
+    seen_length_mm
+        Measured only: length along the axis over which the surface was seen that gave the axis; None where the
+        extraction does not say.
     """
 
     label: str
@@ -48,6 +56,9 @@ class AssemblyPoint:
     why: str = ""
     length_mm: float | None = None
     object_name: str | None = None
+    outer_diameter_mm: float | None = None
+    axis_covariance: Array | None = None
+    seen_length_mm: float | None = None
 
 
 @dataclass(frozen=True, eq=False)

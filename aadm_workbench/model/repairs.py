@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from aadm_workbench.model.arrays import Vector2
-from aadm_workbench.model.results import TrialPose
+from aadm_workbench.model.results import BestPose
 
 
 class RepairAction(StrEnum):
@@ -15,7 +15,7 @@ class RepairAction(StrEnum):
     RESCAN = "rescan"
     """At the measured values the column goes in; only their uncertainty stands against it."""
     REPOSITION = "reposition"
-    """The column goes in without any bending, at another pose than that of the least distance."""
+    """The column goes in without any bending, at another pose than that of the least distance: of older reports."""
     BEND = "bend"
     """Bend a bar within the profile's adjustment limit."""
     REJECT_SLEEVE = "reject_sleeve"
@@ -41,6 +41,8 @@ class RepairStep:
         Deviation of the bar from its design place, after the fit of all bars, and its limit; None where unknown.
     sleeve_off_mm
         Distance of the sleeve from the place that the other sleeves give it.
+    blamed, off_mm
+        Which of the two stands in the way, and how far it is off the place that the others of its kind give it.
     """
 
     action: RepairAction
@@ -55,6 +57,8 @@ class RepairStep:
     position_limit_mm: float | None
     sleeve_off_mm: float
     reason: str
+    blamed: str = ""
+    off_mm: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,14 +72,16 @@ class RepairReport:
     steps
         One for each pair that stands in the way; empty where no bar has to be bent.
     exact
-        Whether no smaller set of bars would do; else it is the best that was found.
+        Whether no smaller set of bars of this kind (those beyond their own limit, those of such sleeves, all) would
+        do; else it is the best that was found.
     after
-        The trial at its minimax pose once all steps are done, or at the pose that the advice names; None where
-        nothing was found.
+        The trial at its best pose once all steps are done; None where nothing was found.
     margin
-        1 minus the largest ratio of distance to limit then.
+        What that pose leaves of distances and rooms.
     probability
         That a pose exists then, at the present uncertainty.
+    still_fails
+        Labels of the bars that a check would then still find beyond their own limit of position.
     adjustment_limit_mm, clause
         How far the profile lets this advice bend a bar, and where that is written; None where it does not say.
     """
@@ -84,10 +90,11 @@ class RepairReport:
     advice: str
     steps: tuple[RepairStep, ...] = ()
     exact: bool = True
-    after: TrialPose | None = None
+    after: BestPose | None = None
     margin: float | None = None
     probability: float | None = None
     adjustment_limit_mm: float | None = None
     clause: str = ""
     subject_to: str = "the engineer's release"
     notes: tuple[str, ...] = ()
+    still_fails: tuple[str, ...] = ()

@@ -48,7 +48,10 @@ class PointResult:
     """One design point and what was measured of it, mm: ``offset_mm`` is measured minus design, in the column frame.
 
     ``u_mm`` is the standard uncertainty of the deviation per axis, with the fit's part; ``probability`` that
-    the true deviation is within the limit. What was not measured is None, and ``reason`` says why.
+    the true deviation is within the limit. ``axis`` is a unit vector that points up along the column, in the column
+    frame, ``u_axis_deg`` its standard uncertainty per axis. ``cov_mm2`` is the covariance of ``scan_mm`` in the face
+    plane, turned into the column frame, before any fit and with the camera's scale error. What was not measured is
+    None, and ``reason`` says why.
     """
 
     label: str
@@ -66,6 +69,9 @@ class PointResult:
     reason: str = ""
     probability: float | None = None
     exposed_length_mm: float | None = None
+    axis: Vector3 | None = None
+    u_axis_deg: float | None = None
+    cov_mm2: tuple[Vector2, Vector2] | None = None
 
 
 @dataclass(frozen=True)
@@ -157,8 +163,42 @@ class TrialPose:
 
 
 @dataclass(frozen=True)
+class BestPair(PairResult):
+    """A pair at the pose that leaves most: its verdict holds for the distance and the room together.
+
+    Parameters
+    ----------
+    room_mm
+        What is left between the ribs and the sleeve's wall where they come nearest over the embedded length, as
+        ``clearance_mm``; None where a diameter is not known.
+    u_room_mm
+        Standard uncertainty of that, from centres, leans and diameters; None where that of a centre is not known.
+    allowance_mm
+        The room between them with both axes in one line: half of the difference of the diameters.
+    margin
+        1 minus the larger ratio of a gap to its limit or allowance; None where a bar is as wide as its sleeve.
+    seen_length_mm
+        How much of the embedded length of the bar was seen; None where the extraction does not say.
+    """
+
+    room_mm: float | None = None
+    u_room_mm: float | None = None
+    allowance_mm: float | None = None
+    margin: float | None = None
+    seen_length_mm: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class BestPose(TrialPose):
+    """The pose with the largest ``margin``, of distances and of room, each over what is allowed to it."""
+
+    pairs: tuple[BestPair, ...]
+    margin: float | None = None
+
+
+@dataclass(frozen=True)
 class PoseWindow:
-    """How far the column can move from the minimax pose, one number at a time reaching its end, mm and degrees.
+    """How far the column can move from the best pose, one number at a time reaching its end, mm and degrees.
 
     Displacement of the column: turned by yaw about the origin of the column frame, then moved by dx, dy.
     """
@@ -181,8 +221,11 @@ class TurnResult:
 class TrialReport:
     """The virtual trial assembly of a column: does it go on these bars.
 
-    ``margin`` is 1 minus the smallest largest ratio of distance to limit (negative: no pose meets the limits),
-    ``probability`` that a pose exists, ``window`` the room about the minimax pose where there is any.
+    It asks whether a pose exists in which every pair keeps its limit of the distance and its room over the ribs.
+    ``best`` is the pose that leaves most of both, and ``margin`` what it leaves (negative: no pose meets them all);
+    ``probability`` that a pose exists, ``window`` the room about the best pose where there is any. ``collisions`` are
+    the sleeves whose bars have no room at the best pose, ``in_the_way`` the bars, or sleeves, that would have to be
+    put right, ``rescan`` the points whose uncertainty leaves the verdict open.
     """
 
     verdict: Verdict
@@ -199,3 +242,6 @@ class TrialReport:
     turns: tuple[TurnResult, ...] = ()
     embedded_length_mm: float | None = None
     notes: tuple[str, ...] = ()
+    best: BestPose | None = None
+    in_the_way: tuple[str, ...] = ()
+    rescan: tuple[str, ...] = ()

@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 
 from aadm_workbench.model import Verdict, worst
 from aadm_workbench.report.read import Report
+from aadm_workbench.report.shown_pose import shown_pose
 
 Document: TypeAlias = Mapping[str, Any]
 """A part of report.json as ``json.loads`` gives it."""
@@ -104,9 +105,9 @@ def points_of(column: Document, number: int) -> list[Document]:
 
 
 def pair_of(column: Document, number: int) -> Document | None:
-    """The pair with the number of its sleeve, at the minimax pose; None where no trial assembly was made."""
+    """The pair with the number of its sleeve, at the best pose; None where no trial assembly was made."""
     trial = column["trial_assembly"]
-    pose = (trial or {}).get("minimax")
+    pose = shown_pose(trial)
     return next((pair for pair in (pose or {"pairs": ()})["pairs"] if pair["sleeve"] == f"S{number}"), None)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from aadm_workbench.report.shown_pose import shown_pose
 from aadm_workbench.report.sketch import Circle, Label, Polyline, Shape, Sketch, rectangle
 from aadm_workbench.report.sketch_foot import FootSketch, foot_sketch, group_marks, pair_marks
 from aadm_workbench.report.words import Phrase, phrase
@@ -31,7 +32,7 @@ def foot_sketches(column: dict[str, Any]) -> Iterator[Titled]:
             diameter_mm = typical_diameter_mm(group["points"]) or nominal_mm
             foot = foot_sketch(group_marks(group), column["size_mm"], diameter_mm)
             yield Titled(f"ui.sketch_{kind}", _caption(foot), foot)
-    pose = (column["trial_assembly"] or {}).get("minimax")
+    pose = shown_pose(column["trial_assembly"])
     if pose is not None:
         diameter_mm = typical_diameter_mm((column["sleeves"] or {}).get("points", [])) or SLEEVE_DIAMETER_MM
         marks = pair_marks(column, pose["pairs"])
@@ -72,6 +73,7 @@ def trial_facts(trial: dict[str, Any]) -> list[tuple[str, str]]:
         found.append(("ui.probability", f"{100.0 * trial['probability']:.1f} %"))
     if trial.get("margin") is not None:
         found.append(("ui.margin", f"{trial['margin']:.2f}"))
+    found += [(f"ui.{key}", ", ".join(trial[key])) for key in ("in_the_way", "rescan") if trial.get(key)]
     found.append(("ui.collisions", ", ".join(trial["collisions"]) or "0"))
     if trial.get("embedded_length_mm"):
         found.append(("ui.embedded", f"{trial['embedded_length_mm']:g} mm"))

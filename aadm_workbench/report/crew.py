@@ -14,6 +14,7 @@ from typing import Any, Literal, TypeAlias
 from aadm_workbench.report.directions import SMALLEST_MM, Compass, compass_of
 from aadm_workbench.report.hoist import Hoist, hoist_of
 from aadm_workbench.report.read import Report
+from aadm_workbench.report.shown_pose import shown_pose
 from aadm_workbench.report.words import Phrase, phrase
 
 Light: TypeAlias = Literal["green", "amber", "red"]
@@ -141,6 +142,9 @@ def _first(column: dict[str, Any], repair: dict[str, Any] | None, compass: Compa
     if verdict == "pass":
         yield from (Step(phrase(f"crew.scan_{part}")) for part, kind in _PARTS if column[kind] is None)
         return
+    in_the_way = (column["trial_assembly"] or {}).get("in_the_way", ())
+    if in_the_way:
+        yield Step(phrase("crew.in_the_way", labels=", ".join(in_the_way)))
     yield from _unseen(column)
     if repair is not None:
         yield from _repair(column, repair, compass)
@@ -195,7 +199,7 @@ def _unseen(column: dict[str, Any]) -> Iterator[Step]:
 def _repair(column: dict[str, Any], repair: dict[str, Any], compass: Compass) -> Iterator[Step]:
     action = repair["action"]
     if action == "rescan":
-        yield Step(phrase("crew.scan_closer"))
+        yield _scan_closer(column)
     elif action == "reposition":
         way = compass.in_words(_reposition_mm(column, repair))
         yield Step(_with_way("crew.set_down", way) if way.en else phrase("crew.call_engineer"), release=True)
@@ -203,9 +207,14 @@ def _repair(column: dict[str, Any], repair: dict[str, Any], compass: Compass) ->
         yield Step(phrase("crew.disposal_plan"))
     else:
         if column["verdict"] == "inconclusive":
-            yield Step(phrase("crew.scan_closer"))
+            yield _scan_closer(column)
         yield from (_of_pair(step, compass) for step in repair["steps"])
         yield Step(phrase("crew.scan_bars_again"))
+
+
+def _scan_closer(column: dict[str, Any]) -> Step:
+    labels = (column["trial_assembly"] or {}).get("rescan", ())
+    return Step(phrase("crew.scan_label_again", labels=", ".join(labels)) if labels else phrase("crew.scan_closer"))
 
 
 def _of_pair(step: dict[str, Any], compass: Compass) -> Step:
@@ -239,7 +248,7 @@ def _bends(repair: dict[str, Any]) -> Iterator[Shift]:
 
 def _turned(column: dict[str, Any]) -> Iterator[Step]:
     """Where the trial found the column to go on turned by its symmetry: S1 does not go on R1."""
-    pairs = ((column["trial_assembly"] or {}).get("minimax") or {}).get("pairs", ())
+    pairs = (shown_pose(column["trial_assembly"]) or {}).get("pairs", ())
     rebar = next((pair["rebar"] for pair in pairs if pair["sleeve"] == "S1"), "R1")
     if rebar != "R1":
         yield Step(phrase("crew.set_turned", rebar=rebar))
@@ -250,7 +259,7 @@ def _room(column: dict[str, Any]) -> Iterator[Step]:
 
     The feasible window is larger, for it lets the column give way in the other coordinates; a crew cannot do that.
     """
-    pairs = ((column["trial_assembly"] or {}).get("minimax") or {}).get("pairs", ())
+    pairs = (shown_pose(column["trial_assembly"]) or {}).get("pairs", ())
     rooms = [pair["limit_mm"] - pair["distance_mm"] for pair in pairs if pair["limit_mm"] is not None]
     rooms += [pair["clearance_mm"] for pair in pairs if pair["clearance_mm"] is not None]
     room_mm = math.floor(10.0 * min(rooms, default=0.0)) / 10.0

@@ -18,6 +18,7 @@ from aadm_workbench.report.column_view import (
 from aadm_workbench.report.findings import Finding
 from aadm_workbench.report.hoist import Hoist
 from aadm_workbench.report.read import Report
+from aadm_workbench.report.shown_pose import shown_pose
 from aadm_workbench.report.svg import svg_of
 from aadm_workbench.report.words import phrase
 from aadm_workbench.report.words_reasons import in_both_languages
@@ -81,7 +82,7 @@ def column_entry(report: Report, finding: Finding) -> dict[str, Any]:
         "hoist": hoist,
         "key_reasons": finding.key_reasons,
         "more": finding.more,
-        "largest": ((column["trial_assembly"] or {}).get("minimax") or {}).get("max_mm"),
+        "largest": (shown_pose(column["trial_assembly"]) or {}).get("max_mm"),
         "facts": column_facts(column),
         "repair": _repair(column),
         "sketches": sketch_entries(column),
@@ -118,11 +119,11 @@ def _trial(column: dict[str, Any]) -> dict[str, Any] | None:
     if trial is None:
         return None
     window = window_sketch(trial)
-    names = ("minimax", "least_squares")
+    names = ("best", "minimax", "least_squares")
     return {
         "verdict": trial["verdict"],
         "facts": trial_facts(trial),
-        "poses": [(f"ui.{name}", trial[name]) for name in names if trial[name] is not None],
+        "poses": [(f"ui.{name}", trial[name]) for name in names if trial.get(name) is not None],
         "window": window_text(trial),
         "window_svg": "" if window is None else svg_of(window, label="window", css_class="bars"),
     }

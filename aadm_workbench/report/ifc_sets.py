@@ -11,6 +11,7 @@ from typing import Any
 from aadm_workbench.report.clauses import clause_of
 from aadm_workbench.report.ifc_addition import ENUMERATED, Property, Scalar
 from aadm_workbench.report.read import Report
+from aadm_workbench.report.shown_pose import shown_pose
 
 COLUMN_SET = "AADM_ColumnCheck"
 POINT_SETS = {"sleeves": "AADM_SleeveCheck", "rebars": "AADM_RebarCheck"}
@@ -28,7 +29,7 @@ def column_properties(report: Report, column: dict[str, Any]) -> list[Property]:
 def point_properties(report: Report, column: dict[str, Any], kind: str, point: dict[str, Any]) -> list[Property]:
     """AADM_SleeveCheck or AADM_RebarCheck of one point.
 
-    Offsets are measured minus design in the column frame, the pair's are bar minus sleeve at the minimax pose;
+    Offsets are measured minus design in the column frame, the pair's are bar minus sleeve at the best pose;
     ``Uncertainty`` is per axis, k = 1.
     """
     offset = point["offset_mm"] or (None, None)
@@ -132,7 +133,7 @@ def _trial(column: dict[str, Any]) -> _Told:
     yield "TrialVerdict", _LABEL, trial["verdict"]
     for name, key in (("LeastSquares", "least_squares"), ("Minimax", "minimax")):
         yield f"{name}Distance", _LENGTH, trial[key]["max_mm"] if trial[key] else None
-    pairs = (trial["minimax"] or {"pairs": ()})["pairs"]
+    pairs = (shown_pose(trial) or {"pairs": ()})["pairs"]
     yield "DistanceLimit", _POSITIVE, min((pair["limit_mm"] for pair in pairs if pair["limit_mm"]), default=None)
     known = [pair["clearance_mm"] for pair in pairs if pair["clearance_mm"] is not None]
     yield "SmallestClearance", _LENGTH, min(known, default=None)
@@ -172,10 +173,10 @@ def _pair(column: dict[str, Any], name: str) -> _Told:
     trial = column["trial_assembly"] or {}
     side, other = ("sleeve", "rebar") if name.startswith("S") else ("rebar", "sleeve")
     poses = {
-        key: next((pair for pair in (trial.get(key) or {"pairs": ()})["pairs"] if pair[side] == name), None)
-        for key in ("minimax", "least_squares")
+        key: next((pair for pair in (pose or {"pairs": ()})["pairs"] if pair[side] == name), None)
+        for key, pose in (("shown", shown_pose(trial)), ("least_squares", trial.get("least_squares")))
     }
-    pair, squares = poses["minimax"], poses["least_squares"]
+    pair, squares = poses["shown"], poses["least_squares"]
     if pair is None:
         return
     yield "PairedWith", _LABEL, pair[other]

@@ -79,8 +79,8 @@ def _trial(column: dict[str, Any], width: float, language: Language) -> Iterator
     title = f"{phrase('ui.trial').in_language(language)}   {verdict_words(trial['verdict'], language)}"
     yield paragraph(title, 10.0, bold=True, colour=COLOUR[trial["verdict"]], keep=True)
     facts = [f"{phrase(name).in_language(language)}: {value}" for name, value in trial_facts(trial)]
-    for name in ("minimax", "least_squares"):
-        if trial[name] is not None:
+    for name in ("best", "minimax", "least_squares"):
+        if trial.get(name) is not None:
             said = phrase(f"ui.{name}").in_language(language)
             largest = phrase("ui.largest_distance").in_language(language)
             facts.append(f"{said}: {largest} {trial[name]['max_mm']:.2f} mm")

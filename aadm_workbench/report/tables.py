@@ -12,6 +12,7 @@ from typing import Any, Literal, TypeAlias
 
 from aadm_workbench.report.clauses import clause_of
 from aadm_workbench.report.read import Report
+from aadm_workbench.report.shown_pose import shown_pose
 from aadm_workbench.report.words import Phrase, phrase
 
 Cell: TypeAlias = str | float | int | None
@@ -95,7 +96,7 @@ def _by(word: str, item: str, kind: CellKind = "mm") -> Heading:
 PAIRS = (
     heading("pair"),
     *_OFFSET,
-    _by("minimax", "distance"),
+    _by("best", "distance"),
     _by("least_squares", "distance"),
     *_LIMITED,
     heading("room", "mm"),
@@ -164,10 +165,10 @@ def spacing_rows(report: Report, column: dict[str, Any], kind: str) -> Iterator[
 
 
 def pair_rows(report: Report, column: dict[str, Any]) -> Iterator[Row]:
-    """Rows under :data:`PAIRS`: the minimax pose, with least squares beside it."""
+    """Rows under :data:`PAIRS`: the best pose, with least squares beside it."""
     trial = column["trial_assembly"] or {}
     squares = {(pair["sleeve"], pair["rebar"]): pair for pair in (trial.get("least_squares") or {}).get("pairs", ())}
-    for pair in (trial.get("minimax") or {}).get("pairs", ()):
+    for pair in (shown_pose(trial) or {}).get("pairs", ()):
         other = squares.get((pair["sleeve"], pair["rebar"]), {})
         yield (
             f"{pair['sleeve']}/{pair['rebar']}",

@@ -30,14 +30,61 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
         r"\1 偏离其余套筒给出的位置 \2 mm,\3 未偏离",
     ),
     (
+        rf"({_LABEL}) is in the way: it stands ({_NUMBER}) mm off the place that the other bars give it",
+        r"\1 挡住就位:偏离其余钢筋给出的位置 \2 mm",
+    ),
+    (
+        rf"({_LABEL}) is in the way: it stands ({_NUMBER}) mm off the place that the other sleeves give it",
+        r"\1 挡住就位:偏离其余套筒给出的位置 \2 mm",
+    ),
+    (rf"all bars lean alike by ({_NUMBER})°", r"全部钢筋同向倾斜 \1°"),
+    (rf"all sleeves lean alike by ({_NUMBER})°", r"全部套筒同向倾斜 \1°"),
+    (
+        r": they may do so, or the vertical of their scan is off by as much",
+        ":可能确实如此,也可能是扫描的竖直方向偏了同样的角度",
+    ),
+    (
+        r"; as measured the trial comes to (\w+), without that to (\w+)",
+        r";按实测预拼装结论为 \1,扣除后为 \2",
+    ),
+    (rf"({_LABEL}) is in the way: ", r"\1 挡住就位:"),
+    (rf"its lean alone takes more room than ({_LABEL}) has", r"仅其倾斜就超出 \1 的净空"),
+    (
+        rf"over its ribs and its lean it takes more room than ({_LABEL}) has",
+        r"连同肋和倾斜所需空间大于 \1 的净空",
+    ),
+    (
+        rf"({_LABEL}) stands ({_NUMBER}) mm off the place that the other bars give it",
+        r"\1 偏离其余钢筋给出的位置 \2 mm",
+    ),
+    (
+        rf"({_LABEL}) stands ({_NUMBER}) mm off the place that the other sleeves give it",
+        r"\1 偏离其余套筒给出的位置 \2 mm",
+    ),
+    (
+        rf"({_LABEL}) has ({_NUMBER}) mm of room left in ({_LABEL}) over the ribs: too little for its uncertainty",
+        r"\1 在 \3 中肋外净空只剩 \2 mm:小于其不确定度所需",
+    ),
+    (rf"; no room over the ribs in ((?:{_LABEL}(?:, )?)+)", r";\1 中没有肋外净空"),
+    (
+        rf": rescan closer, above all ({_LABEL}) \(u = ({_NUMBER}) mm\) and ({_LABEL}) \(u = ({_NUMBER}) mm\)",
+        r":请靠近重新扫描,首先是 \1(u = \2 mm)和 \3(u = \4 mm)",
+    ),
+    (
+        rf": rescan closer, above all ({_LABEL}) \(u = ({_NUMBER}) mm\)",
+        r":请靠近重新扫描,首先是 \1(u = \2 mm)",
+    ),
+    (r", too close to the limit for the uncertainty", ",不确定度下过于接近限值"),
+    (
+        r"\. Still beyond (?:its|their) own limit of position then: ((?:R\d+(?:, )?)+)",
+        r"。处理后仍超出自身位置限值:\1",
+    ),
+    (
         rf": too close to it for an uncertainty of ({_NUMBER}) mm, rescan closer",
         r":不确定度 \1 mm,过于接近限值,请靠近重新扫描",
     ),
     (rf": too close to it for an uncertainty of ({_NUMBER}) mm", r":不确定度 \1 mm,过于接近限值"),
-    (
-        r", too close to the limit for the uncertainty: rescan closer",
-        ",不确定度下过于接近限值,请靠近重新扫描",
-    ),
+    (r": rescan closer$", ":请靠近重新扫描"),
     (rf"the probability that a pose exists is ({_NUMBER}) %", r"可就位概率 \1 %"),
     (r"no pose brings every rebar into its sleeve", "不存在使全部钢筋进入套筒的位置"),
     (rf"largest distance ({_NUMBER}) mm", r"最大中心距 \1 mm"),

@@ -10,8 +10,8 @@ from aadm_workbench.model import Array
 
 
 def worth(margins: Array, pairs: list[tuple[int, int]]) -> tuple[int, float, float]:
-    """How many go on, the smallest margin of these, the sum of all."""
-    chosen = [float(margins[row, column]) for row, column in pairs]
+    """How many go on, the smallest margin of these, the sum of all that is known."""
+    chosen = [float(margins[row, column]) for row, column in pairs if np.isfinite(margins[row, column])]
     going = [margin for margin in chosen if margin >= 0.0]
     return len(going), round(min(going, default=0.0), 9), round(sum(chosen), 6)
 
@@ -31,6 +31,21 @@ def test_equals_the_search_of_all_assignments(seed: int) -> None:
     found = best_assignment(margins)
     assert len({row for row, _ in found}) == len({column for _, column in found}) == len(found) == min(shape)
     assert worth(margins, found) == pytest.approx(searched(margins))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_equals_the_search_of_all_assignments_where_cells_are_not_known(seed: int) -> None:
+    """Any shape and any share of gaps: margins of both signs, some of them equal, some of hundreds."""
+    rng = np.random.default_rng([seed, 1])
+    for _ in range(60):
+        shape = int(rng.integers(1, 6)), int(rng.integers(1, 7))
+        margins = rng.normal(rng.uniform(-0.5, 0.5), 0.5, shape)
+        margins = np.round(margins, 1) if rng.random() < 0.3 else margins * rng.choice([1.0, 300.0])
+        margins[rng.random(shape) < rng.uniform(0.0, 0.9)] = np.nan
+        found = best_assignment(margins)
+        assert len({row for row, _ in found}) == len({column for _, column in found}) == len(found)
+        assert all(np.isfinite(margins[row, column]) for row, column in found)
+        assert worth(margins, found) == pytest.approx(searched(margins))
 
 
 def test_the_smallest_margin_comes_before_the_sum() -> None:

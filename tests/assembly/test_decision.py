@@ -108,11 +108,29 @@ def test_square_of_uncorrelated_and_of_correlated_axes() -> None:
 
 
 @pytest.mark.parametrize(
-    ("probability", "verdict"),
-    [(0.95, Verdict.PASS), (0.9499, Verdict.INCONCLUSIVE), (0.0501, Verdict.INCONCLUSIVE), (0.05, Verdict.FAIL)],
+    ("probability", "within", "verdict"),
+    [
+        (0.95, True, Verdict.PASS),
+        (0.9499, True, Verdict.INCONCLUSIVE),
+        (0.0501, False, Verdict.INCONCLUSIVE),
+        (0.05, False, Verdict.FAIL),
+        (0.02, True, Verdict.INCONCLUSIVE),
+        (0.98, False, Verdict.INCONCLUSIVE),
+    ],
 )
-def test_guard_band(probability: float, verdict: Verdict) -> None:
-    assert decide_probability(probability) is verdict
+def test_guard_band(probability: float, within: bool, verdict: Verdict) -> None:
+    assert decide_probability(probability, within) is verdict
+
+
+def test_ignorance_alone_fails_nothing() -> None:
+    """A value in the middle of its limits of which nothing is known: hardly probable, and not proven wrong."""
+    vague = decide_radial(np.array([0.1, 0.0]), 20.0**2 * np.eye(2), 3.0, "guarded")
+    assert vague.probability is not None
+    assert vague.probability < 0.05
+    assert vague.verdict is Verdict.INCONCLUSIVE
+    assert decide_signed(0.1, 60.0, -2.0, 2.0, "guarded").verdict is Verdict.INCONCLUSIVE
+    assert decide_per_axis(np.array([0.1, 0.0]), 20.0**2 * np.eye(2), 3.0, "guarded").verdict is Verdict.INCONCLUSIVE
+    assert decide_signed(9.0, 0.1, -2.0, 2.0, "guarded").verdict is Verdict.FAIL
 
 
 def test_without_covariance_the_value_alone_decides() -> None:

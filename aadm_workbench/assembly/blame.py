@@ -1,0 +1,56 @@
+"""What is in the way of a column that does not go on: the bars, or the sleeves, that would have to be put right.
+
+Least squares and minimax spread one error over all pairs, so that innocent ones seem to fail. Blamed is what the advice
+would put right, and what stands off the place that the others give it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from aadm_workbench.assembly.robust_fit import robust_offsets
+from aadm_workbench.model import Array, RepairReport, RepairStep, Rule, TrialReport, Verdict
+
+
+def with_blame(trial: TrialReport, repair: RepairReport | None) -> TrialReport:
+    """A trial that fails, with what is in its way: its first reason says so. Any other trial as it is."""
+    if trial.verdict is not Verdict.FAIL or repair is None or not repair.steps:
+        return trial
+    sentence = "; ".join(f"{step.blamed} is in the way: {_why(step)}" for step in repair.steps)
+    labels = tuple(step.blamed for step in repair.steps)
+    return replace(trial, in_the_way=labels, reasons=(sentence, *trial.reasons))
+
+
+def _why(step: RepairStep) -> str:
+    if step.bend_mm is None:
+        return f"over its ribs and its lean it takes more room than {step.sleeve} has"
+    if step.upright:
+        return f"its lean alone takes more room than {step.sleeve} has"
+    others = "bars" if step.blamed == step.rebar else "sleeves"
+    return f"it stands {step.off_mm:.2f} mm off the place that the other {others} give it"
+
+
+def blame_of_group(labels: Sequence[str], measured: Array, design: Array, failing: set[str], rule: Rule) -> str:
+    """A sentence on who is really off where least squares lets others fail; empty where it blames nobody else.
+
+    Parameters
+    ----------
+    labels
+        n labels of one group.
+    measured, design
+        (n, 2) float64, mm, column frame.
+    failing
+        Labels of those that fail by least squares.
+    """
+    off_mm = np.hypot(*robust_offsets(measured, design).T)
+    blamed = [(label, off) for label, off in zip(labels, off_mm.tolist(), strict=True) if off > rule.upper]
+    if not blamed or {label for label, _ in blamed} >= failing:
+        return ""
+    others = "bars" if labels[0].startswith("R") else "sleeves"
+    blamed.sort(key=lambda one: -one[1])
+    return "; ".join(
+        f"{label} stands {off:.2f} mm off the place that the other {others} give it" for label, off in blamed
+    )

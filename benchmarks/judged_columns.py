@@ -1,0 +1,124 @@
+"""Verdicts on whole columns, their probabilities and their advice, against the truth of :mod:`benchmarks.columns`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from aadm_workbench.assembly.repair import advise_repair
+from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.assembly.trial import try_assembly
+from aadm_workbench.model import Array, RepairAction, Verdict
+from benchmarks.columns import Scene, build_column
+
+BINS = (0.0, 0.001, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 0.999, 1.0)
+_CN = load_profile("cn")
+_PROMISED = 0.95
+
+
+@dataclass(frozen=True)
+class Bin:
+    """Of ``cases`` with a probability in one bin: the mean that was stated, the share that is feasible in truth.
+
+    ``sigmas`` is how far these are apart in standard deviations of that share.
+    """
+
+    cases: int
+    stated: float
+    true: float
+    sigmas: float
+
+
+@dataclass(frozen=True)
+class Judged:
+    """Columns of one scene: shares of infeasible ones that pass, of feasible ones that fail, of undecided ones.
+
+    ``undecided_far_off`` is of those whose margin is more than 3 u from zero.
+    """
+
+    scene: str
+    cases: int
+    feasible: int
+    false_passes: float
+    false_fails: float
+    undecided: float
+    undecided_far_off: float
+    bins: tuple[Bin, ...]
+
+
+def judged_columns(scene: Scene, centres: Array, cases: int, rng: np.random.Generator) -> Judged:
+    """Trials of columns whose true margins are spread evenly over ±1.5 mm."""
+    margins, probabilities, verdicts = [], [], []
+    for _ in range(cases):
+        built = build_column(scene, centres, rng)
+        report = try_assembly(built.design, built.sleeves, built.rebars, _CN, rng)
+        margins.append(built.margin_mm)
+        probabilities.append(report.probability or 0.0)
+        verdicts.append(report.verdict)
+    feasible = np.array(margins) >= 0.0
+    passes, fails = (np.array([verdict is kind for verdict in verdicts]) for kind in (Verdict.PASS, Verdict.FAIL))
+    undecided, far = ~passes & ~fails, np.abs(margins) > 3.0 * scene.u_pair_mm
+    return Judged(
+        scene=scene.name,
+        cases=cases,
+        feasible=int(feasible.sum()),
+        false_passes=_share(passes & ~feasible, ~feasible),
+        false_fails=_share(fails & feasible, feasible),
+        undecided=float(undecided.mean()),
+        undecided_far_off=_share(undecided & far, far),
+        bins=_calibration(np.array(probabilities), feasible),
+    )
+
+
+def _calibration(probabilities: Array, feasible: Array) -> tuple[Bin, ...]:
+    bins = []
+    for low, high in pairwise(BINS):
+        inside = (probabilities >= low) & ((probabilities < high) | (high == BINS[-1]))
+        count = int(inside.sum())
+        if count:
+            stated, true = float(probabilities[inside].mean()), float(feasible[inside].mean())
+            # Of a share near 0 or 1 the count itself limits what can be seen.
+            deviation = np.sqrt(max(stated * (1.0 - stated), 1.0 / count) / count)
+            bins.append(Bin(count, stated, true, (true - stated) / float(deviation)))
+    return tuple(bins)
+
+
+@dataclass(frozen=True)
+class Repaired:
+    """Columns with one bar far off: so many were promised to go on once repaired, and this share of them does.
+
+    ``blamed`` is the share of failing columns whose first blame is the bar that is off; ``good_ones_bent`` counts
+    advice that bends a bar that is right where the wrong one alone would do.
+    """
+
+    failing: int
+    blamed: float
+    promised: int
+    kept: float
+    good_ones_bent: int
+
+
+def repaired_columns(scene: Scene, centres: Array, cases: int, rng: np.random.Generator) -> Repaired:
+    """One bar 4 to 7 mm off, all others good; what is advised is done to the true bars."""
+    failing, blamed, kept, needless = 0, 0, [], 0
+    for _ in range(cases):
+        built = build_column(scene, centres, rng, outlier_mm=float(rng.uniform(4.0, 7.0)))
+        trial = try_assembly(built.design, built.sleeves, built.rebars, _CN, rng)
+        if trial.verdict is not Verdict.FAIL:
+            continue
+        repair = advise_repair(built.design, built.sleeves, built.rebars, trial, _CN, rng)
+        assert repair is not None
+        failing += 1
+        wrong = built.design.rebars[int(np.argmax(np.hypot(*(built.tops - built.mouths).T)))].label
+        steps = [step.rebar for step in repair.steps]
+        blamed += wrong in steps
+        needless += len(steps) == 1 and steps[0] != wrong
+        if repair.action is RepairAction.BEND and (repair.probability or 0.0) >= _PROMISED:
+            kept.append(built.margin_after_mm(repair) >= 0.0)
+    return Repaired(failing, blamed / max(failing, 1), len(kept), float(np.mean(kept or [1.0])), needless)
+
+
+def _share(some: Array, of: Array) -> float:
+    return float(some.sum() / max(of.sum(), 1))
