@@ -29,7 +29,7 @@ _SETTLED_MM = 4e-3
 
 @dataclass(frozen=True, eq=False)
 class PooledFit:
-    """Result for k features: ``centre`` (k, 2) and ``lean`` (k, 2), their ``covariance`` (k, 2, 2) mm².
+    """Result for k features: ``centre`` (k, 2) mm with ``covariance`` (k, 2, 2) mm², ``lean`` (k, 2) with its own.
 
     ``radius`` (k,) mm of the wall, ``outline_radius`` (k,) mm of the edge. ``wall_count``, ``edge_count`` (k,) are the
     points with weight. ``wall_mm`` and ``edge_mm`` are robust standard deviations of the residuals.
@@ -39,6 +39,7 @@ class PooledFit:
     lean: Array
     radius: Array
     covariance: Array
+    lean_covariance: Array
     outline_radius: Array
     push_mm: float
     wall_mm: float
@@ -105,7 +106,8 @@ def fit_pooled(evidence: Evidence, start: State) -> PooledFit:
         centre=state.own[:, :2],
         lean=state.own[:, 2:4],
         radius=state.wall_radius(),
-        covariance=covariance + _disagreement(terms, wall_weight, walls.seen, rims.seen),
+        covariance=covariance[:, :2, :2] + _disagreement(terms, wall_weight, walls.seen, rims.seen),
+        lean_covariance=covariance[:, 2:, 2:],
         outline_radius=state.pooled[BEYOND] + state.own[:, 5],
         push_mm=float(state.pooled[PUSH]),
         wall_mm=terms.wall.spread_mm,

@@ -125,12 +125,12 @@ class System:
         return across @ pooled - alone, -pooled
 
     def covariance(self) -> Array:
-        """Covariance (k, 2, 2) of the centres: that of their own unknowns and of what they share."""
+        """Covariance (k, 4, 4) of centres and leans: that of their own unknowns and of what they share."""
         inverse = np.linalg.inv(self.own)
         across = inverse @ self.cross
         reduced = self.shared - np.einsum("kip,kiq->pq", self.cross, across)
         whole = inverse + across @ np.linalg.inv(reduced) @ across.transpose(0, 2, 1)
-        return np.asarray(whole[:, :2, :2])
+        return np.asarray(whole[:, :4, :4])
 
     def _tie(self, state: State, one: int, other: int, deviation_mm: float) -> None:
         """A bore has one radius, be it seen as a wall or as an edge."""

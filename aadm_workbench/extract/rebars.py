@@ -14,7 +14,7 @@ import numpy as np
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
 from aadm_workbench.extract.edge_shift import BLURRED, Bend, bend_at_edges, eroded_rings, no_bend, shift_of_tops
-from aadm_workbench.extract.found_points import found_points
+from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
 from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.pooled import Evidence, PooledFit, fit_pooled
@@ -39,8 +39,11 @@ _USUAL_SPOILT, _SPOILT_U_MM = 0.13, 1.5
 _BEYOND_TAIL_MM, _FLYING = 1.2, 0.05
 _FOREIGN = 0.3  # share of outline points that are ribs
 _BAR_PRIORS = Priors(
-    lean=0.005, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.06, wall_to_edge=0.02, rim_to_beyond=0.03
+    lean=0.03, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.06, wall_to_edge=0.02, rim_to_beyond=0.03
 )
+_BAR_LEAN_U = 7e-3  # ribs, which stand out on one side here and on the other there: half of one over 60 mm of side
+_USUAL_LEAN, _COMMON_COUNT = 5e-3, 4  # 0.3 degrees, as bars are cast in
+_ALIKE_CHI2 = 9.2  # 1 % of chi-squared with two degrees of freedom
 _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)
 _TURNS = 3
 
@@ -203,15 +206,33 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
     return Extraction(Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality)
 
 
+def _believed_leans(fit: PooledFit) -> tuple[Array, Array]:
+    """Leans (k, 2) and covariances (k, 2, 2): what sides show, and that bars of one group stand alike.
+
+    A bar that leans like the others, as far as its side tells, is drawn towards their median by what is usual; one that
+    does not, does lean, and is left as it is seen.
+    """
+    seen = fit.lean_covariance + _BAR_LEAN_U**2 * np.eye(2)
+    common = np.median(fit.lean, axis=0) if len(fit.lean) >= _COMMON_COUNT else np.zeros(2)
+    off = fit.lean - common
+    usual = _USUAL_LEAN**2 * np.eye(2)
+    gain = usual @ np.linalg.inv(seen + usual)
+    alike = np.einsum("ki,kij,kj->k", off, np.linalg.inv(seen + usual), off) < _ALIKE_CHI2
+    drawn = common + np.einsum("kij,kj->ki", gain, off)
+    left = (np.eye(2) - gain) @ usual + np.eye(2) * (_USUAL_LEAN**2 / max(len(fit.lean), 1))
+    return np.where(alike[:, None], drawn, fit.lean), np.where(alike[:, None, None], left, seen)
+
+
 def _points(tops: Tops, fit: PooledFit, level: Plane) -> tuple[AssemblyPoint, ...]:
     over = np.einsum("ki,ki->k", tops.normal[:, :2], fit.centre)
     height = (tops.offset - over) / tops.normal[:, 2]
     shape = _shape_u_mm(tops, fit)[:, None, None] ** 2 * np.eye(2)
+    lean, lean_covariance = _believed_leans(fit)
     return found_points(
         Kind.REBAR,
         level,
         np.column_stack([tops.place + fit.centre, height]),
-        np.column_stack([-fit.lean, np.ones(len(height))]),
+        np.column_stack([-lean, np.ones(len(height))]),
         fit.covariance + shape,
         tops.residual_mm,
         2 * fit.outline_radius,
@@ -219,6 +240,8 @@ def _points(tops: Tops, fit: PooledFit, level: Plane) -> tuple[AssemblyPoint, ..
             f"{edges} edge and {sides} side points"
             for edges, sides in zip(fit.edge_count.tolist(), fit.wall_count.tolist(), strict=True)
         ],
+        lean_covariance,
+        seen_lengths(tops.side_depth, tops.side_seen),
     )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from aadm_workbench.extract.circle import AGREES_MM
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
 from aadm_workbench.extract.edge_shift import BLURRED, BentDiscs, bend_at_edges, bent_discs, shift_of_mouths
-from aadm_workbench.extract.found_points import found_points
+from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouths_in
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
@@ -32,6 +32,7 @@ _WALL_COUNT_MIN = 20
 _WALL_LAW = BracketLaw(0.08, 0.4)  # many points lie on ribs, which only ever stand inwards
 _TAIL_PITCHES, _TAIL_TO_KEPT, _USUALLY_KEPT = 6.0, 1.5, 0.7
 _FIRST_SETTLED_MM = 0.03  # the first fit only tells which share of the pixels the camera keeps
+_BORE_LEAN_U = 2e-3  # light that bounces in a bore pushes its wall by less or more as it goes deeper
 _WHOLE_WITHIN_MM = 1.5  # between the innermost points of a rim and the disc that is seen: filters move it by less
 _BROKEN_U_MM = 0.3  # of a broken rim, seen by a camera that adds to its edges
 _SIDES, _SIDE_COUNT_MIN = 6, 10
@@ -262,4 +263,6 @@ def _points(mouths: Mouths, fit: PooledFit, face: Plane, pitch_mm: float) -> tup
             f"{walls} wall and {edges} edge points at {pitch_mm:.2f} mm"
             for walls, edges in zip(fit.wall_count.tolist(), fit.edge_count.tolist(), strict=True)
         ],
+        fit.lean_covariance + _BORE_LEAN_U**2 * np.eye(2),
+        seen_lengths(mouths.wall_depth, mouths.wall_seen),
     )
