@@ -215,7 +215,7 @@ def _fits_better_mirrored(planar: list[PlanarPlacement], flat: Array, design: Ar
 
 
 def _needs_no_mirror(best: PlanarPlacement, design: Array) -> bool:
-    """Whether a mirror image could fit no better: all points lie as designed, or the pattern is its own mirror image."""
+    """Whether a mirror image could fit no better: all points lie as designed, or the pattern is its own mirror."""
     return float(best.deviations_mm.max()) < SMALLEST_SCALE_MM or is_its_own_mirror(design)
 
 
