@@ -18,8 +18,8 @@ def sum_up(
     """
     parts = [part for part in (sleeves, rebars, trial) if part is not None]
     goes_on = Verdict.NOT_ASSESSED if trial is None else trial.verdict
-    reasons = tuple(reason for part in parts if part.verdict is not Verdict.PASS for reason in part.reasons)
-    return worst(part.verdict for part in parts), goes_on, reasons
+    said = (reason for part in parts if part.verdict is not Verdict.PASS for reason in part.reasons)
+    return worst(part.verdict for part in parts), goes_on, tuple(dict.fromkeys(said))
 
 
 def rules_of_the_erected_column(profile: Profile) -> tuple[RuleResult, ...]:

@@ -94,6 +94,8 @@ class Match:
     contradiction
         Where there is no match because the pattern contradicts what was declared: ``mirrored`` or
         ``turn_contradicted``; else empty.
+    contradicting
+        Of a contradicted turn: the placement that fits, and that nearest to the declaration where there is one.
     declared
         Radians, the ``up`` that chose among the placements; None without one.
     open_turn
@@ -106,6 +108,7 @@ class Match:
     reason: str = ""
     extra: tuple[int, ...] = ()
     contradiction: str = ""
+    contradicting: tuple[Placement, ...] = ()
     declared: float | None = None
     open_turn: float | None = None
 
@@ -282,12 +285,12 @@ def _oriented(possible: list[Placement], plausible: list[Placement], up: Array |
     ordered = sorted(plausible, key=lambda found: round(_off(found, declared), 9))
     nearest = _off(ordered[0], declared)
     if nearest > DECLARED_WITHIN_RAD:
-        return _contradicted(declared, ordered[0], "it fits only with")
+        return _contradicted(declared, ordered[0], None)
     alike = [found for found in ordered if _apart(found, ordered[0]) < UP_TELLS_RAD]
     best = max(possible, key=lambda found: found.log_likelihood)
     chosen = max(found.log_likelihood for found in alike)
     if _off(best, declared) > DECLARED_WITHIN_RAD and best.log_likelihood - chosen > CONTRADICTS_LOG_RATIO:
-        return _contradicted(declared, best, f"it fits {_how_much_better(alike[0], best)} with")
+        return _contradicted(declared, best, max(alike, key=lambda found: found.log_likelihood))
     if len(alike) > 1:
         in_place = sorted(alike, key=lambda found: round(found.cost_mm, 6))
         return Match(tuple(in_place), "ambiguous", declared=declared)
@@ -313,20 +316,14 @@ def _open_turn(chosen: Placement, others: list[Placement], declared: float) -> f
     return _off(chosen, declared) / min(0.5 * between, math.radians(45.0))
 
 
-def _contradicted(declared: float, fitting: Placement, how: str) -> Match:
+def _contradicted(declared: float, fitting: Placement, as_declared: Placement | None) -> Match:
     said, actual = (round(math.degrees(angle or 0.0)) % 360 for angle in (declared, fitting.up))
     turned = math.degrees(_off(fitting, declared))
-    reason = (
-        f"the pattern contradicts the declared up of {said}°: {how} {actual}° at the top of the image, "
-        f"{turned:.0f}° away"
-    )
-    return Match(reason=reason, contradiction="turn_contradicted", declared=declared)
-
-
-def _how_much_better(chosen: Placement, best: Placement) -> str:
-    if best.found > chosen.found:
-        return f"{best.found - chosen.found} more points"
-    return f"to {best.rms_mm:.2f} instead of {chosen.rms_mm:.2f} mm"
+    how = "it fits only with" if as_declared is None else f"it fits to {fitting.rms_mm:.2f} mm with"
+    reason = f"the pattern contradicts the declared up of {said}°: {how} {actual}° at the top of the image"
+    reason += f", {turned:.0f}° away" if as_declared is None else f", to {as_declared.rms_mm:.2f} mm as declared"
+    rivals = (fitting,) if as_declared is None else (fitting, as_declared)
+    return Match(reason=reason, contradiction="turn_contradicted", contradicting=rivals, declared=declared)
 
 
 def _with_extra(match: Match, measured: int) -> Match:
