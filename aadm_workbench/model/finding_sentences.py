@@ -33,8 +33,8 @@ FINDING_SENTENCES: dict[str, Sentence] = {
         "可能是规格不同、口部有灰浆或胶带、相机丢失边缘,或比例有误:请用卡尺量一个",
     ),
     "diameter_differs.others": Sentence(
-        "bars of {design_mm:g} mm are designed, but those that stand in the scan measure {measured_mm:.1f} mm across the "
-        "core; sizes that would fit: {seems}",
+        "bars of {design_mm:g} mm are designed, but those that stand in the scan measure {measured_mm:.1f} mm across "
+        "the core; sizes that would fit: {seems}",
         "设计为 {design_mm:g} mm 钢筋,而扫描中的钢筋芯部实测 {measured_mm:.1f} mm;相符的规格:{seems}",
     ),
     "scale_differs.group": Sentence(
