@@ -28,10 +28,10 @@ DECLARED_WITHIN_RAD = math.radians(44.0)
 UP_TELLS_RAD = math.radians(4.0)
 """Turns nearer to each other than this are one turn to whoever declares ``up``: nobody holds a camera better."""
 
-FAR_FROM_DECLARED = 40.0 / 45.0
+FAR_FROM_DECLARED = 40.5 / 45.0
 """Of the way from a turn to the middle between it and the next one: beyond it a declared ``up`` is hardly one.
 
-On a square ring that is 40° of 45°."""
+On a square ring that is more than 40° of 45°, to the degree."""
 
 SMALLEST_SCALE_MM = 1.0
 """Deviations are taken to be at least this large when turns are compared: bars and sleeves are built to 2 mm."""

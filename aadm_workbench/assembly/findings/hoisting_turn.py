@@ -8,8 +8,8 @@ from dataclasses import replace
 from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.model import HoistingReport, Verdict, worst
 
-DOUBTFUL_DEG = 40.0
-"""At 45° a square ring is as near to its next turn as to this one; 5° is how well a crew reads a corner."""
+DOUBTFUL_DEG = 40.5
+"""More than 40°, to the degree. At 45° a square ring is as near to its next turn as to this one."""
 
 
 def with_turn_finding(report: HoistingReport, near: tuple[int, int] | None, off_declared: float) -> HoistingReport:

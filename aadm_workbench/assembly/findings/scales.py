@@ -21,8 +21,8 @@ from aadm_workbench.model import Array, Finding
 PLAY = 5e-4
 """Relative: shrinkage of concrete, 0.3 mm/m, and 20 K of temperature at 10⁻⁵ a kelvin (EN 1992-1-1, 3.1)."""
 
-NORMAL_QUANTILE = 3.29
-"""Two-sided 0.1 %: of sound scans not one in a thousand is beyond it, play aside."""
+NORMAL_QUANTILE = 3.89
+"""Two-sided 0.01 %: of sound scans not one in ten thousand is beyond it, play aside."""
 
 _PRIOR_WEIGHT = 4.0  # the usual scatter counts as so many coordinates do
 _FEWEST = 3
@@ -38,7 +38,7 @@ class Scale:
 
     @property
     def expanded(self) -> float:
-        """Half-width of the range that holds the true scale in all but one of a thousand cases."""
+        """Half-width of the range that holds the true scale in all but one of ten thousand cases."""
         return student_quantile(self.freedom) * self.u
 
 
@@ -84,7 +84,7 @@ def pattern_scale(group: SeenGroup) -> Scale | None:
 
 
 def student_quantile(freedom: float) -> float:
-    """Two-sided 0.1 % of Student's law, by the expansion of Cornish and Fisher: within 2 % from six degrees on."""
+    """Two-sided 0.01 % of Student's law, by the expansion of Cornish and Fisher: within 4 % from eight degrees on."""
     z = NORMAL_QUANTILE
     first = (z**3 + z) / 4.0
     second = (5.0 * z**5 + 16.0 * z**3 + 3.0 * z) / 96.0
