@@ -244,7 +244,7 @@ def _tasks(
     job: Job, columns: Sequence[JobColumn], model: ModelDesign | None, settings: CheckSettings
 ) -> list[ColumnTask]:
     """A task for each column, each with the designs of the job that are unlike its own."""
-    tasks = _tasks(job, columns, model, settings)
+    tasks = [_task(job, column, model, settings) for column in columns]
     designs = [task.design for task in tasks if task.design is not None]
     patterns = {design_shape(design): design for design in reversed(designs)}
     if len(patterns) < 2:
