@@ -18,7 +18,9 @@ from aadm_workbench.assembly.control import ControlPose, fit_control_points, sho
 from aadm_workbench.assembly.datum import with_absolute
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.eopa import NoFit
-from aadm_workbench.assembly.inspect import inspect_group
+from aadm_workbench.assembly.findings.group import SeenGroup
+from aadm_workbench.assembly.findings.of_column import Seen, with_findings
+from aadm_workbench.assembly.inspect import describe_ambiguity, inspect_group
 from aadm_workbench.assembly.match import Match, match_extraction
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.repair import advise_repair
@@ -79,7 +81,8 @@ class ColumnScans:
     """The scans of one column.
 
     ``..._up_deg``: column-frame direction at the top of the image, in degrees from +x, counter-clockwise seen from
-    above; None where nobody declared it. ``control_points`` are measured in the scan of the rebars.
+    above; None where nobody declared it. ``control_points`` are measured in the scan of the rebars. ``others`` are the
+    other columns of the job: a scan that does not fit this column may fit one of them.
     """
 
     sleeves: tuple[Scan, ...] = ()
@@ -87,6 +90,7 @@ class ColumnScans:
     sleeves_up_deg: float | None = None
     rebars_up_deg: float | None = None
     control_points: tuple[ControlPoint, ...] = ()
+    others: tuple[ColumnDesign, ...] = ()
 
     def of(self, kind: Kind) -> tuple[Scan, ...]:
         """The views of one kind."""
@@ -132,7 +136,17 @@ def check_column(
             trial = _try(design, measured[Kind.SLEEVE], measured[Kind.REBAR], settings)
             repair = _repair(design, measured[Kind.SLEEVE], measured[Kind.REBAR], trial, settings)
             trial = with_blame(trial, repair)
-    return replace(_report(design, measured, trial, checks, settings.profile), repair=repair)
+    report = replace(_report(design, measured, trial, checks, settings.profile), repair=repair)
+    seen = {kind: Seen(_seen(design, kind, scans, measured[kind]), scans.of(kind)[0]) for kind in measured}
+    rng = np.random.default_rng([settings.seed, 4])
+    with stage("assembly"):
+        return with_findings(report, design, seen, method=settings.method, rng=rng, others=scans.others)
+
+
+def _seen(design: ColumnDesign, kind: Kind, scans: ColumnScans, measured: Measured) -> SeenGroup:
+    """A group as the rules on findings look at it."""
+    scale_error = _scale_error(scans.of(kind)[0])
+    return SeenGroup(kind, design.points(kind), measured.extraction, measured.match, scale_error)
 
 
 def measure_column(
@@ -180,7 +194,7 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             reasons = dict.fromkeys(_missing_places(points, match), f"in none of the {len(views)} views")
         else:
             reasons = _reasons(scan, extraction, _missing_places(points, match), diameter_mm, rng)
-    scale_error = scan.camera.scale_error if scan.camera else 0.0
+    scale_error = _scale_error(scan)
     with stage("assembly"):
         report = inspect_group(
             points,
@@ -201,6 +215,11 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
         if control is None or not match:
             return measured
         return _in_the_building(measured, points, scans.control_points, control, settings, scale_error)
+
+
+def _scale_error(scan: Scan) -> float:
+    """Relative standard uncertainty of the lengths of a scan, where its camera states one."""
+    return scan.camera.scale_error if scan.camera else 0.0
 
 
 def _diameters_mm(points: tuple[AssemblyPoint, ...]) -> list[float]:
@@ -324,6 +343,9 @@ def _explained(point: PointResult, reason: str | None) -> PointResult:
 
 
 def _try(design: ColumnDesign, sleeves: Measured, rebars: Measured, settings: CheckSettings) -> TrialReport:
+    if sleeves.match.is_shifted and rebars.match.is_shifted:
+        # Which sleeve meets which bar hangs on both at once: no shift of one against the other holds them all.
+        return TrialReport(Verdict.NOT_MEASURED, reasons=(describe_ambiguity(sleeves.match),))
     return try_scans(
         design,
         (sleeves.extraction, sleeves.match),

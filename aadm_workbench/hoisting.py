@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule
+from aadm_workbench.assembly.findings.hoisting_turn import with_turn_finding
 from aadm_workbench.assembly.hoisting_match import Laid, Matched, NoMatch, match_hoisting
 from aadm_workbench.assembly.hoisting_pairs import HungFit, report_pairs, unmeasured
 from aadm_workbench.assembly.hoisting_sense import why_half, why_not_bars, why_not_foot
@@ -136,7 +137,8 @@ def _measured(
     reason = why_not_foot(face, foot, sleeve_mm) or why_not_bars(frame, hung, bars, matched, bar_mm)
     if reason:
         return unmeasured(scan, design, METHOD, half or reason)
-    return report_pairs(scan, frame, design, hung, matched.orientation, settings.profile, settings.decision, half)
+    measured = report_pairs(scan, frame, design, hung, matched.orientation, settings.profile, settings.decision, half)
+    return replace(measured, report=with_turn_finding(measured.report, near, matched.off_declared))
 
 
 def _places(points: Sequence[AssemblyPoint]) -> Array:

@@ -34,7 +34,8 @@ class ColumnTask:
     """All that is needed to check one column.
 
     ``folder`` is where relative paths start; ``places`` says where files lie that are not found from there;
-    ``design`` None means that the job's model gives none, for the reason ``no_design``.
+    ``design`` None means that the job's model gives none, for the reason ``no_design``. ``others`` are the designs of
+    the job that are unlike this one.
     """
 
     column: JobColumn
@@ -46,6 +47,7 @@ class ColumnTask:
     depth_scale_mm: float | None = None
     no_design: str = ""
     places: Mapping[str, Path] = field(default_factory=dict)
+    others: tuple[ColumnDesign, ...] = ()
 
     def path_of(self, name: str) -> Path:
         """Where a file lies that the job names."""
@@ -154,6 +156,7 @@ def read_scans(task: ColumnTask, design: ColumnDesign) -> ColumnScans:
         sleeves_up_deg=column.sleeves_up_deg,
         rebars_up_deg=column.rebars_up_deg,
         control_points=column.control_points,
+        others=task.others,
     )
 
 

@@ -23,7 +23,16 @@ def task_key(task: ColumnTask, program: str) -> str:
 
     Where the files lie is not in it, so a job may be moved; a file that cannot be read counts as what it is.
     """
-    said = (task.column, task.design, task.settings, task.units, task.camera, task.depth_scale_mm, task.no_design)
+    said = (
+        task.column,
+        task.design,
+        task.settings,
+        task.units,
+        task.camera,
+        task.depth_scale_mm,
+        task.no_design,
+        task.others,
+    )
     found = hashlib.sha256(f"{program}\n{to_exact_json(said)}\n".encode(errors="surrogatepass"))
     for name in files_of(task.column):
         found.update(f"{content_hash(task.path_of(name))}\n".encode())

@@ -15,6 +15,8 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from aadm_workbench.as_designed import read_design
+from aadm_workbench.assembly.findings.same_scan import with_same_scans
+from aadm_workbench.assembly.findings.shape import design_shape
 from aadm_workbench.assembly.mould import assess_moulds
 from aadm_workbench.check import CheckSettings
 from aadm_workbench.design.model_design import ModelDesign
@@ -193,7 +195,7 @@ def _collected(
         seconds[record.id] = record.seconds
         if record.where:
             traces[record.id] = record.where
-    return _report(job, model, settings, tuple(columns)), seconds, traces
+    return _report(job, model, settings, with_same_scans(columns)), seconds, traces
 
 
 def plan_tasks(
@@ -204,7 +206,7 @@ def plan_tasks(
     with watch.stage("model"):
         model = model_of(job)
     settings = CheckSettings(job.profile, options.method, job.decision, job.checks, job.turns)
-    return model, settings, [_task(job, column, model, settings) for column in columns]
+    return model, settings, _tasks(job, columns, model, settings)
 
 
 def chosen_columns(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
@@ -236,6 +238,23 @@ def model_of(job: Job) -> ModelDesign | None:
     rules = {"columns": job.model.columns, "sleeves": job.model.sleeves, "rebars": job.model.rebars}
     model = read_design(path, **rules, units=job.model.units)
     return replace(model, source=job.model.path)
+
+
+def _tasks(
+    job: Job, columns: Sequence[JobColumn], model: ModelDesign | None, settings: CheckSettings
+) -> list[ColumnTask]:
+    """A task for each column, each with the designs of the job that are unlike its own."""
+    tasks = [_task(job, column, model, settings) for column in columns]
+    designs = [task.design for task in tasks if task.design is not None]
+    patterns = {design_shape(design): design for design in reversed(designs)}
+    if len(patterns) < 2:
+        return tasks
+    found = []
+    for task in tasks:
+        own = None if task.design is None else design_shape(task.design)
+        others = tuple(design for shape, design in sorted(patterns.items(), key=lambda item: item[0]) if shape != own)
+        found.append(replace(task, others=others))
+    return found
 
 
 def _task(job: Job, column: JobColumn, model: ModelDesign | None, settings: CheckSettings) -> ColumnTask:

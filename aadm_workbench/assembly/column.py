@@ -19,10 +19,10 @@ def sum_up(
     """
     parts = [part for part in (sleeves, rebars, trial) if part is not None]
     goes_on = Verdict.NOT_ASSESSED if trial is None else trial.verdict
-    reasons = tuple(reason for part in parts if part.verdict is not Verdict.PASS for reason in part.reasons)
+    said = tuple(reason for part in parts if part.verdict is not Verdict.PASS for reason in part.reasons)
     if trial is not None and trial.in_the_way:
-        reasons = (trial.reasons[0], *(reason for reason in reasons if reason != trial.reasons[0]))
-    return worst(part.verdict for part in parts), goes_on, reasons
+        said = (trial.reasons[0], *said)
+    return worst(part.verdict for part in parts), goes_on, tuple(dict.fromkeys(said))
 
 
 def rules_of_the_erected_column(profile: Profile) -> tuple[RuleResult, ...]:

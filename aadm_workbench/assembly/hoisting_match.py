@@ -31,11 +31,16 @@ class Laid:
 
 @dataclass(frozen=True, eq=False)
 class Matched:
-    """Sleeves and bars, laid; ``orientation`` is ``declared``, ``resolved`` or ``ambiguous``."""
+    """Sleeves and bars, laid; ``orientation`` is ``declared``, ``resolved`` or ``ambiguous``.
+
+    ``off_declared`` is how far, in radians, things hang and stand off what ``near`` claims, where it chose: the turn of
+    the column against its bars, or that of the camera about the corner named. At 45° it would be the next turn.
+    """
 
     sleeves: Laid
     rebars: Laid
     orientation: str
+    off_declared: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -87,7 +92,13 @@ def match_hoisting(
     cheapest = turned[0].cost_mm
     close = [found for found in turned if found.cost_mm < cheapest + _SAME_COST_MM]
     foot = min(close, key=lambda found: abs(wrap(chosen.yaw - found.yaw)))
-    return Matched(_laid(foot), _laid(chosen), orientation)
+    off = 0.0
+    if near is not None:
+        # What a pattern settles by itself, no declaration decides.
+        off = _from_corner(chosen, eye, rebar_places) if orientation == "declared" else 0.0
+        if any(_elsewhere(found, foot) for found in on_foot if found.cost_mm < foot.cost_mm + _SAME_COST_MM):
+            off = max(off, abs(wrap(chosen.yaw - foot.yaw)))
+    return Matched(_laid(foot), _laid(chosen), orientation, off)
 
 
 def _worth(found: list[PlanarPlacement]) -> list[PlanarPlacement]:
@@ -100,8 +111,19 @@ def _elsewhere(one: PlanarPlacement, other: PlanarPlacement) -> bool:
 
 def _nearest_corner(found: PlanarPlacement, eye: Array, places: Array) -> tuple[int, int]:
     """Signs of x and y of the corner of the pattern nearest to the camera, if it is laid so."""
-    at = turn(found.yaw) @ eye + found.shift - 0.5 * (places.min(axis=0) + places.max(axis=0))
+    at = _eye_at(found, eye, places)
     return (1 if at[0] > 0 else -1), (1 if at[1] > 0 else -1)
+
+
+def _eye_at(found: PlanarPlacement, eye: Array, places: Array) -> Array:
+    """Where the camera stands (2,) mm from the middle of the pattern, if it is laid so."""
+    return np.asarray(turn(found.yaw) @ eye + found.shift - 0.5 * (places.min(axis=0) + places.max(axis=0)))
+
+
+def _from_corner(found: PlanarPlacement, eye: Array, places: Array) -> float:
+    """Angle between the camera's direction and the middle of its quadrant, 0 to 45°, in radians."""
+    x, y = np.abs(_eye_at(found, eye, places))
+    return abs(float(np.arctan2(y, x)) - np.pi / 4.0)
 
 
 def _contradiction(near: tuple[int, int], seen: tuple[int, int]) -> str:

@@ -113,7 +113,7 @@ def inspect_group(
         verdict=verdict,
         points=agree_on_points([result.points for result in inspected]),
         spacing=agree_on_spacing([result.spacing for result in inspected]),
-        fit=_fit(match, [result.verdict for result in inspected]),
+        fit=_fit(design, match, [result.verdict for result in inspected]),
         rules=_agreed_rules(inspected),
         reasons=_reasons(match, inspected[0], verdict),
         notes=_notes(extraction, match),
@@ -173,17 +173,38 @@ def _agreed_rules(inspected: Sequence[_Inspected]) -> tuple[RuleResult, ...]:
     return tuple(results)
 
 
-def _fit(match: Match, verdicts: Sequence[Verdict]) -> Fit:
+def _fit(design: Sequence[AssemblyPoint], match: Match, verdicts: Sequence[Verdict]) -> Fit:
     chosen = match.placements[0]
     candidates = tuple(
-        _candidate(placement, chosen, verdicts[index] if index < len(verdicts) else None)
+        _candidate(design, placement, chosen, verdicts[index] if index < len(verdicts) else None)
         for index, placement in enumerate(match.placements)
     )
-    return Fit(chosen.T_design_scan, chosen.rms_mm, chosen.max_mm, match.orientation, candidates, chosen.scale)
+    up = None if match.declared is None or len(match.placements) == 1 else direction_name(match.declared)
+    return Fit(chosen.T_design_scan, chosen.rms_mm, chosen.max_mm, match.orientation, candidates, chosen.scale, up)
 
 
-def _candidate(placement: Placement, chosen: Placement, verdict: Verdict | None) -> Candidate:
+def direction_name(angle: float) -> str:
+    """A direction of the column frame, radians from +x, as jobs declare it: ``+y``, or degrees."""
+    degrees = math.degrees(angle) % 360.0
+    named = {0: "+x", 90: "+y", 180: "-x", 270: "-y"}
+    return named.get(round(degrees), f"{degrees:.0f}°") if abs(degrees - round(degrees)) < 1e-6 else f"{degrees:.1f}°"
+
+
+def _candidate(
+    design: Sequence[AssemblyPoint], placement: Placement, chosen: Placement, verdict: Verdict | None
+) -> Candidate:
+    label_of = {
+        measured: target.label
+        for target, measured in zip(design, placement.matched.tolist(), strict=True)
+        if measured >= 0
+    }
+    labels = {
+        target.label: label_of[measured]
+        for target, measured in zip(design, chosen.matched.tolist(), strict=True)
+        if measured in label_of
+    }
     return Candidate(
+        labels=labels,
         yaw_deg=math.degrees(wrap(placement.yaw - chosen.yaw)),
         rms_mm=placement.rms_mm,
         max_mm=placement.max_mm,
@@ -207,11 +228,17 @@ def _reasons(match: Match, first: _Inspected, verdict: Verdict) -> tuple[str, ..
         return tuple(reasons)
     if verdict is Verdict.PASS:
         return ()
-    return (describe_ambiguity(match), *(f"in the first of these turns: {reason}" for reason in reasons))
+    where = "in the first of these places" if match.is_shifted else "in the first of these turns"
+    return (describe_ambiguity(match), *(f"{where}: {reason}" for reason in reasons))
 
 
 def describe_ambiguity(match: Match) -> str:
-    """In how many turns the pattern fits, and what to declare."""
+    """In how many turns the pattern fits, and what to declare; in how many places, and what to scan."""
+    if match.is_shifted:
+        return (
+            f"what was seen of the pattern fits in {len(match.placements)} places of it: scan it with both of its "
+            "ends, or in views that share three points and more"
+        )
     ups = [placement.up for placement in match.placements]
     turns = ", ".join(f"{round(math.degrees(up)) % 360}°" for up in ups if up is not None)
     shown = f" (top of the image at {turns})" if turns else ""

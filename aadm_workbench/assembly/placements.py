@@ -8,7 +8,7 @@ a single bad point cannot make a wrong turn better than the right one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -39,14 +39,24 @@ class PlanarPlacement:
         Radians and (2,) mm: ``turn(yaw) @ measured + shift`` is in the design's frame.
     matched
         (m,) int64, for each design point the measured one that lies there, −1 for none.
-    cost_mm
-        Sum over the design points of the distance, cut off at the gate.
+    deviations_mm
+        (m,) of each design point to the measured one, the gate where there is none.
     """
 
     yaw: float
     shift: Array
     matched: IntArray
-    cost_mm: float
+    deviations_mm: Array
+
+    @property
+    def cost_mm(self) -> float:
+        """Sum over the design points of the distance, cut off at the gate."""
+        return float(self.deviations_mm.sum())
+
+    @property
+    def found(self) -> int:
+        """How many design points have a measured one."""
+        return int((self.matched >= 0).sum())
 
 
 def search_placements(measured: Array, design: Array) -> list[PlanarPlacement]:
@@ -127,8 +137,9 @@ def _refine(source: Array, target: Array, yaw: Array, shift: Array, gate_mm: flo
         matched = np.full(len(target), -1, dtype=np.int64)
         which = np.flatnonzero(mutual[k])
         matched[nearest[k, which]] = which
-        cost_mm = float(distance[k, which].sum()) + gate_mm * (len(target) - len(which))
-        found.append(PlanarPlacement(float(yaw[k]), shift[k], matched, cost_mm))
+        deviations_mm = np.full(len(target), gate_mm)
+        deviations_mm[nearest[k, which]] = distance[k, which]
+        found.append(PlanarPlacement(float(yaw[k]), shift[k], matched, deviations_mm))
     return found
 
 
@@ -183,4 +194,4 @@ def _same(a: PlanarPlacement, b: PlanarPlacement) -> bool:
 
 def _uncentred(found: PlanarPlacement, middle: Array, centre: Array) -> PlanarPlacement:
     shift = found.shift + centre - _turned(middle[None, None], np.array([found.yaw]))[0, 0]
-    return PlanarPlacement(found.yaw, shift, found.matched, found.cost_mm)
+    return replace(found, shift=shift)

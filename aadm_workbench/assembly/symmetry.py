@@ -1,4 +1,4 @@
-"""The turns about the column's axis that map a pattern of sleeves onto itself."""
+"""The turns about the column's axis that map a pattern of sleeves onto itself, and whether a mirror does."""
 
 from __future__ import annotations
 
@@ -45,6 +45,32 @@ def symmetric_turns(centres: Array) -> tuple[SymmetricTurn, ...]:
         if found is not None:
             turns.append(found)
     return tuple(sorted(turns, key=lambda found: (round(abs(found.angle), 9), -found.angle)))
+
+
+def is_its_own_mirror(centres: Array) -> bool:
+    """Whether the mirror image of a pattern, turned in some way, is the pattern: then no scan shows a mirror.
+
+    Parameters
+    ----------
+    centres
+        (n, 2) or (n, 3) float64, mm.
+    """
+    points = np.asarray(centres, dtype=np.float64)[:, :2]
+    centred = points - points.mean(axis=0)
+    image = centred * np.array([1.0, -1.0])
+    radius = np.hypot(*centred.T)
+    reference = int(np.argmax(radius))
+    alike = np.flatnonzero(np.abs(radius - radius[reference]) <= 2.0 * SYMMETRIC_WITHIN_MM)
+    angles = np.arctan2(*centred[alike, ::-1].T) - np.arctan2(image[reference, 1], image[reference, 0])
+    return any(_lies_on(image @ turn(float(angle)).T, centred) for angle in angles)
+
+
+def _lies_on(points: Array, centred: Array) -> bool:
+    nearest = _distances(points, centred).argmin(axis=1)
+    if len(set(nearest.tolist())) < len(nearest):
+        return False
+    fit = fit_eopa_planar(points, centred[nearest])
+    return not isinstance(fit, NoFit) and float(np.hypot(*fit.residuals.T).max()) <= SYMMETRIC_WITHIN_MM
 
 
 def _turn_by(centred: Array, about: float) -> SymmetricTurn | None:

@@ -29,6 +29,9 @@ from aadm_workbench.model.drift import (
     MouldDrift,
     SleeveDrift,
 )
+from aadm_workbench.model.findings import (
+    Finding,
+)
 from aadm_workbench.model.hoisting import (
     CameraMove,
     Correction,
@@ -106,6 +109,7 @@ __all__ = [
     "Correction",
     "Deviation",
     "Extraction",
+    "Finding",
     "Fit",
     "FitCell",
     "FloatArray",

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from aadm_workbench.model.arrays import Array, Vector2, Vector3
+from aadm_workbench.model.findings import Finding
 from aadm_workbench.model.verdicts import Verdict
 
 
@@ -72,7 +73,7 @@ class HoistingReport:
 
     ``keys`` are the paper's three key points by their sleeves, ``mean_mm`` is over them, ``max_mm`` over all pairs.
     ``vertical_from`` says what gave the bars' vertical, ``orientation`` how it was settled which sleeve is which:
-    ``declared`` by the job, ``resolved`` by the pattern, or ``ambiguous``.
+    ``declared`` by the job, ``resolved`` by the pattern, or ``ambiguous``. ``findings`` hold back this verdict alone.
     """
 
     source: str
@@ -90,6 +91,7 @@ class HoistingReport:
     height_mm: float | None = None
     vertical_from: str = ""
     orientation: str = ""
+    findings: tuple[Finding, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

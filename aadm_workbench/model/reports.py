@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from aadm_workbench.model.arrays import Array
 from aadm_workbench.model.drift import MouldDrift
+from aadm_workbench.model.findings import Finding
 from aadm_workbench.model.hoisting import HoistingReport
 from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, RuleResult, TrialReport
@@ -15,7 +16,10 @@ from aadm_workbench.model.verdicts import Verdict
 
 @dataclass(frozen=True, eq=False)
 class ColumnReport:
-    """Everything that report.json holds about one column; ``repair`` where its trial did not pass."""
+    """Everything that report.json holds about one column; ``repair`` where its trial did not pass.
+
+    ``findings`` are what contradicts the design, what was declared, or the camera.
+    """
 
     id: str
     verdict: Verdict
@@ -34,6 +38,7 @@ class ColumnReport:
     rules: tuple[RuleResult, ...] = ()
     notes: tuple[str, ...] = ()
     repair: RepairReport | None = None
+    findings: tuple[Finding, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,8 @@ class Candidate:
 
     ``yaw_deg`` is its turn against the first candidate, counter-clockwise from above. ``up_deg`` is the
     column-frame direction of the image's top in this candidate (what ``up`` of a job would have to say to choose
-    it), None where the scan has no image direction.
+    it), None where the scan has no image direction. ``labels`` says which point of this candidate each point of the
+    first one is.
     """
 
     yaw_deg: float
@@ -25,6 +26,7 @@ class Candidate:
     matched: int
     up_deg: float | None = None
     verdict: Verdict | None = None
+    labels: dict[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +34,8 @@ class Fit:
     """How a scan was laid on its design: ``T_design_scan`` (4, 4), in-plane least squares of all matched points.
 
     ``orientation`` is ``declared``, ``resolved`` or ``ambiguous``; ``scale`` is the free scale of the same fit,
-    a diagnostic of the camera that is never applied.
+    a diagnostic of the camera that is never applied. ``declared_up`` is the ``up`` of the job where the pattern alone
+    would leave several turns: which point is which hangs on it.
     """
 
     T_design_scan: Array
@@ -41,6 +44,7 @@ class Fit:
     orientation: str
     candidates: tuple[Candidate, ...] = ()
     scale: float | None = None
+    declared_up: str | None = None
 
 
 @dataclass(frozen=True)

@@ -13,6 +13,7 @@ from pathlib import PurePath
 from aadm_workbench.model import Verdict
 from aadm_workbench.report.bcf_findings import Finding
 from aadm_workbench.report.bcf_viewpoint import viewpoint_guid
+from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.read import Report
 
 AUTHOR = "AADM workbench"
@@ -130,7 +131,9 @@ def _said(finding: Finding) -> str:
     """The comment: every reason, and the advice where the trial assembly did not pass."""
     repair = finding.column.get("repair")
     advice = [f"Advice: {repair['advice']}"] if repair else []
-    return "\n".join([*finding.reasons, *advice]) or finding.title
+    up = declared_up(dict(finding.column))
+    declared = [f"As declared: {up}"] if up is not None and (finding.reasons or advice) else []
+    return "\n".join([*finding.reasons, *advice, *declared]) or finding.title
 
 
 def _comment(root: ElementTree.Element, finding: Finding, said: str, date: str, *, viewpoint: bool) -> None:

@@ -62,8 +62,19 @@ def column_facts(column: dict[str, Any]) -> list[tuple[str, str]]:
         ("ui.piece_mark", column["piece_mark"]),
         ("ui.size", None if size is None else f"{size[0]:g} × {size[1]:g} mm"),
         ("ui.global_id", column["global_id"]),
+        ("ui.as_declared", declared_up(column)),
     ]
     return [(name, value) for name, value in found if value]
+
+
+def declared_up(column: dict[str, Any]) -> str | None:
+    """``up = +y`` where the names of points hang on what the job declares, for their pattern fits in several turns."""
+    fits = {kind: (column[kind] or {}).get("fit") or {} for kind in ("sleeves", "rebars")}
+    said = {kind: fit["declared_up"] for kind, fit in fits.items() if fit.get("declared_up")}
+    if not said:
+        return None
+    ups = list(dict.fromkeys(said.values()))
+    return f"up = {ups[0]}" if len(ups) == 1 else ", ".join(f"{kind}_up = {up}" for kind, up in said.items())
 
 
 def trial_facts(trial: dict[str, Any]) -> list[tuple[str, str]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.crew import CrewAdvice, Step, crew_advice
 from aadm_workbench.report.crew_sketch import crew_sketch, sleeves_from_below
 from aadm_workbench.report.findings import Finding, findings
@@ -150,6 +151,11 @@ class _Page:
                 draw_sketch(canvas, below, (beside, low + side - width - 4.0 * MM), width)
         if any(step.release for step in advice.steps) or advice.light == "red":
             self._signature((beside, low), narrow)
+        up = declared_up(column)
+        if up is not None:
+            word = phrase("ui.as_declared")
+            said = f"{word.in_language(self.first)} / {word.in_language(self.second)}: {up}"
+            write_lines(canvas, (_LEFT, 15.5 * MM), said, 9.0, 0.7 * _WIDTH, bold=True, most=1)
         job = f"{report['job']['name']} · {report['capture'].get('date', '')}".rstrip(" ·")
         write_lines(canvas, (_LEFT, 11.0 * MM), f"{job} · report.json", 8.0, 0.7 * _WIDTH, colour="#55606b", most=1)
         number = f"{report['job']['sha256'][:12]}"

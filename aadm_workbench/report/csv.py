@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.atomic import write_atomically
+from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.hoist import worst_first
 from aadm_workbench.report.read import Report
 from aadm_workbench.report.tables import (
@@ -76,11 +77,26 @@ def _inert(cell: Cell) -> Cell:
 
 def _lines(report: Report, column: dict[str, Any]) -> Iterator[Row]:
     first = (column["id"], column["verdict"], column["goes_on"])
-    lines = [*_of_groups(report, column), *_of_trial(report, column), *_of_hoisting(report, column)]
+    lines = [
+        *_of_findings(column),
+        *_of_groups(report, column),
+        *_of_trial(report, column),
+        *_of_hoisting(report, column),
+    ]
     if not lines:
         lines = [("column", "", *(None,) * 7, "", column["verdict"], None, "; ".join(column["reasons"]))]
     for line in lines:
         yield (*first, *line)
+
+
+def _of_findings(column: dict[str, Any]) -> Iterator[Row]:
+    for finding in column.get("findings", ()):
+        held = "holds back" if finding["holds_back"] else ""
+        item = " ".join(finding["about"])
+        yield (f"finding {finding['code']}", item, *(None,) * 6, "", "", held, None, finding["text"])
+    up = declared_up(column)
+    if up is not None:
+        yield ("as_declared", up, *(None,) * 6, "", "", "", None, "labels hang on the declared up")
 
 
 def _of_groups(report: Report, column: dict[str, Any]) -> Iterator[Row]:

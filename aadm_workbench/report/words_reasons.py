@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from aadm_workbench.report.words import Phrase
+from aadm_workbench.report.words_findings import finding_in_chinese
 
 _NUMBER = r"[-+±]?[\d.]+"
 _LABEL = r"[SR]\d+"
@@ -108,6 +109,25 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
         "结论取决于柱的转位,扫描中看不出",
     ),
     (r"the pattern fits in (\d+) turns", r"布置在 \1 种转位下都吻合"),
+    (r"what was seen of the pattern fits in (\d+) places of it", r"所见部分与布置的 \1 处都吻合"),
+    (r": scan it with both of its ends, ", ":请连同两端一起扫描,"),
+    (r"or in views that share three points and more", "或使各视角至少共有三点"),
+    (r"in the first of these places: ", "按其中第一处:"),
+    (
+        r"the points it shares with the others differ by more than their uncertainty: it is open which they are",
+        "与其余视角共有的点之差超出不确定度,无法确定对应关系",
+    ),
+    (
+        r"it is open which points it shares with the others: it lies on them in (\d+) ways",
+        r"与其余视角共有哪些点不能确定:有 \1 种可能",
+    ),
+    (r"view (\d+) was left out: ", r"第 \1 个视角未采用:"),
+    (r", but their mirror image does: the scan is mirrored", ",但其镜像吻合:扫描是镜像的"),
+    (r", or it was taken from the other side than supposed", ",或从相反一侧拍摄"),
+    (
+        r"the (\d+) points found do not fit the pattern of the (\d+) design points",
+        r"找到的 \1 个点与设计的 \2 个点不吻合",
+    ),
     (r"declare up to settle which", "请在任务中指定 up"),
     (r"in the first of these turns: ", "按第一种转位:"),
     (r"the pattern contradicts the declared up of ", "布置与指定的 up 矛盾:"),
@@ -153,7 +173,7 @@ _COMPILED = [(re.compile(pattern), chinese) for pattern, chinese in _FRAGMENTS]
 
 def in_both_languages(sentence: str) -> Phrase:
     """A sentence of report.json, and its Chinese as far as its fragments are known."""
-    chinese = sentence
+    chinese = finding_in_chinese(sentence)
     for pattern, replacement in _COMPILED:
         chinese = pattern.sub(replacement, chinese)
     return Phrase(sentence, chinese)

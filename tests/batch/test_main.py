@@ -118,16 +118,16 @@ CASES = [
 @pytest.mark.usefixtures("exact_extraction")
 @pytest.mark.parametrize(("column", "code"), CASES, ids=["passes", "fails", "not measured", "error"])
 def test_exit_code(write_job: WriteJob, column: tuple[str, ...], code: int) -> None:
-    good = column_text("good", "foot.ply")
-    path = write_job(good, column_text(*column), clouds=("foot.ply", "bars.ply", "4mm.ply"))
+    good = column_text("good", "foot-2.ply")
+    path = write_job(good, column_text(*column), clouds=("foot.ply", "foot-2.ply", "bars.ply", "4mm.ply"))
     assert main(["check", str(path), "--quiet"]) == code
 
 
 @pytest.mark.usefixtures("exact_extraction")
 def test_check_writes_its_reports(write_job: WriteJob, capsys: pytest.CaptureFixture[str]) -> None:
     path = write_job(
-        column_text("C-1", "foot.ply", "bars.ply"), column_text("C-2", "foot.ply", "4mm.ply"), column_text("C-3"),
-        clouds=("foot.ply", "bars.ply", "4mm.ply"),
+        column_text("C-1", "foot.ply", "bars.ply"), column_text("C-2", "foot-2.ply", "4mm.ply"), column_text("C-3"),
+        clouds=("foot.ply", "foot-2.ply", "bars.ply", "4mm.ply"),
     )  # fmt: skip
     assert main(["check", str(path)]) == 10
     folder = path.parent / "job-report"

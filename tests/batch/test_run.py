@@ -13,6 +13,7 @@ from aadm_workbench.design.pattern import inline_design
 from aadm_workbench.errors import DesignError, JobError, MissingDependencyError
 from aadm_workbench.model import ColumnReport, Verdict
 from aadm_workbench.report.json import encode, report_document
+from aadm_workbench.report.read import checked_report
 from batch import column_task, run
 from batch.job_file import read_job
 from batch.pools import PoolOptions
@@ -45,12 +46,31 @@ def raising(error: BaseException) -> Callable[..., ColumnReport]:
 
 
 @pytest.mark.usefixtures("exact_extraction")
+def test_one_scan_for_two_columns_passes_neither(write_job: WriteJob) -> None:
+    """By its bytes, whatever the copy is called; a column with scans of its own passes as ever."""
+    path = write_job(
+        column_text("C-1", "foot.ply", "bars.ply"),
+        column_text("C-2", "foot-2.ply", "bars-2.ply"),
+        column_text("C-3", "foot-3.ply"),
+        clouds=("foot.ply", "foot-2.ply", "foot-3.ply", "bars.ply"),
+    )
+    (path.parent / "bars-2.ply").write_bytes((path.parent / "bars.ply").read_bytes())
+    first, second, third = finished(path).report.columns
+    assert [column.verdict for column in (first, second, third)] == ["inconclusive", "inconclusive", "pass"]
+    assert (first.goes_on, second.goes_on) == ("inconclusive", "inconclusive")
+    assert "is the same file as that of C-2" in first.reasons[0]
+    assert [(finding.code, finding.about) for finding in second.findings] == [("same_scan_twice", ("rebars",))]
+    document = report_document(finished(path).report)
+    assert checked_report(document, "report.json") is document
+
+
+@pytest.mark.usefixtures("exact_extraction")
 def test_verdicts_in_the_order_of_the_job(write_job: WriteJob) -> None:
     path = write_job(
-        column_text("C-3", "foot.ply", "4mm.ply"),
+        column_text("C-3", "foot-3.ply", "4mm.ply"),
         column_text("C-1", "foot.ply", "bars.ply"),
-        column_text("C-2", "foot.ply"),
-        clouds=("foot.ply", "bars.ply", "4mm.ply"),
+        column_text("C-2", "foot-2.ply"),
+        clouds=("foot.ply", "foot-2.ply", "foot-3.ply", "bars.ply", "4mm.ply"),
     )
     report = finished(path).report
     assert [(column.id, column.verdict) for column in report.columns] == [

@@ -1,0 +1,117 @@
+"""Diameters that contradict the design: another size of bar, caps, burrs, grout, or a wrong scale.
+
+What is measured of a bar is its core, and cores differ from the nominal diameter by what the standards allow and by
+what their makers do; of a sleeve the bore at its mouth. Beyond that play and the expanded uncertainty (k = 2) the
+measured diameter contradicts the design, and the room in the sleeves is not what the trial takes it for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from aadm_workbench.assembly.findings.group import SeenGroup
+from aadm_workbench.assembly.findings.make import make_finding
+from aadm_workbench.assembly.place import PlacedPoint
+from aadm_workbench.design.bar_sizes import OVER_RIBS_MM
+from aadm_workbench.extract.sizes import distinct_sizes
+from aadm_workbench.model import AssemblyPoint, Finding, Kind
+
+CORE_BELOW = 0.06
+"""Cores are thinner than nominal by up to this part: 19.3 mm ± 0.5 mm of 20 mm (GB/T 1499.2-2018, Table 3, d1)."""
+
+CORE_ABOVE = 0.03
+"""Cores of nominal diameter, as in EN 10080, and the ± 0.5 mm of d1 on 20 mm; a core any thicker is the next size."""
+
+SLEEVE_PLAY_MM = ((30.0, 0.2), (120.0, 0.3), (400.0, 0.5))
+"""A machined bore up to so many mm, and its general tolerance: ISO 2768-1:1989, class m (recalled, not verified)."""
+
+EDGE_U_PITCHES = 0.25
+"""Standard uncertainty, in pixel pitches, that all edges of a scan share: where a camera sees an edge to be."""
+
+COVERAGE = 2.0
+"""The factor of an expanded uncertainty, 95 % (GUM)."""
+
+_SAME_SIZE = 0.04  # relative: design diameters this near to each other are one size
+
+
+def diameter_findings(group: SeenGroup) -> Iterator[Finding]:
+    """A finding for each designed size whose bars or sleeves measure something else, all of them or some."""
+    if (
+        group.match.orientation == "ambiguous"
+        and len(distinct_sizes(target.diameter_mm for target in group.design)) > 1
+    ):
+        return  # it is open which size was meant where
+    measured = [(target, point) for target, point in group.placed() if np.isfinite(point.point.diameter_mm)]
+    shared_u_mm = EDGE_U_PITCHES * float(group.extraction.quality.get("point_pitch_mm", 0.0))
+    for of_size in _by_size(measured):
+        design_mm = float(np.median([target.diameter_mm for target, _ in of_size]))
+        low_mm, high_mm = allowed_mm(group.kind, design_mm)
+        off = [
+            (target, point)
+            for target, point in of_size
+            if _beyond(point.point.diameter_mm, low_mm, high_mm, COVERAGE * _u_mm(point, shared_u_mm))
+        ]
+        if off:
+            about = [group.kind.plural] if len(off) == len(measured) else [target.label for target, _ in off]
+            yield _said(group.kind, about, [point for _, point in off], design_mm, shared_u_mm)
+
+
+def allowed_mm(kind: Kind, design_mm: float) -> tuple[float, float]:
+    """Least and largest diameter that a sound bar or sleeve of a designed size measures, mm."""
+    if kind is Kind.REBAR:
+        return design_mm * (1.0 - CORE_BELOW), design_mm * (1.0 + CORE_ABOVE)
+    play_mm = sleeve_play_mm(design_mm)
+    return design_mm - play_mm, design_mm + play_mm
+
+
+def sleeve_play_mm(design_mm: float) -> float:
+    """How far the bore of a sound sleeve may be off its designed diameter, mm."""
+    return next((play for up_to, play in SLEEVE_PLAY_MM if design_mm <= up_to), SLEEVE_PLAY_MM[-1][1])
+
+
+def sizes_in_words(cores_mm: Sequence[float]) -> str:
+    """The nominal sizes that bars with these cores may be: ``22 mm``, ``18/20 mm``, or ``none``."""
+    sizes = [
+        size
+        for size in OVER_RIBS_MM
+        if any(size * (1.0 - CORE_BELOW) <= core <= size * (1.0 + CORE_ABOVE) for core in cores_mm)
+    ]
+    return f"{'/'.join(f'{size:g}' for size in sizes)} mm" if sizes else "none"
+
+
+def _by_size(
+    measured: Sequence[tuple[AssemblyPoint, PlacedPoint]],
+) -> Iterator[list[tuple[AssemblyPoint, PlacedPoint]]]:
+    left = list(measured)
+    while left:
+        size_mm = min(target.diameter_mm for target, _ in left)
+        yield [one for one in left if one[0].diameter_mm <= size_mm * (1.0 + _SAME_SIZE)]
+        left = [one for one in left if one[0].diameter_mm > size_mm * (1.0 + _SAME_SIZE)]
+
+
+def _u_mm(point: PlacedPoint, shared_u_mm: float) -> float:
+    """Standard uncertainty of a diameter: of a circle twice that of its radius, which is known as its centre is."""
+    covariance = point.point.covariance
+    own_mm = 0.0
+    if covariance is not None and np.isfinite(covariance).all():
+        own_mm = 2.0 * float(np.sqrt(np.linalg.eigvalsh(covariance[:2, :2])[-1]))
+    return float(np.hypot(own_mm, shared_u_mm))
+
+
+def _beyond(value: float, low: float, high: float, expanded: float) -> bool:
+    return value < low - expanded or value > high + expanded
+
+
+def _said(
+    kind: Kind, about: Sequence[str], off: Sequence[PlacedPoint], design_mm: float, shared_u_mm: float
+) -> Finding:
+    measured_mm = float(np.median([point.point.diameter_mm for point in off]))
+    expanded_mm = COVERAGE * float(np.median([_u_mm(point, shared_u_mm) for point in off]))
+    values: dict[str, object] = {"measured_mm": measured_mm, "U_mm": expanded_mm, "design_mm": design_mm}
+    if kind is Kind.SLEEVE:
+        return make_finding("diameter_differs.sleeve", about, **values, play_mm=sleeve_play_mm(design_mm))
+    least_mm, most_mm = allowed_mm(kind, design_mm)
+    seems = sizes_in_words([measured_mm])
+    return make_finding("diameter_differs.rebar", about, **values, least_mm=least_mm, most_mm=most_mm, seems=seems)

@@ -1,0 +1,62 @@
+"""What of a measured column contradicts its design, its job or its camera, and what that does to its verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.assembly.findings.group import SeenGroup
+from aadm_workbench.assembly.findings.hold import held_back
+from aadm_workbench.assembly.findings.mistaken import Look, NamedScan, mistaken_findings
+from aadm_workbench.assembly.findings.rules import findings_of
+from aadm_workbench.extract.sizes import extract_sizes
+from aadm_workbench.model import ColumnDesign, ColumnReport, Extraction, Finding, Kind, Scan
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A group of a column with the first of its scans."""
+
+    group: SeenGroup
+    scan: Scan
+
+
+def with_findings(
+    report: ColumnReport,
+    design: ColumnDesign,
+    seen: Mapping[Kind, Seen],
+    *,
+    method: str,
+    rng: np.random.Generator,
+    others: Sequence[ColumnDesign] = (),
+) -> ColumnReport:
+    """The report of a column with its findings, held back by them.
+
+    Parameters
+    ----------
+    seen
+        What was scanned of the column.
+    method, rng
+        For looking again at scans that show nothing of what they should.
+    others
+        The other columns of the job.
+    """
+    groups = {kind: one.group for kind, one in seen.items()}
+    scans = {kind: NamedScan(one.scan.source, _look_in(one.scan, method, rng)) for kind, one in seen.items()}
+    found = [*findings_of(design, list(groups.values())), *mistaken_findings(design, groups, scans, others)]
+    lost = {kind for kind, group in groups.items() if not group.match}
+    said = [f"{kind.plural}: {groups[kind].match.reason}" for kind in lost if _told(found, kind)]
+    return held_back(report, found, said)
+
+
+def _told(found: Sequence[Finding], kind: Kind) -> bool:
+    return any(kind.plural in finding.about for finding in found)
+
+
+def _look_in(scan: Scan, method: str, rng: np.random.Generator) -> Look:
+    def look(kind: Kind, diameters_mm: Sequence[float]) -> Extraction:
+        return extract_sizes(scan, kind, diameters_mm, method, rng)
+
+    return look

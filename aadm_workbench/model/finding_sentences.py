@@ -1,0 +1,120 @@
+"""Every sentence of a finding, in English and Chinese, by the finding's code and what it is about.
+
+Places in braces are filled with the finding's values, each with its own format, the same in both languages. The English
+sentence is what report.json holds; reports find the Chinese one by it.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Sentence(NamedTuple):
+    """One sentence with its places in braces."""
+
+    en: str
+    zh: str
+
+
+FINDING_SENTENCES: dict[str, Sentence] = {
+    "diameter_differs.rebar": Sentence(
+        "{about} measure {measured_mm:.1f} mm (±{U_mm:.1f} mm) across the core, bars of {design_mm:g} mm are designed, "
+        "whose cores have {least_mm:.1f} to {most_mm:.1f} mm; sizes that would fit: {seems}. Another size, caps, burrs "
+        "or mortar on the tops, or a scale that is wrong: look at the bars",
+        "{about} 芯部实测 {measured_mm:.1f} mm(±{U_mm:.1f} mm),设计为 {design_mm:g} mm 钢筋,其芯径为 "
+        "{least_mm:.1f} 至 {most_mm:.1f} mm;相符的规格:{seems}。可能是规格不同、端部有保护帽、毛刺或砂浆,"
+        "或比例有误:请查看钢筋",
+    ),
+    "diameter_differs.sleeve": Sentence(
+        "{about} measure {measured_mm:.1f} mm (±{U_mm:.1f} mm) inside at the mouth, {design_mm:g} mm are designed "
+        "(±{play_mm:.1f} mm). Another size, grout or tape at the rim, a camera that loses the edges, or a wrong scale: "
+        "measure one with a calliper",
+        "{about} 套筒口内径实测 {measured_mm:.1f} mm(±{U_mm:.1f} mm),设计为 {design_mm:g} mm(±{play_mm:.1f} mm)。"
+        "可能是规格不同、口部有灰浆或胶带、相机丢失边缘,或比例有误:请用卡尺量一个",
+    ),
+    "diameter_differs.others": Sentence(
+        "bars of {design_mm:g} mm are designed, but those that stand in the scan measure {measured_mm:.1f} mm across "
+        "the core; sizes that would fit: {seems}",
+        "设计为 {design_mm:g} mm 钢筋,而扫描中的钢筋芯部实测 {measured_mm:.1f} mm;相符的规格:{seems}",
+    ),
+    "scale_differs.group": Sentence(
+        "the pattern of the {group} is {scale:.4f} times as large as designed (±{U:.4f}): the intrinsics of the camera "
+        "or the unit are wrong, or the template was; no position in this scan is to be trusted before that is settled",
+        "{group} 的布置尺寸为设计的 {scale:.4f} 倍(±{U:.4f}):相机内参或单位有误,或模板有误;"
+        "查明之前,该扫描的位置均不可信",
+    ),
+    "scale_differs.column": Sentence(
+        "the patterns of sleeves and rebars differ in scale by {difference:.4f} (±{U:.4f}): one of the two scans, or "
+        "one of the two templates, is too large",
+        "套筒与钢筋的布置比例相差 {difference:.4f}(±{U:.4f}):两个扫描之一或两个模板之一偏大",
+    ),
+    "exposed_length_differs.short": Sentence(
+        "{about} sticks out {measured_mm:.0f} mm where {expected_mm:.0f} mm are expected ({of}): it is cut off or bent "
+        "away, and does not reach as far into its sleeve as it must",
+        "{about} 外露 {measured_mm:.0f} mm,应为 {expected_mm:.0f} mm({of}):被截断或弯倒,伸入套筒的长度不足",
+    ),
+    "exposed_length_differs.long": Sentence(
+        "{about} sticks out {measured_mm:.0f} mm where {expected_mm:.0f} mm are expected ({of}): it may strike the end "
+        "of its sleeve before the column is down",
+        "{about} 外露 {measured_mm:.0f} mm,应为 {expected_mm:.0f} mm({of}):柱未落位前可能顶到套筒底",
+    ),
+    "turn_contradicted": Sentence(
+        "the {group} contradict the declared up of {declared_deg:.0f}°: they fit only with {fitting_deg:.0f}° at the "
+        "top of the image, to {fitting_mm:.2f} mm. Correct up in the job, or see whether they are built so",
+        "{group} 与任务中的 up = {declared_deg:.0f}° 矛盾:只有图像上方为 {fitting_deg:.0f}° 时才吻合,"
+        "均方根 {fitting_mm:.2f} mm。请改正 up,或查看是否就是这样施工的",
+    ),
+    "turn_contradicted.worse": Sentence(
+        "the {group} contradict the declared up of {declared_deg:.0f}°: with {fitting_deg:.0f}° at the top of the "
+        "image they fit to {fitting_mm:.2f} mm, as declared only to {declared_mm:.2f} mm. Correct up in the job, or "
+        "see whether they are built so",
+        "{group} 与任务中的 up = {declared_deg:.0f}° 矛盾:图像上方为 {fitting_deg:.0f}° 时均方根 {fitting_mm:.2f} mm,"
+        "按指定则为 {declared_mm:.2f} mm。请改正 up,或查看是否就是这样施工的",
+    ),
+    "turn_doubtful": Sentence(
+        "the {group} lie {off_deg:.0f}° off the declared up, nearly half-way to the next turn that fits: which point "
+        "is which hangs on that; hold the camera upright, or correct up",
+        "{group} 与任务中的 up 相差 {off_deg:.0f}°,接近下一种吻合的转位:各点编号取决于此;请摆正相机,或改正 up",
+    ),
+    "hoisting_turn_doubtful": Sentence(
+        "in {source} the column or the camera is {turn_deg:.0f}° off what near = {near} claims, nearly half-way to the "
+        "next turn: turn the column nearer to its place, or correct near, and take another frame",
+        "{source} 中,柱或相机与 near = {near} 相差 {turn_deg:.0f}°,接近下一种转位:"
+        "请先将柱转近就位方向或改正 near,再拍一帧",
+    ),
+    "mirrored": Sentence(
+        "the scan of the {group} is mirrored: its points fit the pattern only as in a mirror. The picture was flipped "
+        "when it was stored, or the cloud has an axis the wrong way round",
+        "{group} 的扫描是镜像的:各点只有镜像后才与布置吻合。存图时被翻转,或点云的某轴方向反了",
+    ),
+    "swapped": Sentence(
+        "the scans of the sleeves and of the rebars are swapped: each shows what the other should",
+        "套筒与钢筋的扫描弄反了:各自显示的是对方的内容",
+    ),
+    "swapped.one": Sentence(
+        "the scan named for the {group} ({source}) shows the {others}: another file is meant",
+        "为{group}指定的扫描({source})显示的是{others}:应为另一个文件",
+    ),
+    "other_column": Sentence(
+        "the scan of the {group} does not show this column: its points fit the design of {column}",
+        "{group} 的扫描不是这根柱:各点与 {column} 的设计吻合",
+    ),
+    "same_scan_twice.columns": Sentence(
+        "the scan of the {group} ({source}) is the same file as that of {others}: at least one of them was not scanned",
+        "{group} 的扫描({source})与 {others} 的是同一个文件:至少有一个没有扫描",
+    ),
+    "same_scan_twice.column": Sentence(
+        "one file is named twice for this column ({source}): one of its scans is missing",
+        "本柱有一个文件被指定了两次({source}):缺少一个扫描",
+    ),
+}
+
+FINDING_WORDS: dict[str, str] = {
+    "sleeves": "套筒",
+    "rebars": "钢筋",
+    "column": "柱",
+    "none": "无",
+    "by design": "按设计",
+    "as the others do": "按其余钢筋",
+}
+"""Chinese of the words that sentences are filled with, where they are no number and no name."""

@@ -1,0 +1,348 @@
+"""What contradicts the design, the declaration or the camera: found where it is, and never where all is sound.
+
+Points are placed by complex numbers and seen without any of the code that is judged.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from aadm_workbench.assembly.findings.diameters import sizes_in_words
+from aadm_workbench.assembly.findings.group import SeenGroup
+from aadm_workbench.assembly.findings.hold import held_back
+from aadm_workbench.assembly.findings.make import make_finding
+from aadm_workbench.assembly.findings.rules import findings_of
+from aadm_workbench.assembly.findings.same_scan import with_same_scans
+from aadm_workbench.assembly.findings.scales import student_quantile
+from aadm_workbench.assembly.findings.shape import design_shape
+from aadm_workbench.assembly.match import match_extraction
+from aadm_workbench.model import (
+    AssemblyPoint,
+    ColumnDesign,
+    ColumnReport,
+    Extraction,
+    Finding,
+    GroupReport,
+    Kind,
+    TrialReport,
+    Verdict,
+)
+from aadm_workbench.model.finding_sentences import FINDING_SENTENCES
+from aadm_workbench.report.words_reasons import in_both_languages
+
+UP = np.array([0.0, 0.0, 1.0])
+CHINESE = re.compile(r"[\u4e00-\u9fff]")
+
+
+def square(half: float = 240.0) -> list[complex]:
+    third = half / 1.5
+    side = [complex(-half + third * k, -half) for k in range(3)]
+    return [place * 1j**corner for corner in range(4) for place in side]
+
+
+def keyed(shift: complex, half: float = 240.0) -> list[complex]:
+    """A square ring of which one point is moved: it has an opinion on how it is turned."""
+    places = square(half)
+    places[1] += shift
+    return [place - sum(places) / len(places) for place in places]
+
+
+def design_of(places: list[complex], kind: Kind, diameter_mm: float) -> list[AssemblyPoint]:
+    height = 160.0 if kind is Kind.REBAR else 0.0
+    return [
+        AssemblyPoint(f"{kind.letter}{k}", kind, np.array([z.real, z.imag, height]), UP, diameter_mm)
+        for k, z in enumerate(places, 1)
+    ]
+
+
+def group(
+    places: list[complex],
+    *,
+    kind: Kind = Kind.SLEEVE,
+    design_mm: float = 36.0,
+    measured_mm: float | list[float] | None = None,
+    scatter_mm: float = 0.5,
+    u_mm: float = 0.05,
+    scale: float = 1.0,
+    held_deg: float = 0.0,
+    up_deg: float | None = 90.0,
+    mirrored: bool = False,
+    exposed_mm: list[float] | None = None,
+    seed: int = 1,
+) -> SeenGroup:
+    """A group as it would come from a scan: +y at the top of the image, the camera held off by some degrees."""
+    rng = np.random.default_rng(seed)
+    noise = rng.normal(0.0, np.hypot(scatter_mm, u_mm), (len(places), 2))
+    built = (np.array(places) + noise[:, 0] + 1j * noise[:, 1]) * scale
+    built = built.conjugate() if mirrored else built
+    turned = built * np.exp(1j * np.radians(37.0)) + 511.0 - 84.0j
+    image_up = np.exp(1j * np.radians(37.0 + 90.0 + held_deg))
+    usual = design_mm * (0.965 if kind is Kind.REBAR else 1.0)
+    diameters = np.broadcast_to(usual if measured_mm is None else measured_mm, len(places))
+    points = tuple(
+        AssemblyPoint("", kind, np.array([z.real, z.imag, 12.0]), UP, float(d), np.eye(3) * u_mm**2)
+        for z, d in zip(turned, diameters, strict=True)
+    )
+    quality = {"point_pitch_mm": 0.5}
+    extraction = Extraction(kind, "refined", points, None, UP, "", tuple(exposed_mm or ()), quality)
+    design = design_of(places, kind, design_mm)
+    up_scan = np.array([image_up.real, image_up.imag, 0.0])
+    return SeenGroup(kind, design, extraction, match_extraction(design, extraction, up=up_deg, image_up_scan=up_scan))
+
+
+def column(places: list[complex] | None = None, **more: Any) -> ColumnDesign:
+    places = places or square()
+    sleeves, rebars = design_of(places, Kind.SLEEVE, 36.0), design_of(places, Kind.REBAR, 20.0)
+    return ColumnDesign(more.pop("id", "C-1"), tuple(sleeves), tuple(rebars), **more)
+
+
+def found_in(*groups: SeenGroup, **design: Any) -> list[Finding]:
+    return list(findings_of(column(**design), groups))
+
+
+def codes(findings: list[Finding]) -> list[str]:
+    return [finding.code for finding in findings]
+
+
+@pytest.mark.parametrize(
+    ("design_mm", "core_mm", "seems"),
+    [
+        (20, 21.3, "22 mm"),
+        (20, 21.7, "22 mm"),
+        (20, 22.9, "none"),
+        (20, 17.3, "18 mm"),
+        (16, 13.4, "14 mm"),
+        (25, 27.1, "28 mm"),
+        (32, 27.2, "28 mm"),
+        (40, 34.8, "36 mm"),
+        (12, 13.4, "14 mm"),
+    ],
+)
+def test_bars_of_another_size_are_told_with_the_size_that_they_have(
+    design_mm: float, core_mm: float, seems: str
+) -> None:
+    seen = group(square(), kind=Kind.REBAR, design_mm=design_mm, measured_mm=core_mm)
+    (finding,) = found_in(seen)
+    assert (finding.code, finding.about, finding.holds_back) == ("diameter_differs", ("rebars",), True)
+    assert finding.values["measured_mm"] == pytest.approx(core_mm)
+    assert finding.values["seems"] == seems
+
+
+@pytest.mark.parametrize("design_mm", [12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40])
+@pytest.mark.parametrize("part", [0.945, 0.965, 1.0, 1.025])
+def test_cores_that_the_standards_allow_are_no_finding(design_mm: float, part: float) -> None:
+    assert found_in(group(square(), kind=Kind.REBAR, design_mm=design_mm, measured_mm=part * design_mm)) == []
+
+
+@pytest.mark.parametrize(("design_mm", "off_mm"), [(36.0, 0.7), (36.0, -1.3), (26.0, 0.6), (50.0, -0.8), (66.0, 0.9)])
+def test_sleeves_of_another_bore_are_told(design_mm: float, off_mm: float) -> None:
+    (finding,) = found_in(group(square(), design_mm=design_mm, measured_mm=design_mm + off_mm))
+    assert (finding.code, finding.about) == ("diameter_differs", ("sleeves",))
+    assert f"{design_mm + off_mm:.1f} mm" in finding.text
+    assert found_in(group(square(), design_mm=design_mm, measured_mm=design_mm + off_mm / 4.0)) == []
+
+
+def test_the_worse_a_diameter_is_known_the_more_it_may_be_off() -> None:
+    assert codes(found_in(group(square(), measured_mm=36.9, u_mm=0.05))) == ["diameter_differs"]
+    assert found_in(group(square(), measured_mm=36.9, u_mm=0.2)) == []
+
+
+def test_only_the_bars_with_caps_are_named() -> None:
+    measured = [19.3] * 12
+    measured[2] = measured[7] = 22.9
+    (finding,) = found_in(group(square(), kind=Kind.REBAR, design_mm=20.0, measured_mm=measured))
+    assert finding.about == ("R3", "R8")
+
+
+@pytest.mark.parametrize("scale", [1.02, 0.98, 1.006, 0.9945])
+def test_a_pattern_that_is_too_large_or_too_small_is_told(scale: float) -> None:
+    (finding,) = found_in(group(square(), scale=scale))
+    assert (finding.code, finding.about) == ("scale_differs", ("sleeves",))
+    assert finding.values["scale"] == pytest.approx(scale, abs=0.0015)
+
+
+def test_two_patterns_that_differ_in_scale_are_told() -> None:
+    foot = group(square(), scale=1.002, scatter_mm=0.2)
+    bars = group(square(), kind=Kind.REBAR, design_mm=20.0, scale=0.998, scatter_mm=0.2, seed=2)
+    found = found_in(foot, bars)
+    assert ("sleeves", "rebars") in [finding.about for finding in found]
+
+
+def test_the_quantile_of_student_is_that_of_scipy() -> None:
+    stats = pytest.importorskip("scipy.stats")
+    for freedom in (8.0, 12.0, 24.0, 80.0):
+        assert student_quantile(freedom) == pytest.approx(stats.t.isf(5e-5, freedom), rel=0.02)
+
+
+@pytest.mark.parametrize("exposed_mm", [4.0, 60.0, 115.0, 190.0])
+@pytest.mark.parametrize("design_exposed_mm", [None, 150.0])
+def test_a_bar_that_is_cut_off_or_too_long_is_named(exposed_mm: float, design_exposed_mm: float | None) -> None:
+    rng = np.random.default_rng(4)
+    lengths = [150.0 + float(rng.uniform(-3.0, 3.0)) for _ in range(12)]
+    lengths[4] = exposed_mm
+    bars = group(square(), kind=Kind.REBAR, design_mm=20.0, exposed_mm=lengths)
+    (finding,) = found_in(bars, exposed_length_mm=design_exposed_mm)
+    assert (finding.code, finding.about) == ("exposed_length_differs", ("R5",))
+    assert finding.values["measured_mm"] == exposed_mm
+    assert finding.values["expected_mm"] == pytest.approx(150.0, abs=2.0)
+
+
+def test_tops_that_differ_by_centimetres_by_right_are_no_finding() -> None:
+    for seed in range(50):
+        lengths = np.random.default_rng(seed).uniform(110.0, 190.0, 12).tolist()
+        assert found_in(group(square(), kind=Kind.REBAR, design_mm=20.0, exposed_mm=lengths)) == []
+
+
+@pytest.mark.parametrize("shift", [4.0, 4.0j, -6.0, 3.0 + 3.0j])
+@pytest.mark.parametrize("wrong_deg", [0.0, 180.0, 270.0])
+def test_an_up_that_an_asymmetric_pattern_contradicts_is_no_match(shift: complex, wrong_deg: float) -> None:
+    places = keyed(shift)
+    right = group(places, scatter_mm=0.2)
+    assert right.match.orientation == "declared"
+    assert found_in(right) == []
+    wrong = group(places, scatter_mm=0.2, up_deg=wrong_deg)
+    assert not wrong.match
+    (finding,) = found_in(wrong)
+    assert (finding.code, finding.holds_back) == ("turn_contradicted", True)
+    assert finding.values["declared_deg"] == wrong_deg
+    assert finding.values["fitting_deg"] == 90.0
+
+
+def test_an_up_is_not_contradicted_by_what_building_errors_explain() -> None:
+    for seed in range(10):
+        for shift in (0.0, 1.0, 2.0j, 4.0):
+            seen = group(keyed(shift), scatter_mm=1.0, seed=seed)
+            assert seen.match.orientation == "declared"
+            assert "turn_contradicted" not in codes(found_in(seen))
+
+
+@pytest.mark.parametrize("held_deg", [41.0, 42.5, -43.0, 43.5])
+def test_an_up_nearly_half_way_to_the_next_turn_holds_back(held_deg: float) -> None:
+    seen = group(square(), held_deg=held_deg)
+    assert seen.match.orientation == "declared"
+    (finding,) = found_in(seen)
+    assert (finding.code, finding.holds_back) == ("turn_doubtful", True)
+    assert finding.values["off_deg"] == pytest.approx(abs(held_deg), abs=0.5)
+
+
+@pytest.mark.parametrize("held_deg", [0.0, -30.0, 39.0])
+def test_an_up_that_is_meant_for_one_turn_is_no_finding(held_deg: float) -> None:
+    assert found_in(group(square(), held_deg=held_deg)) == []
+
+
+def test_on_a_round_ring_of_twelve_fourteen_degrees_are_half_way() -> None:
+    ring = [240.0 * np.exp(2j * np.pi * k / 12.0) for k in range(12)]
+    assert codes(found_in(group(ring, held_deg=14.2, scatter_mm=0.1))) == ["turn_doubtful"]
+    assert found_in(group(ring, held_deg=9.0, scatter_mm=0.1)) == []
+
+
+@pytest.mark.parametrize("shift", [4.0, -5.0, 9.0, 25.0])
+@pytest.mark.parametrize("up_deg", [None, 90.0])
+def test_a_mirrored_scan_says_so(shift: float, up_deg: float | None) -> None:
+    seen = group(keyed(shift), mirrored=True, up_deg=up_deg, scatter_mm=0.3)
+    assert not seen.match
+    (finding,) = found_in(seen)
+    assert (finding.code, finding.about) == ("mirrored", ("sleeves",))
+
+
+def test_sound_groups_of_any_size_and_scatter_have_no_finding() -> None:
+    """Sixty scans with building errors, single points far off, cameras held askew, in their own scale error."""
+    for seed in range(60):
+        rng = np.random.default_rng([9, seed])
+        places = keyed(complex(*rng.uniform(-6.0, 6.0, 2)), rng.uniform(90.0, 350.0))
+        if rng.random() < 0.3:
+            places = [place.real + 1j * place.imag * rng.uniform(0.5, 0.9) for place in places]
+        seen = group(
+            places,
+            scatter_mm=float(rng.choice([0.1, 0.4, 0.8])),
+            u_mm=float(rng.choice([0.03, 0.1, 0.3])),
+            measured_mm=36.0 + float(rng.uniform(-0.25, 0.25)),
+            scale=1.0 + float(rng.normal(0.0, 1e-4)),
+            held_deg=float(rng.normal(0.0, 4.0)),
+            seed=seed,
+        )
+        assert found_in(replace(seen, scale_error=1e-4)) == [], seed
+
+
+def passing(name_of: str, foot: str = "a", bars: str = "b") -> ColumnReport:
+    groups = [
+        GroupReport(kind, f"{name}.ply", name and f"{name:0<64}", "refined", 12, 12, Verdict.PASS, (), (), None)
+        for kind, name in ((Kind.SLEEVE, foot), (Kind.REBAR, bars))
+    ]
+    trial = TrialReport(Verdict.PASS)
+    return ColumnReport(name_of, Verdict.PASS, Verdict.PASS, sleeves=groups[0], rebars=groups[1], trial_assembly=trial)
+
+
+def test_one_file_for_two_columns_holds_both_back_and_nobody_else() -> None:
+    first, second, third = with_same_scans(
+        [passing("C-1", "a", "b"), passing("C-2", "c", "b"), passing("C-3", "d", "e")]
+    )
+    assert (first.verdict, second.verdict, third.verdict) == ("inconclusive", "inconclusive", "pass")
+    assert (first.goes_on, third.goes_on) == ("inconclusive", "pass")
+    assert first.trial_assembly is not None
+    assert first.trial_assembly.verdict is Verdict.INCONCLUSIVE
+    assert "the same file as that of C-2" in first.reasons[0]
+    assert (codes(list(second.findings)), third.findings) == (["same_scan_twice"], ())
+
+
+def test_one_file_for_the_foot_and_for_the_bars_of_a_column_holds_it_back() -> None:
+    (report,) = with_same_scans([passing("C-1", "a", "a")])
+    assert (report.verdict, report.findings[0].about) == ("inconclusive", ("sleeves", "rebars"))
+
+
+def test_scans_that_never_were_a_file_are_not_compared() -> None:
+    assert with_same_scans([passing("C-1", "", ""), passing("C-2", "", "")])[0].findings == ()
+
+
+def test_what_was_not_scanned_is_not_measured_and_a_failure_stays_one() -> None:
+    swapped = make_finding("swapped", ["sleeves", "rebars"])
+    thick = make_finding("diameter_differs.others", ["rebars"], design_mm=20.0, measured_mm=24.0, seems="25 mm")
+    assert held_back(passing("C-1"), [swapped]).verdict is Verdict.NOT_MEASURED
+    assert held_back(passing("C-1"), [thick]).verdict is Verdict.INCONCLUSIVE
+    failed = replace(passing("C-1"), verdict=Verdict.FAIL, reasons=("R5 is 4.00 mm from design",))
+    held = held_back(failed, [thick])
+    assert (held.verdict, held.reasons[0]) == (Verdict.FAIL, "R5 is 4.00 mm from design")
+    assert thick.text in held.reasons
+    told = replace(thick, holds_back=False)
+    noted = held_back(passing("C-1"), [told])
+    assert (noted.verdict, noted.notes, noted.findings) == (Verdict.PASS, (told.text,), (told,))
+
+
+@pytest.mark.parametrize("name", FINDING_SENTENCES)
+def test_every_sentence_is_told_in_chinese_with_all_its_numbers(name: str) -> None:
+    english, chinese = FINDING_SENTENCES[name]
+    places = sorted(re.findall(r"{(\w+)", english))
+    assert set(places) == set(re.findall(r"{(\w+)", chinese))
+    values: dict[str, Any] = {
+        place: 1.25 if re.search(rf"{{{place}:[^}}]*[fg]}}", english) else f"{place} 7" for place in places
+    }
+    values.pop("about", None)
+    finding = make_finding(name, ["S3", "S11"], **values)
+    told = in_both_languages(f"before; {finding.text}; after" if english[-1] != "}" else f"before; {finding.text}")
+    assert CHINESE.search(told.zh)
+    assert finding.text not in told.zh
+    numbers = r"\d+(?:\.\d+)?|S\d+"
+    assert sorted(set(re.findall(numbers, told.zh))) == sorted(set(re.findall(numbers, finding.text)))
+
+
+def test_groups_are_named_in_chinese() -> None:
+    told = in_both_languages(make_finding("mirrored", ["sleeves"], group="sleeves").text).zh
+    assert "套筒" in told
+    assert "sleeves" not in told
+
+
+def test_sizes_are_told_apart_by_their_cores() -> None:
+    assert sizes_in_words([21.3]) == "22 mm"
+    assert sizes_in_words([19.3, 24.2]) == "20/25 mm"
+
+
+def test_turned_and_moved_designs_have_one_shape_and_others_have_another() -> None:
+    first, turned = column(), column([place * 1j + 0.0 for place in square()])
+    assert design_shape(first) == design_shape(turned)
+    assert design_shape(first) != design_shape(column(square(250.0)))
+    assert design_shape(first) != design_shape(column(keyed(12.0)))
