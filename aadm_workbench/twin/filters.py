@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -41,6 +42,8 @@ class Filters:
     step_mm: float = _STEP_MM
 
 
+NO_FILTERS = Filters()
+
 NAMES = tuple(field.name.replace("_", "-") for field in fields(Filters) if field.name != "step_mm")
 """What :func:`filters_of` takes, before the equals sign."""
 
@@ -58,7 +61,8 @@ def filters_of(words: Sequence[str]) -> Filters:
         name, _, text = word.partition("=")
         if name not in NAMES:
             raise AadmError(f"--filter {word}: there is no filter {name}; there are {', '.join(NAMES)}")
-        chosen = replace(chosen, **{name.replace("-", "_"): _amount(name.replace("-", "_"), word, text)})
+        amount: Any = _amount(name.replace("-", "_"), word, text)
+        chosen = replace(chosen, **{name.replace("-", "_"): amount})
     return chosen
 
 

@@ -110,7 +110,7 @@ def _in_pixel(in_square: Any, in_blur: Any, rig: FringeRig) -> Any:
     return (in_square - 0.5) * rig.lenses.fill + rig.lenses.blur * float(np.sqrt(2.0)) * dr.erfinv(bounded)
 
 
-@dr.syntax
+@dr.syntax  # type: ignore[untyped-decorator]
 def _followed(stage: Stage, rig: FringeRig, ray: Any, lens: Any, generator: Any) -> list[Any]:
     """Follow the rays; at each surface ask how much light comes there straight from a place in the projector's lens."""
     scene, context = stage.scene, mi.BSDFContext()
@@ -136,9 +136,8 @@ def _followed(stage: Stage, rig: FringeRig, ray: Any, lens: Any, generator: Any)
             sine, cosine = dr.sincos(phase * periods)
             sums[1 + 2 * k] += light * cosine
             sums[2 + 2 * k] += light * sine
-        sample, share = bsdf.sample(
-            context, si, generator.next_float32(), mi.Point2f(generator.next_float32(), generator.next_float32()), active
-        )
+        lobe, u, v = generator.next_float32(), generator.next_float32(), generator.next_float32()
+        sample, share = bsdf.sample(context, si, lobe, mi.Point2f(u, v), active)
         weight *= albedo * share[0]
         ray = si.spawn_ray(si.to_world(sample.wo))
         vertex += 1

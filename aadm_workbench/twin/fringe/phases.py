@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aadm_workbench.model import Camera
-from aadm_workbench.twin.fringe.rig import Fringes, FringeRig, Projector
+from aadm_workbench.twin.fringe.rig import FringeRig, Fringes, Projector
 
 _TURN = 2.0 * np.pi
 
@@ -17,13 +17,11 @@ def unwrapped(phases: npt.NDArray[np.float32], fringes: Fringes) -> npt.NDArray[
     Each rung of the ladder says which turn the next one is in. A rung whose turn is wrong puts the position off by
     whole periods: nothing here mends that.
     """
-    position = np.zeros(phases.shape[1:])
-    for rung, (weights, periods) in enumerate(fringes.ladder):
+    # The first beat has one period: about the middle of the width, no turn is left to choose.
+    position = np.full(phases.shape[1:], 0.5)
+    for weights, periods in fringes.ladder:
         beat = np.tensordot(np.asarray(weights, float), phases.astype(np.float64), 1) / _TURN
-        if rung == 0:
-            position = np.mod(beat, 1.0) / periods
-        else:
-            position = (np.round(position * periods - beat) + beat) / periods
+        position = (np.round(position * periods - beat) + beat) / periods
     return _mean_position(position, phases, fringes)
 
 

@@ -10,16 +10,14 @@ import numpy as np
 import numpy.typing as npt
 from scipy import ndimage
 
-from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import Array, BoolArray, Camera
 from aadm_workbench.twin.fringe.facets import divided
 from aadm_workbench.twin.fringe.materials import Materials, bsdf_of, has_relief
 from aadm_workbench.twin.fringe.relief import relief_tile
+from aadm_workbench.twin.fringe.renderer import mitsuba_ready
 from aadm_workbench.twin.fringe.rig import FringeRig
 from aadm_workbench.twin.surface import Surface, moved
 
-_INSTALL = "pip install 'aadm-workbench[physics]'"
-_INSTALL_LLVM = "apt-get install libllvm15"
 _REACH_PX = 4  # a pixel's share of light from further off is nothing for sharp optics, and small for blurred
 _LONGEST_MM = 25.0  # of an edge: about as wide as what is drilled into a face
 _STEP_MM = 3.0  # over the reach; a face tilted by 15 degrees stays below it
@@ -30,7 +28,8 @@ class Effort:
     """Paths per pixel: ``smooth`` where one plain surface fills the pixel, ``busy`` at edges, on metal and bars.
 
     ``dim`` where no light comes straight from the projector: what bounces there is mixed from many places, and a
-    mean of few paths would look like fringes that are not there. ``at_once`` bounds the paths that are in memory together.
+    mean of few paths would look like fringes that are not there. ``at_once`` bounds the paths
+    that are in memory together.
     """
 
     smooth: int = 8
@@ -80,27 +79,6 @@ def _portions(wanted: BoolArray, size: int) -> Iterator[npt.NDArray[np.int64]]:
     pixels = np.column_stack([columns, rows])
     for start in range(0, len(pixels), size):
         yield pixels[start : start + size]
-
-
-def mitsuba_ready() -> Any:
-    """The renderer, set to the variant that compiles for the processor.
-
-    Raises
-    ------
-    MissingDependencyError
-        Where Mitsuba, or the LLVM that it compiles with, is not installed.
-    """
-    try:
-        import mitsuba
-    except ImportError as error:
-        raise MissingDependencyError("mitsuba", "The fringe camera", _INSTALL) from error
-    if mitsuba.variant() != "llvm_ad_mono":
-        mitsuba.set_variant("llvm_ad_mono")
-    import drjit
-
-    if not drjit.has_backend(drjit.JitBackend.LLVM):
-        raise MissingDependencyError("libllvm", "The fringe camera", _INSTALL_LLVM)
-    return mitsuba
 
 
 def _staged(

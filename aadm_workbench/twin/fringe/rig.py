@@ -97,3 +97,9 @@ class FringeRig:
     sensor: Sensor = Sensor()
     nearest: float = 300.0
     farthest: float = 3000.0
+
+
+def rig_for(distance: float) -> FringeRig:
+    """A camera that is set for a distance, mm: in whole decimetres, as one would; the projector a little nearer."""
+    at = max(100.0 * round(distance / 100.0), 400.0)
+    return FringeRig(Lenses(camera_focus=at, projector_focus=0.96 * at), Projector(axes_meet=at))

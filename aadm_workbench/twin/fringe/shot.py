@@ -83,5 +83,5 @@ def fringe_shot(
     camera: Camera = PRO_M,
 ) -> TrueScan:
     """Scan any surface, given in the column frame."""
-    depth, _ = fringe_image(surface, T_column_scan, fringe, rng, camera).drawn(rng)
-    return TrueScan(depth, camera, truth, T_column_scan)
+    depth, amplitude = fringe_image(surface, T_column_scan, fringe, rng, camera).drawn(rng)
+    return TrueScan(depth, camera, truth, T_column_scan, brightness=amplitude)
