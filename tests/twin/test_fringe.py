@@ -133,7 +133,7 @@ def test_a_plane_is_where_it_is_and_as_noisy_as_such_a_camera(renderer: None, sl
     assert np.hypot(np.std(smooth), 0.03) < np.std(cast) < np.hypot(np.std(smooth), 0.08)
 
 
-def test_noise_is_drawn_again_from_the_same_light(renderer: None) -> None:
+def test_the_same_seed_gives_the_same_scan(renderer: None) -> None:
     first = taken(plate((-900.0, 900.0), DISTANCE_MM), rig_for(DISTANCE_MM))
     again = taken(plate((-900.0, 900.0), DISTANCE_MM), rig_for(DISTANCE_MM))
     np.testing.assert_array_equal(first, again)
