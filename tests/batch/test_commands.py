@@ -258,7 +258,7 @@ def test_doctor_says_that_llvm_is_missing(capsys: Output, monkeypatch: pytest.Mo
     monkeypatch.setattr("aadm_workbench.twin.fringe.renderer.llvm_found", lambda: 15)
     assert main(["doctor", "--json"]) == 0
     (found,) = (one for one in printed_json(capsys)["packages"] if one["package"] == "mitsuba")
-    assert found["problem"] == "it finds LLVM 15 and needs 16 or newer"
+    assert found["problem"] == "it finds LLVM 15 and needs 19 or newer"
     assert found["remedy"] == "apt-get install libllvm19"
 
 

@@ -8,8 +8,8 @@ from aadm_workbench.errors import MissingDependencyError
 
 INSTALL = "pip install 'aadm-workbench[physics]'"
 INSTALL_LLVM = "apt-get install libllvm19"
-LEAST_LLVM = 16
-"""15 is said to do, but stops the whole process on the smallest and the largest of two numbers."""
+LEAST_LLVM = 19
+"""The one that was tried. 15 is said to do, but 15 and 16 stop the whole process at the lesser of two numbers."""
 
 _VARIANT = "llvm_ad_mono"  # one colour is enough, and only the compiled variants take whole arrays of rays
 
