@@ -74,6 +74,15 @@ def test_phases_of_a_known_surface_give_its_depth_back(fringes: Fringes) -> None
     np.testing.assert_allclose(depth[inside], true[inside], atol=0.005)
 
 
+def test_what_lies_outside_of_the_working_range_is_not_returned() -> None:
+    rig = rig_for(1300.0)
+    for deep, inside in ((rig.nearest - 5.0, False), (rig.nearest + 5.0, True), (rig.farthest - 5.0, True)):
+        place = seen_at(rays(SMALL) * deep, rig)
+        depth = depth_of(place, SMALL, rig)
+        assert np.isfinite(depth).all() == inside
+    assert np.isnan(depth_of(seen_at(rays(SMALL) * (rig.farthest + 5.0), rig), SMALL, rig)).all()
+
+
 def test_a_ladder_that_does_not_beat_is_refused() -> None:
     with pytest.raises(ValueError, match="do not beat to 2"):
         Fringes((70, 64, 59), (((1, -2, 1), 2),))

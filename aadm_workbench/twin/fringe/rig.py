@@ -100,6 +100,10 @@ class FringeRig:
 
 
 def rig_for(distance: float) -> FringeRig:
-    """A camera that is set for a distance, mm: in whole decimetres, as one would; the projector a little nearer."""
+    """A camera that is set for a distance, mm: in whole decimetres, as one would; the projector a little nearer.
+
+    What a slipped fringe puts far outside of the working range is not returned, as on cameras whose range one sets.
+    """
     at = max(100.0 * round(distance / 100.0), 400.0)
-    return FringeRig(Lenses(camera_focus=at, projector_focus=0.96 * at), Projector(axes_meet=at))
+    lenses = Lenses(camera_focus=at, projector_focus=0.96 * at)
+    return FringeRig(lenses, Projector(axes_meet=at), nearest=0.5 * at, farthest=1.4 * at)
