@@ -18,6 +18,9 @@ has_library libEGL.so.1 || missing="$missing libegl1"
 has_library libGL.so.1 || missing="$missing libgl1"
 has_library libusb-1.0.so.0 || missing="$missing libusb-1.0-0"
 has_library libX11.so.6 || missing="$missing libx11-6"
+# What Mitsuba compiles with; without it the tests of the fringe camera are skipped.
+has_renderer() { "$venv/bin/python" -c 'from aadm_workbench.twin.fringe.renderer import mitsuba_ready; mitsuba_ready()' 2>/dev/null; }
+has_renderer || missing="$missing libllvm19"
 if [ "${AADM_SKIP_CHROMIUM:-0}" != 1 ]; then
     has_command chromium || missing="$missing chromium"
 fi

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from scipy import ndimage
 
 from aadm_workbench.model import BoolArray, Camera
+from aadm_workbench.twin.finite_pixel import FinitePixel
 from aadm_workbench.twin.raycast import View
 from aadm_workbench.twin.surface import DARK, SLEEVE_WALL
 
@@ -21,7 +22,7 @@ class CameraNoise:
     distance squared and with 1/cos of the incidence. ``correlated`` is the share of its variance that
     neighbouring pixels have in common. ``wall_bias`` pushes returns of sleeve walls along the ray, and
     ``wall_bias_own`` those of each sleeve by an amount of its own, up to this. ``warp_period`` is in pixels: a third
-    of the image's width where it is None.
+    of the image's width where it is None. ``pixel``: what a pixel sees that has a size; None is a pixel without.
     """
 
     depth_at_1m: float = 0.07
@@ -40,6 +41,7 @@ class CameraNoise:
     wall_bias: float = 0.0
     wall_bias_own: float = 0.0
     warp_period: float | None = None
+    pixel: FinitePixel | None = None
 
     @staticmethod
     def drawn(rng: np.random.Generator) -> CameraNoise:

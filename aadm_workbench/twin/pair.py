@@ -16,9 +16,11 @@ from aadm_workbench.design.pattern import inline_design, label_order
 from aadm_workbench.model import AssemblyPoint, ColumnDesign
 from aadm_workbench.scan.write import write_depth_tiff, write_pcd, write_ply
 from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM
+from aadm_workbench.twin.cameras import CAMERAS, with_filters
+from aadm_workbench.twin.filters import NO_FILTERS, Filters
 from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot
-from aadm_workbench.twin.scene import TrueScan, scan_of
+from aadm_workbench.twin.scene import TrueScan
 from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_foot, random_pose
 from aadm_workbench.twin.truth import true_verdicts
 
@@ -43,6 +45,18 @@ FORMATS: Mapping[str, Callable[[Path, TrueScan], None]] = MappingProxyType(
 SETTINGS: Mapping[str, Setting] = MappingProxyType({setting.name: setting for setting in (LAB, FIELD)})
 
 
+@dataclass(frozen=True)
+class Taken:
+    """How a pair is scanned: a camera of :data:`~aadm_workbench.twin.cameras.CAMERAS` and its filters.
+
+    ``words`` are what the command line says of both, for the job's first line.
+    """
+
+    camera: str = "ray"
+    filters: Filters = NO_FILTERS
+    words: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class Pair:
     """A foot and its bars as built, each with its scan; parts are in the order of the design's labels."""
@@ -55,7 +69,7 @@ class Pair:
     rebars: TrueScan
 
 
-def make_pair(folder: Path, setting: Setting, seed: int, scan_format: str) -> Pair:
+def make_pair(folder: Path, setting: Setting, seed: int, scan_format: str, taken: Taken | None = None) -> Pair:
     """Write ``foot`` and ``bars`` in a format, ``truth.json`` and ``job.toml`` into a folder that exists.
 
     Parameters
@@ -64,30 +78,35 @@ def make_pair(folder: Path, setting: Setting, seed: int, scan_format: str) -> Pa
         The same seed gives the same files.
     scan_format
         One of :data:`FORMATS`.
+    taken
+        With which camera and filters; None is the ray caster as accuracy targets refer to it.
 
     Raises
     ------
     MissingDependencyError
-        Where the ray caster is not installed.
+        Where the ray caster, or the renderer, is not installed.
     """
-    pair = simulated_pair(setting, np.random.default_rng(seed))
+    taken = taken or Taken()
+    pair = simulated_pair(setting, np.random.default_rng(seed), taken)
     write = FORMATS[scan_format]
     write(folder / f"foot.{scan_format}", pair.sleeves)
     write(folder / f"bars.{scan_format}", pair.rebars)
     write_atomically(folder / "truth.json", (json.dumps(_truth(pair, seed), indent=1) + "\n").encode())
-    write_atomically(folder / "job.toml", _job_text(setting, seed, scan_format).encode())
+    write_atomically(folder / "job.toml", _job_text(setting, seed, scan_format, taken.words).encode())
     return pair
 
 
-def simulated_pair(setting: Setting, rng: np.random.Generator) -> Pair:
+def simulated_pair(setting: Setting, rng: np.random.Generator, taken: Taken | None = None) -> Pair:
     """A random foot and random bars of a setting, seen by one camera, the image's top towards +y."""
     order = label_order(setting.centres())
     foot, bars = random_foot(setting, rng), random_bars(setting, rng)
     foot = replace(foot, sleeves=tuple(foot.sleeves[k] for k in order))
     bars = replace(bars, bars=tuple(bars.bars[k] for k in order))
+    taken = taken or Taken()
     noise = CameraNoise.drawn(rng)
-    sleeves = scan_of(foot, random_pose(setting, True, rng), noise, rng)
-    rebars = scan_of(bars, random_pose(setting, False, rng), noise, rng)
+    shoot = with_filters(CAMERAS[taken.camera](setting.distance, noise), taken.filters)
+    sleeves = shoot(foot, random_pose(setting, True, rng), rng)
+    rebars = shoot(bars, random_pose(setting, False, rng), rng)
     return Pair(setting, inline_design(_column_id(setting), _design_table(setting)), foot, bars, sleeves, rebars)
 
 
@@ -139,9 +158,10 @@ def _scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, 
     }
 
 
-def _job_text(setting: Setting, seed: int, scan_format: str) -> str:
+def _job_text(setting: Setting, seed: int, scan_format: str, made_with: str) -> str:
     design = "".join(f"{key} = {value}\n" for key, value in _design_table(setting).items())
-    return f"""# Synthetic scans of a virtual camera: aadm simulate pair --setting {setting.name} --seed {seed}
+    command = f"aadm simulate pair --setting {setting.name} --seed {seed}{made_with}"
+    return f"""# Synthetic scans of a virtual camera: {command}
 schema = 1
 name = "Simulated pair, {setting.name} setting"
 units = "mm"

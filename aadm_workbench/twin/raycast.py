@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +18,7 @@ _SHADOW_MARGIN_MM = 0.3
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """An ideal depth image: all (h, w). ``depth`` mm (NaN: nothing hit or in the projector's shadow)."""
+    """What ideal rays hit: all (h, w), or of the shape of the rays. ``depth`` mm, NaN where nothing is hit."""
 
     depth: npt.NDArray[np.float32]
     cosine: npt.NDArray[np.float32]
@@ -33,8 +34,44 @@ def rays_of(camera: Camera) -> npt.NDArray[np.float32]:
     return rays.astype(np.float32)
 
 
-def look(surface: Surface, camera: Camera) -> View:
-    """Cast every pixel's ray against a surface that is given in the camera frame."""
+@dataclass(frozen=True, eq=False)
+class Caster:
+    """A surface, given in the camera frame, that rays from the camera's middle are cast against."""
+
+    surface: Surface
+    scene: Any
+
+    def view(self, directions: npt.NDArray[np.float32]) -> View:
+        """What rays with directions (..., 3), z = 1, hit; the arrays have the shape of the rays."""
+        import open3d
+
+        rays = np.concatenate([np.zeros_like(directions), directions], -1)
+        answer = self.scene.cast_rays(open3d.core.Tensor(rays))
+        depth = answer["t_hit"].numpy()
+        normals = answer["primitive_normals"].numpy()
+        triangle = answer["primitive_ids"].numpy()
+        hit = np.isfinite(depth)
+        triangle = np.where(hit, triangle, 0)
+        length = np.linalg.norm(directions, axis=-1)
+        cosine = np.abs(np.einsum("...k,...k->...", normals, directions)) / length
+        lit = hit & ~_shadowed(self.scene, directions, depth, hit)
+        return View(
+            np.where(hit, depth, np.nan).astype(np.float32),
+            np.where(hit, cosine, 0.0).astype(np.float32),
+            np.where(hit, self.surface.kind[triangle], -1).astype(np.int8),
+            np.where(hit, self.surface.owner[triangle], -1).astype(np.int16),
+            lit,
+        )
+
+
+def caster_of(surface: Surface) -> Caster:
+    """A surface in the camera frame, ready for rays.
+
+    Raises
+    ------
+    MissingDependencyError
+        Where Open3D is not installed.
+    """
     try:
         import open3d
     except ImportError as error:
@@ -44,28 +81,16 @@ def look(surface: Surface, camera: Camera) -> View:
         open3d.core.Tensor(surface.vertices.astype(np.float32)),
         open3d.core.Tensor(surface.triangles.astype(np.uint32)),
     )
-    directions = rays_of(camera)
-    rays = np.concatenate([np.zeros_like(directions), directions], -1)
-    answer = scene.cast_rays(open3d.core.Tensor(rays))
-    depth = answer["t_hit"].numpy()
-    normals = answer["primitive_normals"].numpy()
-    triangle = answer["primitive_ids"].numpy()
-    hit = np.isfinite(depth)
-    triangle = np.where(hit, triangle, 0)
-    length = np.linalg.norm(directions, axis=-1)
-    cosine = np.abs(np.einsum("hwk,hwk->hw", normals, directions)) / length
-    lit = hit & ~_shadowed(scene, directions, depth, hit)
-    return View(
-        np.where(hit, depth, np.nan).astype(np.float32),
-        np.where(hit, cosine, 0.0).astype(np.float32),
-        np.where(hit, surface.kind[triangle], -1).astype(np.int8),
-        np.where(hit, surface.owner[triangle], -1).astype(np.int16),
-        lit,
-    )
+    return Caster(surface, scene)
+
+
+def look(surface: Surface, camera: Camera) -> View:
+    """Cast every pixel's ray against a surface that is given in the camera frame."""
+    return caster_of(surface).view(rays_of(camera))
 
 
 def _shadowed(
-    scene: object, directions: npt.NDArray[np.float32], depth: npt.NDArray[np.float32], hit: BoolArray
+    scene: Any, directions: npt.NDArray[np.float32], depth: npt.NDArray[np.float32], hit: BoolArray
 ) -> BoolArray:
     import open3d
 
@@ -75,7 +100,7 @@ def _shadowed(
     distance = np.linalg.norm(towards, axis=1)
     towards /= distance[:, None]
     rays = np.concatenate([np.broadcast_to(projector, towards.shape), towards], 1)
-    reach = scene.cast_rays(open3d.core.Tensor(rays))["t_hit"].numpy()  # type: ignore[attr-defined]
+    reach = scene.cast_rays(open3d.core.Tensor(rays))["t_hit"].numpy()
     shadowed = np.zeros(hit.shape, bool)
     shadowed[hit] = reach < distance - _SHADOW_MARGIN_MM
     return shadowed

@@ -10,10 +10,11 @@ import numpy.typing as npt
 from aadm_workbench.model import Array, AssemblyPoint, Camera, Kind, Scan
 from aadm_workbench.scan.camera import depth_to_points
 from aadm_workbench.twin.camera import PRO_M
+from aadm_workbench.twin.finite_pixel import seen_by_pixels
 from aadm_workbench.twin.meshes import bars_surface, foot_surface
 from aadm_workbench.twin.noise import CameraNoise, captured
 from aadm_workbench.twin.parts import BarGroup, Foot, axis_of
-from aadm_workbench.twin.raycast import look
+from aadm_workbench.twin.raycast import caster_of, rays_of
 from aadm_workbench.twin.surface import Surface, moved
 
 
@@ -22,7 +23,7 @@ class TrueScan:
     """A synthetic scan, with the true points in the column frame and the true pose of the camera.
 
     ``depth`` (h, w) float32, mm. ``T_column_scan`` (4, 4). ``scale``: the camera's lengths are this much too long,
-    relatively.
+    relatively. ``brightness`` (h, w), where the camera has it: of the light that a depth was read from.
     """
 
     depth: npt.NDArray[np.float32]
@@ -30,6 +31,7 @@ class TrueScan:
     points: tuple[AssemblyPoint, ...]
     T_column_scan: Array
     scale: float = 0.0
+    brightness: npt.NDArray[np.float32] | None = None
 
     def scan(self, source: str = "") -> Scan:
         """The scan as the readers would give it."""
@@ -62,7 +64,10 @@ def shot(
     camera: Camera = PRO_M,
 ) -> TrueScan:
     """Scan any surface, given in the column frame."""
-    view = look(moved(surface, np.asarray(np.linalg.inv(T_column_scan), np.float64)), camera)
+    caster = caster_of(moved(surface, np.asarray(np.linalg.inv(T_column_scan), np.float64)))
+    view = caster.view(rays_of(camera))
+    if noise.pixel is not None:
+        view = seen_by_pixels(view, caster, camera, noise.pixel, rng)
     return TrueScan(captured(view, camera, noise, rng), camera, truth, T_column_scan, noise.scale)
 
 

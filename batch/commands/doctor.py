@@ -73,6 +73,7 @@ PACKAGES = (
     Package("open3d", "virtual camera, methods of the literature", "aadm-workbench[twin]", ("open3d-cpu", "open3d")),
     Package("manifold3d", "virtual camera", "aadm-workbench[twin]", ("manifold3d",)),
     Package("trimesh", "virtual camera", "aadm-workbench[twin]", ("trimesh",)),
+    Package("mitsuba", "virtual fringe camera", "aadm-workbench[physics]", ("mitsuba",)),
     Package("matplotlib", "plots of studies", "aadm-workbench[twin]", ("matplotlib",)),
 )
 
@@ -117,7 +118,20 @@ def _examined(package: Package) -> Finding:
         problem = f"cannot be loaded: {error}"
     found = next((known for name in package.distributions if (known := _version(name))), None)
     remedy = f"pip install '{package.install}'" if problem == "not installed" else ""
+    if package.module == "mitsuba" and not problem:
+        problem, remedy = _without_llvm()
     return Finding(package.module, found, package.needed_for, package.core, problem, remedy)
+
+
+def _without_llvm() -> tuple[str, str]:
+    """What is wrong with the LLVM that Mitsuba compiles with, and what mends it; both empty where nothing is."""
+    from aadm_workbench.twin.fringe.renderer import INSTALL_LLVM, LEAST_LLVM, llvm_found
+
+    found = llvm_found()
+    if found >= LEAST_LLVM:
+        return "", ""
+    has = f"it finds LLVM {found}" if found else "it finds no LLVM"
+    return f"{has} and needs {LEAST_LLVM} or newer", INSTALL_LLVM
 
 
 def _version(distribution: str) -> str | None:

@@ -18,7 +18,19 @@ _PAIR = "a column foot and the bars under it: two scans, truth.json and a job.to
 _PAIR_EXAMPLE = """\
 example:
   aadm simulate pair --setting lab --out pair --seed 7 --format ply
-  aadm check pair/job.toml"""
+  aadm check pair/job.toml
+
+  a camera that projects fringes, minutes per scan, and one that drops what is at depth steps:
+  aadm simulate pair --setting field --out fringe --camera fringe
+  aadm simulate pair --setting field --out rings --filter rings=1 --filter median=3"""
+_CAMERA = (
+    "ray: rays and a law of noise (default); pixel: the same with pixels that have a size; fringe: fringe projection, "
+    "path-traced, minutes per scan"
+)
+_FILTER = (
+    "what the camera does to its depth maps, again for each: edge-mask=0..1 (of the brightest neighbour, camera fringe "
+    "alone), outliers=N (of 24 neighbours), and in pixels rings=0..3, fatten=N, gaps=N, median=N, gaussian=SIGMA"
+)
 _JOBS = {
     "floor": "the sample floor: scans, truth.json and job.toml of eight columns; the job wants floor3.ifc beside it",
     "lab": "the laboratory model: clouds, truth.json and job.toml of two columns",
@@ -42,6 +54,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     pair.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files")
     pair.add_argument("--seed", type=int, default=0, metavar="N", help="another seed, other errors (default: 0)")
     pair.add_argument("--format", choices=("tiff", "ply", "pcd"), default="tiff", help="of the scans (default: tiff)")
+    pair.add_argument("--camera", choices=("ray", "pixel", "fringe"), default="ray", help=_CAMERA)
+    pair.add_argument("--filter", action="append", default=[], metavar="NAME=AMOUNT", help=_FILTER)
     add_switches(pair, prints_json=None)
     pair.set_defaults(run=_simulate_pair)
     for name, summary in _JOBS.items():
@@ -60,12 +74,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _simulate_pair(options: argparse.Namespace) -> int:
     _require_virtual_camera()
-    from aadm_workbench.twin.pair import SETTINGS, make_pair
+    from aadm_workbench.errors import AadmError
+    from aadm_workbench.twin.filters import filters_of
+    from aadm_workbench.twin.pair import SETTINGS, Taken, make_pair
 
     from ..terminal import show
 
+    filters = filters_of(options.filter)
+    if options.camera == "fringe":
+        _require_renderer()
+    elif filters.edge_mask:
+        raise AadmError("--filter edge-mask wants the brightness of the scan: use --camera fringe")
     _prepare(options)
-    make_pair(options.out, SETTINGS[options.setting], options.seed, options.format)
+    words = "" if options.camera == "ray" else f" --camera {options.camera}"
+    words += "".join(f" --filter {word}" for word in options.filter)
+    make_pair(
+        options.out, SETTINGS[options.setting], options.seed, options.format, Taken(options.camera, filters, words)
+    )
     if not options.quiet:
         names = (f"foot.{options.format}", f"bars.{options.format}", "truth.json", "job.toml")
         show(f"Wrote {', '.join(names)} to {options.out}", f"Check it: aadm check {options.out / 'job.toml'}")
@@ -108,3 +133,10 @@ def _require_virtual_camera() -> None:
     for package in _PACKAGES:
         if find_spec(package) is None:
             raise MissingDependencyError(package, "The virtual camera", "pip install 'aadm-workbench[twin]'")
+
+
+def _require_renderer() -> None:
+    """Say what is missing before a folder is made."""
+    from aadm_workbench.twin.fringe.renderer import mitsuba_ready
+
+    mitsuba_ready()

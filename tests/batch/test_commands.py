@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import cv2
 import jsonschema
 import numpy as np
 import pytest
@@ -197,7 +198,10 @@ def test_doctor_knows_every_dependency(repository: Path) -> None:
     project = tomllib.loads((repository / "pyproject.toml").read_text("utf-8"))["project"]
     names = {name for package in PACKAGES for name in package.distributions}
     wanted = project["dependencies"] + [
-        line for extra in ("batch", "twin", "published") for line in project["optional-dependencies"][extra]
+        line
+        for extra in ("batch", "physics", "twin", "published")
+        for line in project["optional-dependencies"][extra]
+        if not line.startswith(project["name"])
     ]
     assert {line.replace(">", ";").split(";")[0].strip() for line in wanted} <= names
     core = {package.install for package in PACKAGES if package.core}
@@ -209,6 +213,53 @@ def test_simulate_without_the_ray_caster(tmp_path: Path, capsys: Output, monkeyp
     assert main(["simulate", "pair", "--setting", "lab", "--out", str(tmp_path / "pair")]) == 2
     assert "pip install 'aadm-workbench[twin]'" in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_simulate_without_the_renderer(tmp_path: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("batch.commands.simulate.find_spec", lambda name: name)
+    monkeypatch.setitem(sys.modules, "mitsuba", None)
+    command = ["simulate", "pair", "--setting", "lab", "--out", str(tmp_path / "pair"), "--camera", "fringe"]
+    assert main(command) == 2
+    assert "pip install 'aadm-workbench[physics]'" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("word", "says"), [("rings=9", "from 0 to 3"), ("ring=1", "no filter ring"), ("edge-mask=0.5", "--camera fringe")]
+)
+def test_simulate_refuses_filters_that_it_cannot_apply(
+    tmp_path: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch, word: str, says: str
+) -> None:
+    monkeypatch.setattr("batch.commands.simulate.find_spec", lambda name: name)
+    assert main(["simulate", "pair", "--setting", "lab", "--out", str(tmp_path / "pair"), "--filter", word]) == 2
+    assert says in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_filtered_pair_is_the_same_pair_with_less_of_its_edges(tmp_path: Path) -> None:
+    pytest.importorskip("open3d")
+    pytest.importorskip("manifold3d")
+    depths = {}
+    for name, more in (("plain", []), ("rings", ["--filter", "rings=1"])):
+        folder = tmp_path / name
+        assert main(["simulate", "pair", "--setting", "lab", "--out", str(folder), "--seed", "3", *more]) == 0
+        depths[name] = cv2.imread(str(folder / "foot.tiff"), cv2.IMREAD_UNCHANGED)
+    assert "--seed 3 --filter rings=1\n" in (tmp_path / "rings" / "job.toml").read_text("utf-8")
+    kept = depths["rings"] > 0
+    assert 0.8 < kept.sum() / (depths["plain"] > 0).sum() < 0.999
+    np.testing.assert_array_equal(depths["rings"][kept], depths["plain"][kept])
+    truths = [(tmp_path / name / "truth.json").read_bytes() for name in depths]
+    assert truths[0] == truths[1]
+
+
+def test_doctor_says_that_llvm_is_missing(capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("mitsuba")
+    monkeypatch.setattr("batch.commands.doctor.PACKAGES", tuple(p for p in PACKAGES if p.core or p.module == "mitsuba"))
+    monkeypatch.setattr("aadm_workbench.twin.fringe.renderer.llvm_found", lambda: 15)
+    assert main(["doctor", "--json"]) == 0
+    (found,) = (one for one in printed_json(capsys)["packages"] if one["package"] == "mitsuba")
+    assert found["problem"] == "it finds LLVM 15 and needs 19 or newer"
+    assert found["remedy"] == "apt-get install libllvm19"
 
 
 def test_a_simulated_pair_is_checked_and_agrees_with_its_truth(tmp_path: Path, capsys: Output) -> None:
