@@ -174,8 +174,17 @@ def _exposed(extraction: Extraction) -> tuple[float | None, ...]:
 
 def _moved(point: AssemblyPoint, T: Array) -> AssemblyPoint:
     rotation = T[:3, :3]
-    covariance = None if point.covariance is None else rotation @ point.covariance @ rotation.T
-    return replace(point, centre=rotation @ point.centre + T[:3, 3], axis=rotation @ point.axis, covariance=covariance)
+    return replace(
+        point,
+        centre=rotation @ point.centre + T[:3, 3],
+        axis=rotation @ point.axis,
+        covariance=_turned(point.covariance, rotation),
+        axis_covariance=_turned(point.axis_covariance, rotation),
+    )
+
+
+def _turned(covariance: Array | None, rotation: Array) -> Array | None:
+    return None if covariance is None else rotation @ covariance @ rotation.T
 
 
 def _mean(first: AssemblyPoint, second: AssemblyPoint) -> AssemblyPoint:

@@ -28,7 +28,7 @@ _FEWEST = 60
 _BLUR_PITCHES = {1.0: (2.5, 3.5), -1.0: (1.5, 2.5)}  # behind the edge: three pixels of blur reach there, one does not
 _BLUR_SHARE, _BLUR_ROUGH = 0.12, 1.5
 _BLUR_FROM = {1.0: 0.0, -1.0: 0.95}  # of the pitch: small tops are flat nowhere near their edges
-_BENT_SIGMAS = 4.0
+_BENT_SIGMAS = {1.0: 8.0, -1.0: 4.0}  # chamfers of a few mouths do not cancel as noise does
 _ROUGH_EDGES, _ROUGH_SIGMAS = 2.5, 2.0  # heights at edges that scatter so much more than within are mixed ones
 _BENT_FROM = {
     1.0: 0.18,
@@ -41,6 +41,7 @@ _BEND_SHIFT = 0.09  # of the bend: what narrow bands lose on the side that bends
 _ALONG_BASE_PITCHES, _ACROSS_BASE_PITCHES = 0.07, 0.05
 _ERODED_BASE = 0.10, 0.28  # pitches a ring, mean and spread: filters see a step where the wall behind it is lit
 _BENT_VIEW_MM, _BENT_VIEW_SPREAD_MM = 0.10, 0.15  # beyond the wall that bands take in
+_FAR_NO_MORE = 1.1  # at 2 m shifts are no larger than at 1.4 m
 _NEARER_TAKES_LESS = 1.3  # seen from nearer, less of the wall is taken in: measured at 0.8 m and at 1.3 m
 _ERODED_BENT_VIEW, _ERODED_BENT_FROM = 0.25, 0.6
 _OWN_PITCHES, _ERODED_OWN_PITCHES = 0.05, 0.10
@@ -52,7 +53,7 @@ _SHARED_UNKNOWNS = 3
 _APART_PITCHES, _APART_SHARE = 0.15, 0.8  # rims and lines of sight differ by so much where both are sound
 _NOISE_FROM_MM, _NOISE_SHARE = 0.10, 0.22  # of the scatter of heights, that edges and bores carry on to centres
 _USUAL_GAP_PITCHES = 2.0  # one to two pixels lie between a top and what passed it; half of them lost, more
-_SHARP_TOP_VIEW, _BENT_TOP_VIEW, _ERODED_TOP_VIEW = (-0.15, 0.18), (-0.25, 0.30), (-0.80, 0.15)
+_SHARP_TOP_VIEW, _BENT_TOP_VIEW, _ERODED_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33), (-0.80, 0.15)
 
 
 BLURRED = (
@@ -91,7 +92,7 @@ class Bend:
     def bent(self) -> bool:
         """Whether the camera mixes what an edge separates."""
         height_mm = float(np.hypot(*self.towards))
-        sigmas = _BENT_SIGMAS if self.ratio < _ROUGH_EDGES else _ROUGH_SIGMAS
+        sigmas = _ROUGH_SIGMAS if self.side < 0 and self.ratio > _ROUGH_EDGES else _BENT_SIGMAS[self.side]
         return height_mm > max(_BENT_FROM[self.side] * self.pitch_mm, sigmas * self.u_mm)
 
 
@@ -209,7 +210,8 @@ def shift_of_tops(slope: Array, bend: Bend, eroded: float) -> Shift:
     On the visible side the top runs on into the bar's side and loses nothing, opposite it ends in a step.
     """
     usual, spread = _BENT_TOP_VIEW if bend.bent else _SHARP_TOP_VIEW
-    view_mm = usual + _ERODED_TOP_VIEW[0] * eroded * min(1.1, bend.pitch_mm / _USUAL_PITCH_MM)
+    nearer = min(_FAR_NO_MORE, bend.pitch_mm / _USUAL_PITCH_MM)
+    view_mm = usual * (nearer if bend.bent else 1.0) + _ERODED_TOP_VIEW[0] * eroded * nearer
     spread_mm = spread + _ERODED_TOP_VIEW[1] * eroded * max(1.0, bend.pitch_mm / _USUAL_PITCH_MM)
     own_mm = _ERODED_OWN_PITCHES * eroded * bend.pitch_mm
     shared = own_mm**2 * np.eye(2) + spread_mm**2 * slope[:, :, None] * slope[:, None, :]

@@ -130,7 +130,6 @@ PUSHED, HONEST = "test_they_are_not_all_pushed_towards_the_camera", "test_no_err
 NOT_YET = {
     (PUSHED, Kind.SLEEVE, "dropped", "depth map"): "-0.27 mm",
     (HONEST, Kind.SLEEVE, "dropped", "depth map"): "8 u off",
-    (HONEST, Kind.REBAR, "dropped", "depth map"): "5 u off",
 }
 
 
