@@ -133,6 +133,8 @@ def window_sketch(trial: dict[str, Any]) -> Sketch | None:
 
 
 def column_notes(column: dict[str, Any]) -> list[str]:
-    """The notes of a column, its groups and its trial, each once."""
+    """The notes of a column, its groups and its trial, and what was found on its hoisting frames, each once."""
     parts = (column, column["sleeves"], column["rebars"], column["trial_assembly"])
-    return list(dict.fromkeys(note for part in parts for note in (part or {}).get("notes", ())))
+    notes = [note for part in parts for note in (part or {}).get("notes", ())]
+    notes += [finding["text"] for frame in column["hoisting"] for finding in frame.get("findings", ())]
+    return list(dict.fromkeys(notes))

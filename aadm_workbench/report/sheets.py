@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
+from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.hoist import hoist_of, worst_first
 from aadm_workbench.report.read import Report
 from aadm_workbench.report.tables import (
@@ -77,6 +78,7 @@ def columns_table(report: Report, language: Language = "en") -> Table:
         heading("storey"),
         heading("piece_mark"),
         heading("global_id"),
+        heading("as_declared"),
     )
     rows = tuple(_column_row(column, language) for column in worst_first(report))
     return Table(phrase("ui.columns"), headings, rows)
@@ -108,6 +110,7 @@ def _column_row(column: dict[str, Any], language: Language) -> Row:
         column["storey"],
         column["piece_mark"],
         column["global_id"],
+        declared_up(column),
     )
 
 

@@ -20,9 +20,10 @@ from aadm_workbench.twin.parts import ring
 
 PROFILE = load_profile("cn")
 CENTRES = ring(240.0, 240.0, 4)
+DIAMETERS_MM = {Kind.SLEEVE: 36.0, Kind.REBAR: 20.0}
 DESIGN = {
-    "sleeve_diameter": 36.0,
-    "rebar_diameter": 20.0,
+    "sleeve_diameter": DIAMETERS_MM[Kind.SLEEVE],
+    "rebar_diameter": DIAMETERS_MM[Kind.REBAR],
     "rebar_outer_diameter": 22.0,
     "embedded_length": 160.0,
     "size": [600.0, 600.0],
@@ -91,7 +92,8 @@ def _found(case: Case, kind: Kind) -> Extraction:
             continue
         place = rotation @ np.array([*(xy + off), 0.0]) + [0.0, 0.0, 1300.0]
         axis = rotation @ np.array([0.0, 0.0, 1.0])
-        points.append(AssemblyPoint("", kind, place, axis, 20.0, case.u_mm**2 * np.eye(3)))
+        diameter_mm = DIAMETERS_MM[kind]
+        points.append(AssemblyPoint("", kind, place, axis, diameter_mm, case.u_mm**2 * np.eye(3)))
     up = rotation @ np.array([0.0, 0.0, 1.0])
     return Extraction(
         kind, "refined", tuple(points), None, up, "exact", quality={"point_pitch_mm": 0.5, "note": HOSTILE}
