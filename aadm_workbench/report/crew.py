@@ -16,6 +16,7 @@ from aadm_workbench.report.hoist import Hoist, hoist_of
 from aadm_workbench.report.read import Report
 from aadm_workbench.report.shown_pose import shown_pose
 from aadm_workbench.report.words import Phrase, phrase
+from aadm_workbench.report.words_reasons import in_both_languages
 
 Light: TypeAlias = Literal["green", "amber", "red"]
 
@@ -145,15 +146,19 @@ def _first(column: dict[str, Any], repair: dict[str, Any] | None, compass: Compa
     in_the_way = (column["trial_assembly"] or {}).get("in_the_way", ())
     if in_the_way:
         yield Step(phrase("crew.in_the_way", labels=", ".join(in_the_way)))
+    held = [finding["text"] for finding in column.get("findings", ()) if finding["holds_back"]]
+    yield from (Step(in_both_languages(text)) for text in held)
+    if verdict == "not_measured" and held:
+        return  # what was scanned is not what was to be: its points are not looked for one by one
     yield from _unseen(column)
     if repair is not None:
         yield from _repair(column, repair, compass)
     elif verdict == "fail":
         yield from _refused(column)
-    elif verdict == "inconclusive":
+    elif verdict == "inconclusive" and not held:
         told = any("declare up" in reason or "how the column is turned" in reason for reason in column["reasons"])
         yield Step(phrase("crew.say_up" if told else "crew.scan_closer"))
-    elif not any(_missing(column)):
+    elif not held and not any(_missing(column)):
         yield Step(phrase("crew.scan_closer"))
 
 

@@ -15,6 +15,7 @@ from aadm_workbench.report.words_reasons import in_both_languages
 
 HoistState: TypeAlias = Literal["no", "not_yet", "yes"]
 
+_OPEN = ("undecided", "not_seen")
 _WORST_FIRST = ("error", "fail", "not_measured", "inconclusive", "pass")
 
 
@@ -30,6 +31,8 @@ class Hoist:
 def hoist_of(column: dict[str, Any]) -> Hoist:
     """Whether one column of a report may be hoisted."""
     state, cause = _state(column["verdict"], column["goes_on"])
+    if cause in _OPEN and any(finding["holds_back"] for finding in column.get("findings", ())):
+        cause = "contradicted"
     return Hoist(state, phrase(f"cause.{cause}"), tuple(in_both_languages(text) for text in column["reasons"]))
 
 

@@ -152,6 +152,12 @@ def test_the_worse_a_diameter_is_known_the_more_it_may_be_off() -> None:
     assert found_in(group(square(), measured_mm=36.9, u_mm=0.2)) == []
 
 
+def test_a_method_that_states_no_uncertainty_contradicts_no_diameter() -> None:
+    seen = group(square(), measured_mm=38.0)
+    points = tuple(replace(point, covariance=None) for point in seen.extraction.points)
+    assert found_in(replace(seen, extraction=replace(seen.extraction, points=points))) == []
+
+
 def test_only_the_bars_with_caps_are_named() -> None:
     measured = [19.3] * 12
     measured[2] = measured[7] = 22.9

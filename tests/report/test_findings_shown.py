@@ -11,9 +11,12 @@ import pytest
 
 from aadm_workbench.report.bcf import write_bcf
 from aadm_workbench.report.column_view import column_notes, declared_up
+from aadm_workbench.report.crew import crew_advice
 from aadm_workbench.report.csv import csv_content
+from aadm_workbench.report.hoist import hoist_of
 from aadm_workbench.report.html import write_html
 from aadm_workbench.report.sheets import columns_table
+from aadm_workbench.report.words import phrase
 
 TEXT = "the scan of the sleeves is mirrored: its points fit the pattern only as in a mirror"
 FINDING = {"code": "mirrored", "about": ["sleeves"], "values": {"group": "sleeves"}, "text": TEXT, "holds_back": True}
@@ -60,6 +63,17 @@ def test_findings_have_lines_of_their_own_in_the_table(floor: dict[str, Any]) ->
     rows = list(csv.reader(io.StringIO(csv_content(floor, [column]).decode("utf-8-sig"))))
     line = next(row for row in rows if row[3] == "finding mirrored")
     assert (line[4], line[-3], line[-1]) == ("sleeves", "holds back", TEXT)
+
+
+def test_the_crew_is_told_what_to_settle_and_not_to_scan_closer(floor: dict[str, Any]) -> None:
+    column = next(c for c in floor["columns"] if c["verdict"] == "pass" and c["goes_on"] == "pass")
+    column |= {"verdict": "inconclusive", "goes_on": "inconclusive", "reasons": [TEXT], "findings": [FINDING]}
+    hoist = hoist_of(column)
+    assert (hoist.state, hoist.cause) == ("no", phrase("cause.contradicted"))
+    steps = [step.text for step in crew_advice(floor, column).steps]
+    assert [step.en for step in steps] == [TEXT]
+    column["findings"] = [FINDING | {"holds_back": False}]
+    assert hoist_of(column).cause == phrase("cause.undecided")
 
 
 def test_what_was_found_on_a_hoisting_frame_is_among_the_notes(floor: dict[str, Any]) -> None:

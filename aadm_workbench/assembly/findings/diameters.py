@@ -13,7 +13,7 @@ import numpy as np
 
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.make import make_finding
-from aadm_workbench.assembly.place import PlacedPoint
+from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
 from aadm_workbench.design.bar_sizes import OVER_RIBS_MM
 from aadm_workbench.extract.sizes import distinct_sizes
 from aadm_workbench.model import AssemblyPoint, Finding, Kind
@@ -43,7 +43,7 @@ def diameter_findings(group: SeenGroup) -> Iterator[Finding]:
         and len(distinct_sizes(target.diameter_mm for target in group.design)) > 1
     ):
         return  # it is open which size was meant where
-    measured = [(target, point) for target, point in group.placed() if np.isfinite(point.point.diameter_mm)]
+    measured = [(target, point) for target, point in group.placed() if _is_known(point)]
     shared_u_mm = EDGE_U_PITCHES * float(group.extraction.quality.get("point_pitch_mm", 0.0))
     for of_size in _by_size(measured):
         design_mm = float(np.median([target.diameter_mm for target, _ in of_size]))
@@ -91,12 +91,15 @@ def _by_size(
         left = [one for one in left if one[0].diameter_mm > size_mm * (1.0 + _SAME_SIZE)]
 
 
+def _is_known(point: PlacedPoint) -> bool:
+    """Whether a diameter has an uncertainty: a method that states none for its points contradicts nothing."""
+    return bool(np.isfinite(point.point.diameter_mm)) and flat_covariance(point.point) is not None
+
+
 def _u_mm(point: PlacedPoint, shared_u_mm: float) -> float:
     """Standard uncertainty of a diameter: of a circle twice that of its radius, which is known as its centre is."""
-    covariance = point.point.covariance
-    own_mm = 0.0
-    if covariance is not None and np.isfinite(covariance).all():
-        own_mm = 2.0 * float(np.sqrt(np.linalg.eigvalsh(covariance[:2, :2])[-1]))
+    covariance = flat_covariance(point.point)
+    own_mm = 0.0 if covariance is None else 2.0 * float(np.sqrt(max(np.linalg.eigvalsh(covariance)[-1], 0.0)))
     return float(np.hypot(own_mm, shared_u_mm))
 
 
