@@ -54,7 +54,7 @@ def run_chaos(
     folder: Path, columns: int, rng: np.random.Generator, *, shrink: int = SMALL, kill_every_s: float = 2.0
 ) -> Chaos:
     """Check a floor calmly and in chaos; files go into a folder that is there and empty."""
-    calm, harmed = write_floor(folder / "calm", columns, shrink=shrink), folder / "chaos"
+    calm, harmed = write_floor(folder / "calm", columns, shrink=shrink, linked=False), folder / "chaos"
     began = time.perf_counter()
     subprocess.run(_command(calm), check=False, capture_output=True)
     chaos = Chaos(columns, time.perf_counter() - began)

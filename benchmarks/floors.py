@@ -30,7 +30,8 @@ def write_floor(folder: Path, columns: int, *, shrink: int = 1, linked: bool = T
     shrink
         Keep one pixel in so many, in both directions; 1 for the 2.3 megapixels of the sample.
     linked
-        Whether equal scans share their place on the disk; without, each can be changed alone.
+        Whether equal scans share their place on the disk; without, each is a file of its own, with a number behind
+        its end, so that no two columns have the same scan, and each can be changed alone.
     """
     job = read_job(SAMPLE / "job.toml")
     assert job.camera is not None
@@ -44,7 +45,10 @@ def write_floor(folder: Path, columns: int, *, shrink: int = 1, linked: bool = T
         name = list(SOUND)[number % len(SOUND)]
         for kind, original in originals[name].items():
             scan = scans / f"K-{number:04d}-{kind}.tiff"
-            os.link(original, scan) if linked else shutil.copyfile(original, scan)
+            if linked:
+                os.link(original, scan)
+            else:
+                scan.write_bytes(original.read_bytes() + number.to_bytes(4, "big"))
         texts.append(_column(number, SOUND[name], model.column(name)))
     path = folder / "job.toml"
     path.write_text("\n".join(texts), encoding="utf-8")

@@ -9,6 +9,8 @@ from aadm_workbench.assembly.findings.hold import held_back
 from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.model import ColumnReport, Finding, GroupReport
 
+_NAMED = 4
+
 
 @dataclass(frozen=True)
 class _Use:
@@ -32,6 +34,12 @@ def with_same_scans(columns: Sequence[ColumnReport]) -> tuple[ColumnReport, ...]
     return tuple(held_back(column, _findings(number, columns, twice)) for number, column in enumerate(columns))
 
 
+def _listed(names: Sequence[str]) -> str:
+    """The first of some columns, and how many more there are."""
+    more = f", … (+{len(names) - _NAMED})" if len(names) > _NAMED else ""
+    return ", ".join(names[:_NAMED]) + more
+
+
 def _uses(number: int, column: ColumnReport) -> Iterator[_Use]:
     for name, group in (("sleeves", column.sleeves), ("rebars", column.rebars)):
         if isinstance(group, GroupReport):
@@ -52,7 +60,7 @@ def _findings(number: int, columns: Sequence[ColumnReport], twice: dict[str, lis
                     [use.group],
                     group=use.group,
                     source=use.source,
-                    others=", ".join(others),
+                    others=_listed(others),
                 )
             )
         if len(own) > 1:
