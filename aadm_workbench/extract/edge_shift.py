@@ -49,6 +49,7 @@ _USUAL_PITCH_MM = 0.5  # shifts along the view are those at such a distance of p
 _USUAL_STEP_PITCHES = 0.4  # a camera that loses half of the pixels at steps sees rims that far behind
 _SHARP_MOUTH_VIEW, _ERODED_MOUTH_VIEW = (-0.08, 0.14), (-0.60, 0.40)
 _ERODED_MOUTH_OWN_PITCHES = 0.22
+_RADIUS_U_PITCHES = 0.15
 _SHARED_UNKNOWNS = 3
 _APART_PITCHES, _APART_SHARE = 0.15, 0.8  # rims and lines of sight differ by so much where both are sound
 _NOISE_FROM_MM, _NOISE_SHARE = 0.10, 0.22  # of the scatter of heights, that edges and bores carry on to centres
@@ -142,14 +143,16 @@ def _common_bend(height: FloatArray, terms: Sequence[Array], chosen: BoolArray) 
 class BentDiscs:
     """Centres (k, 2) mm of discs whose edges bend, and their own covariances ``own`` (k, 2, 2) mm².
 
-    ``shared`` (k, 2, 2) is what all err by together. ``radius`` mm is that at which half of the lines of sight find the
-    surface; ``eroded`` how many distances of pixels farther behind the edge that is than without a filter.
+    ``shared`` (k, 2, 2) is what all err by together. ``radius`` mm is that from which on half of the lines of sight
+    find the surface, without what slivers add to it, and ``radius_u_mm`` what it may be off; ``eroded`` how many
+    distances of pixels farther behind the edge that is than without a filter.
     """
 
     centre: Array
     own: Array
     shared: Array
     radius: float
+    radius_u_mm: float
     eroded: float
 
 
@@ -180,15 +183,20 @@ def bent_discs(lines: SightLines, centre: Array, radius_mm: float, bend: Bend, s
         + (_ACROSS_BASE_PITCHES * pitch_mm) ** 2 * np.eye(2)
         + view_mm**2 * along_view[:, :, None] * along_view[:, None, :]
     )
-    return BentDiscs(moved, own, shared, middle.radius, eroded)
+    radius = middle.radius + side * _OVERHANG_PITCHES * pitch_mm
+    return BentDiscs(moved, own, shared, radius, _radius_u_mm(pitch_mm, eroded), eroded)
 
 
 @dataclass(frozen=True, eq=False)
 class Shift:
-    """What is known of the common errors of centres: their mean (k, 2) mm, to be taken off, and ``covariance``."""
+    """What is known of the common errors of centres: their mean (k, 2) mm, to be taken off, and ``covariance``.
+
+    ``radius_u_mm`` is what radii may be off together.
+    """
 
     mean: Array
     covariance: Array
+    radius_u_mm: float
 
 
 def eroded_rings(beyond: Outlines, rims: Outlines, centre: Array, pitch_mm: float) -> float:
@@ -216,10 +224,17 @@ def shift_of_tops(slope: Array, bend: Bend, eroded: float) -> Shift:
     own_mm = _ERODED_OWN_PITCHES * eroded * bend.pitch_mm
     shared = own_mm**2 * np.eye(2) + spread_mm**2 * slope[:, :, None] * slope[:, None, :]
     if not bend.bent:
-        return Shift(view_mm * slope, shared)
+        return Shift(view_mm * slope, shared, _radius_u_mm(bend.pitch_mm, eroded))
     along = _direction(bend.towards)
     base_mm = (_ALONG_BASE_PITCHES + 0.5 * _ERODED_BASE[1] * eroded) * bend.pitch_mm
-    return Shift(view_mm * slope - _BEND_SHIFT * bend.towards, shared + base_mm**2 * np.outer(along, along))
+    mean = view_mm * slope - _BEND_SHIFT * bend.towards
+    covariance = shared + base_mm**2 * np.outer(along, along)
+    return Shift(mean, covariance, _radius_u_mm(bend.pitch_mm, eroded))
+
+
+def _radius_u_mm(pitch_mm: float, eroded: float) -> float:
+    """What edges leave open of a radius: nobody can tell a ring that was taken away from a larger mouth."""
+    return (_RADIUS_U_PITCHES + eroded) * pitch_mm
 
 
 def shift_of_mouths(
@@ -240,7 +255,7 @@ def shift_of_mouths(
     )
     own_mm = float(np.linalg.norm([_ERODED_MOUTH_OWN_PITCHES * eroded * bend.pitch_mm, noise_mm, apart_mm]))
     shared = own_mm**2 * np.eye(2) + spread_mm**2 * slope[:, :, None] * slope[:, None, :]
-    return Shift(view_mm * slope, shared)
+    return Shift(view_mm * slope, shared, _radius_u_mm(bend.pitch_mm, eroded))
 
 
 def _apart_mm(slope: Array, apart: Array) -> float:

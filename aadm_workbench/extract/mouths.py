@@ -67,7 +67,11 @@ def mouths_in(
     centre, other = settled_centres(rim, start, radius_mm, bins, zone_mm, innermost=True, others_mm=others_mm)
     close = rim.where(np.abs(rim.distance(centre) - radius_mm) < _WALL_BAND_MM + 1.0)
     shape = outlines(close, centre, bins, innermost=True)
-    inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front))
+    at = np.flatnonzero(front)
+    hangs = (patches.height.ravel()[at] > _FACE_BAND_MM) & ~patches.borne(
+        at
+    )  # ghosts before an unlit wall close nothing
+    inside = PlanPoints.of(patches.x, patches.y, at[~hangs])
     kept = ~other & (shape.coverage >= _COVERAGE_MIN) & ~_closed(inside, centre, radius_mm, pitch_mm)
     bores = _bores(patches, centre, radius_mm, near)
     upper = (bores.depth > _UPPER_WALL_MM[0]) & (bores.depth < _UPPER_WALL_MM[1])

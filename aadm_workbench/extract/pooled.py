@@ -32,7 +32,8 @@ class PooledFit:
     """Result for k features: ``centre`` (k, 2) mm with ``covariance`` (k, 2, 2) mm², ``lean`` (k, 2) with its own.
 
     ``radius`` (k,) mm of the wall, ``outline_radius`` (k,) mm of the edge. ``wall_count``, ``edge_count`` (k,) are the
-    points with weight. ``wall_mm`` and ``edge_mm`` are robust standard deviations of the residuals.
+    points with weight. ``wall_mm`` and ``edge_mm`` are robust standard deviations of the residuals;
+    ``radius_u_mm`` is what all radii may be off together, by what the camera does at edges.
     """
 
     centre: Array
@@ -46,6 +47,7 @@ class PooledFit:
     edge_mm: float
     wall_count: IntArray
     edge_count: IntArray
+    radius_u_mm: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

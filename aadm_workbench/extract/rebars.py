@@ -160,7 +160,8 @@ def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -
         return fit
     eroded = eroded_rings(tops.beyond, tops.rims, fit.centre, bend.pitch_mm)
     shift = shift_of_tops(lines.slope, bend, eroded)
-    return replace(fit, centre=fit.centre - shift.mean, covariance=_FIT_SHARE**2 * fit.covariance + shift.covariance)
+    covariance = _FIT_SHARE**2 * fit.covariance + shift.covariance
+    return replace(fit, centre=fit.centre - shift.mean, covariance=covariance, radius_u_mm=shift.radius_u_mm)
 
 
 def _fit(tops: Tops, radius_mm: float, priors: Priors) -> PooledFit:
@@ -198,6 +199,7 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
     quality = {
         "point_pitch_mm": float(np.median(tops.pitch_mm)),
         "plane_residual_mm": float(np.median(tops.residual_mm)),
+        "diameter_u_mm": 2.0 * fit.radius_u_mm,
         "edge_coverage": float(np.mean(tops.rims.coverage)),
         "edge_residual_mm": fit.edge_mm,
         "wall_residual_mm": fit.wall_mm,

@@ -34,6 +34,7 @@ _TAIL_PITCHES, _TAIL_TO_KEPT, _USUALLY_KEPT = 6.0, 1.5, 0.7
 _FIRST_SETTLED_MM = 0.03  # the first fit only tells which share of the pixels the camera keeps
 _BORE_LEAN_U = 2e-3  # light that bounces in a bore pushes its wall by less or more as it goes deeper
 _WHOLE_WITHIN_MM = 1.5  # between the innermost points of a rim and the disc that is seen: filters move it by less
+_ERODED_RADIUS_MAX = 0.5  # rings: beyond, walls that light pushes know the radius better
 _BROKEN_U_MM = 0.3  # of a broken rim, seen by a camera that adds to its edges
 _SIDES, _SIDE_COUNT_MIN = 6, 10
 _RIM_TO_WALL_PITCHES = 0.05
@@ -139,6 +140,7 @@ def _measured(mouths: Mouths, patches: Patches, face: Plane, diameter_mm: float,
     quality = {
         "point_pitch_mm": pitch_mm,
         "plane_residual_mm": face.residual_mm,
+        "diameter_u_mm": 2.0 * fit.radius_u_mm,
         "edge_coverage": float(mouths.coverage.mean()),
         "edge_residual_mm": fit.edge_mm,
         "wall_residual_mm": fit.wall_mm,
@@ -169,7 +171,8 @@ def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm:
         return _fit_of_bent(mouths, discs, whole, diameter_mm, pitch_mm)
     fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
     shift = shift_of_mouths(lines.slope, fit.centre, seen, whole, diameter_mm / 2, bend)
-    return replace(fit, centre=fit.centre - shift.mean, covariance=_FIT_SHARE**2 * fit.covariance + shift.covariance)
+    covariance = _FIT_SHARE**2 * fit.covariance + shift.covariance
+    return replace(fit, centre=fit.centre - shift.mean, covariance=covariance, radius_u_mm=shift.radius_u_mm)
 
 
 def _seen(lines: SightLines, centre: Array, diameter_mm: float, pitch_mm: float) -> SeenDiscs:
@@ -194,7 +197,8 @@ def _fit_of_bent(mouths: Mouths, discs: BentDiscs, whole: BoolArray, diameter_mm
     fit = fit_pooled(replace(evidence, walls=scattered), start)
     shared = np.tile(_BROKEN_U_MM**2 * np.eye(2), (len(whole), 1, 1))
     shared[whole] = discs.shared
-    return replace(fit, covariance=fit.covariance + shared)
+    radius = np.where(whole, discs.radius, fit.radius) if discs.eroded < _ERODED_RADIUS_MAX else fit.radius
+    return replace(fit, covariance=fit.covariance + shared, radius=radius, radius_u_mm=discs.radius_u_mm)
 
 
 def _fit_of_sharp(mouths: Mouths, diameter_mm: float, pitch_mm: float) -> PooledFit:

@@ -44,7 +44,9 @@ def diameter_findings(group: SeenGroup) -> Iterator[Finding]:
     ):
         return  # it is open which size was meant where
     measured = [(target, point) for target, point in group.placed() if _is_known(point)]
-    shared_u_mm = EDGE_U_PITCHES * float(group.extraction.quality.get("point_pitch_mm", 0.0))
+    quality = group.extraction.quality
+    edges_mm = EDGE_U_PITCHES * float(quality.get("point_pitch_mm", 0.0))
+    shared_u_mm = max(edges_mm, float(quality.get("diameter_u_mm", 0.0)))
     for of_size in _by_size(measured):
         design_mm = float(np.median([target.diameter_mm for target, _ in of_size]))
         low_mm, high_mm = allowed_mm(group.kind, design_mm)
