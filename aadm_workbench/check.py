@@ -20,11 +20,11 @@ from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.eopa import NoFit
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.of_column import Seen, with_findings
+from aadm_workbench.assembly.group_notes import of_the_files, typical_u_mm, unsupported
 from aadm_workbench.assembly.inspect import describe_ambiguity, inspect_group
 from aadm_workbench.assembly.match import Match, match_extraction
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.repair import advise_repair
-from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.assembly.trial import try_scans
 from aadm_workbench.assembly.views import merge_views
 from aadm_workbench.errors import JobError
@@ -49,15 +49,6 @@ from aadm_workbench.model import (
 
 IMAGE_UP_SCAN = np.array([0.0, -1.0, 0.0])
 """Direction of the image's top in the scan frame: -y."""
-
-LARGEST_U_TO_LIMIT = 0.409
-"""1/sqrt(-2 ln 0.05): with a larger u per axis no radial deviation is within the limit at 95 % (Rice law)."""
-
-NO_CAMERA = (
-    "the cloud does not tell where its camera stood, so its edges are less certain; "
-    "with [camera] and the camera's own depth map or cloud they are better"
-)
-"""Note of a scan whose viewpoint nobody knows."""
 
 CHECKS = ("sleeves", "rebars", "trial")
 
@@ -207,8 +198,8 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             source=", ".join(view.source for view in views),
             sha256=", ".join(view.sha256 for view in views),
         )
-        u_mm = _typical_u_mm(extraction)
-        notes = (*report.notes, *_of_the_files(views), *notes, *_unsupported(u_mm, settings.profile, kind))
+        u_mm = typical_u_mm(extraction)
+        notes = (*report.notes, *of_the_files(views), *notes, *unsupported(u_mm, settings.profile, kind))
         dropped = sum(view.dropped for view in views)
         report = replace(report, notes=notes, quality={**report.quality, "u_mm": u_mm, "dropped_points": dropped})
         measured = Measured(extraction, match, _with_reasons(report, reasons))
@@ -224,34 +215,6 @@ def _scale_error(scan: Scan) -> float:
 
 def _diameters_mm(points: tuple[AssemblyPoint, ...]) -> list[float]:
     return [point.diameter_mm for point in points]
-
-
-def _of_the_files(views: tuple[Scan, ...]) -> tuple[str, ...]:
-    """What was noticed while the scans were read."""
-    return tuple(
-        f"{view.source}: {note}"
-        for view in views
-        for note in (*view.notes, *(() if view.viewpoint is not None else (NO_CAMERA,)))
-    )
-
-
-def _typical_u_mm(extraction: Extraction) -> float | None:
-    """Median standard uncertainty, mm per axis across the vertical, of the centres; None without covariances."""
-    known = [point.covariance for point in extraction.points if point.covariance is not None]
-    if not known or extraction.vertical is None:
-        return None
-    up = extraction.vertical
-    return float(np.median([np.sqrt(max(np.trace(c) - up @ c @ up, 0.0) / 2.0) for c in known]))
-
-
-def _unsupported(u_mm: float | None, profile: Profile, kind: Kind) -> tuple[str, ...]:
-    """A note where no deviation, however small, could be accepted at 95 % with this uncertainty."""
-    limits = [rule.upper for rule in rules_for(profile, f"{kind.value}_position")]
-    if u_mm is None or not limits or u_mm < LARGEST_U_TO_LIMIT * min(limits):
-        return ()
-    return (
-        f"this scan cannot support a decision on {min(limits):g} mm: its centres have u = {u_mm:.2f} mm, rescan closer",
-    )
 
 
 def _matched(

@@ -50,7 +50,7 @@ def test_numbers_survive_the_round_trip_through_the_model(schema: str, tmp_path:
                 assert [held.get("Deviation"), held.get("Uncertainty")] == [point["deviation_mm"], point["u_mm"]]
                 assert [held.get("OffsetX"), held.get("OffsetY")] == (point["offset_mm"] or [None, None])
                 assert held["Verdict"] == point["verdict"]
-        for pair in ((column["trial_assembly"] or {}).get("minimax") or {"pairs": ()})["pairs"]:
+        for pair in ((column["trial_assembly"] or {}).get("best") or {"pairs": ()})["pairs"]:
             (sleeve,) = (point for point in column["sleeves"]["points"] if point["label"] == pair["sleeve"])
             held = found[sleeve["global_id"]]["AADM_SleeveCheck"]
             assert (held["PairDistance"], held["PairClearance"]) == (pair["distance_mm"], pair["clearance_mm"])
