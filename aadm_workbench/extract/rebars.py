@@ -142,7 +142,8 @@ def _measured(
 def _lines(patches: Patches, tops: Tops) -> SightLines | None:
     """The lines of sight about each kept top, crossing its plane."""
     own = patches.of(tops.kept)
-    over = np.einsum("kni,ki->kn", np.stack([own.x, own.y, own.height], axis=-1), tops.normal.astype(np.float32))
+    normal = tops.normal.astype(np.float32)
+    over = own.x * normal[:, :1] + own.y * normal[:, 1:2] + own.height * normal[:, 2:]
     return sight_lines_on_tops(own, tops.normal, tops.offset, over - tops.offset[:, None].astype(np.float32))
 
 
