@@ -20,7 +20,7 @@ from aadm_workbench.twin.meshes import bars_surface, foot_surface
 from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_foot, random_pose
 
 HERE = Path(__file__).parent
-STEP_MM = 0.025
+STEP_MM, STEPS_MAX = 0.025, 65535
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,7 @@ def make(name: str, folder: Path) -> None:
     for what, surface in (("foot", foot_surface(foot)), ("bars", bars_surface(bars))):
         pose = random_pose(scene.setting, what == "foot", rng, 5.0, scene.distance)
         depth, _ = fringe_image(surface, pose, camera, rng).drawn(rng)
+        depth[~(depth < STEPS_MAX * STEP_MM)] = np.nan  # farther than the file can hold
         write_depth_tiff(folder / f"{what}.tiff", depth, STEP_MM)
         poses[what] = np.linalg.inv(pose)
     true = {
