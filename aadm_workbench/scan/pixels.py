@@ -41,10 +41,17 @@ def on_pixels(points: FloatArray) -> FloatArray | None:
         across, down = (points[:, :2] / points[:, 2:].astype(np.float64)).T
     if max(np.abs(across).max(), np.abs(down).max()) > _TANGENT_MAX:
         return None
-    columns = _grid_places(across)
-    rows = None if columns is None else _grid_places(down)
-    if columns is None or rows is None:
+    from_columns = _grid_places(across)
+    from_rows = None if from_columns is None else _grid_places(down)
+    if from_columns is None or from_rows is None:
         return None
+    (columns, off_columns), (rows, off_rows) = from_columns, from_rows
+    # A line scanner's even steps over a flat face look like a distant camera's, too, but are more even by themselves.
+    level = float(np.median(points[:, 2]))
+    for axis, off in ((0, off_columns), (1, off_rows)):
+        itself = _grid_places(points[:, axis].astype(np.float64) / level)
+        if itself is not None and itself[1] <= off:
+            return None
     width, height = int(columns.max()) + 1, int(rows.max()) + 1
     if max(width, height) > _SIZE_MAX:
         return None
@@ -58,8 +65,8 @@ def on_pixels(points: FloatArray) -> FloatArray | None:
     return picture.reshape(height, width, 3)
 
 
-def _grid_places(tangents: Array) -> IntArray | None:
-    """The place (n,) of each of some values on the even grid that they lie on; None without one."""
+def _grid_places(tangents: Array) -> tuple[IntArray, float] | None:
+    """The place (n,) of each of some values on the even grid that they lie on, and how far off, in steps; or None."""
     some = np.sort(tangents[:: len(tangents) // _SAMPLE + 1])
     gaps = np.diff(some)
     between = gaps[(gaps > _SAME_COLUMN) & (gaps < _STEP_RANGE[1])]
@@ -83,4 +90,4 @@ def _grid_places(tangents: Array) -> IntArray | None:
     whole = np.rint(exact)
     if (np.abs(exact - whole) > _OFF_GRID).mean() > 1.0 - _ON_GRID_SHARE:
         return None
-    return np.asarray(whole - whole.min(), np.int64)
+    return np.asarray(whole - whole.min(), np.int64), float(np.median(np.abs(exact - whole)))
