@@ -43,12 +43,17 @@ def place_points(extraction: Extraction, placement: Placement) -> tuple[PlacedPo
 
 
 def _placed(point: AssemblyPoint, T_design_scan: Array) -> AssemblyPoint:
-    rotation = T_design_scan[:3, :3]
-    axis = rotation @ point.axis
+    placed = moved_point(point, T_design_scan)
+    return replace(placed, axis=-placed.axis) if placed.axis[2] < 0.0 else placed
+
+
+def moved_point(point: AssemblyPoint, T_to_from: Array) -> AssemblyPoint:
+    """A point in another frame: its centre and axis moved by a (4, 4) transform, its covariances turned with them."""
+    rotation = T_to_from[:3, :3]
     return replace(
         point,
-        centre=rotation @ point.centre + T_design_scan[:3, 3],
-        axis=-axis if axis[2] < 0.0 else axis,
+        centre=rotation @ point.centre + T_to_from[:3, 3],
+        axis=rotation @ point.axis,
         covariance=_turned(point.covariance, rotation),
         axis_covariance=_turned(point.axis_covariance, rotation),
     )

@@ -17,7 +17,8 @@ import numpy as np
 from aadm_workbench.assembly.likelihood import DISTINCT_LOG_RATIO
 from aadm_workbench.assembly.match import Match, Placement
 from aadm_workbench.assembly.overlap import Overlap, View, overlap_of
-from aadm_workbench.model import Array, AssemblyPoint, Extraction
+from aadm_workbench.assembly.place import moved_point
+from aadm_workbench.model import AssemblyPoint, Extraction
 
 _SHARED_MIN = 3
 _APART_MM = 1.0  # two views of one point may differ by this much; beyond it the views do not belong together
@@ -146,7 +147,7 @@ def _joined(merged: _Merged, view: Extraction, join: _Join) -> _Merged:
     added: list[int] = []
     strangers = {k for k, label in enumerate(join.ways[0][1].labels) if label < 0}
     for k, (point, length) in enumerate(zip(view.points, _exposed(view), strict=True)):
-        moved = _moved(point, join.overlap.T_first_second)
+        moved = moved_point(point, join.overlap.T_first_second)
         if k in shared:
             place = shared[k]
             points[place] = _mean(points[place], moved)
@@ -170,21 +171,6 @@ def _joined(merged: _Merged, view: Extraction, join: _Join) -> _Merged:
 
 def _exposed(extraction: Extraction) -> tuple[float | None, ...]:
     return extraction.exposed_length_mm or (None,) * len(extraction.points)
-
-
-def _moved(point: AssemblyPoint, T: Array) -> AssemblyPoint:
-    rotation = T[:3, :3]
-    return replace(
-        point,
-        centre=rotation @ point.centre + T[:3, 3],
-        axis=rotation @ point.axis,
-        covariance=_turned(point.covariance, rotation),
-        axis_covariance=_turned(point.axis_covariance, rotation),
-    )
-
-
-def _turned(covariance: Array | None, rotation: Array) -> Array | None:
-    return None if covariance is None else rotation @ covariance @ rotation.T
 
 
 def _mean(first: AssemblyPoint, second: AssemblyPoint) -> AssemblyPoint:

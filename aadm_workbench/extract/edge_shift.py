@@ -19,43 +19,46 @@ from aadm_workbench.extract.seen_disc import SeenDiscs, seen_discs
 from aadm_workbench.extract.sight_lines import SightLines
 from aadm_workbench.model import Array, BoolArray, FloatArray
 
-_BENT_PITCHES = (0.3, 1.5)  # behind the edge: pixels that an edge with a blur of half a pixel reaches
+_MOUTHS, _TOPS = 1.0, -1.0  # the side on which the surface lies: outside of the disc, or within
+
+# Where a bend is looked for. In distances of pixels behind the edge, unless a name says mm.
+_BENT_PITCHES = (0.3, 1.5)  # pixels that an edge with a blur of half a pixel reaches
 _INNER_PITCHES = (4.0, 9.0)  # farther than any sharp camera's blur
-_BEND_MAX_MM = 3.0  # what is farther off is another surface
+_BLUR_PITCHES = {_MOUTHS: (2.5, 3.5), _TOPS: (1.5, 2.5)}  # three pixels of blur reach there, one does not
+_BEND_MAX_MM, _INNER_MAX_MM = 3.0, 1.5  # what is farther off is another surface
 _VISIBLE_SIDE = 0.3  # cosine: beyond it the surface runs on into a wall, whose points are no bend
-_INNER_MAX_MM = 1.5
-_FEWEST = 60
-_BLUR_PITCHES = {1.0: (2.5, 3.5), -1.0: (1.5, 2.5)}  # behind the edge: three pixels of blur reach there, one does not
-_BLUR_SHARE, _BLUR_ROUGH = 0.12, 1.5
-_BLUR_FROM = {1.0: 0.0, -1.0: 0.95}  # of the pitch: small tops are flat nowhere near their edges
-_BENT_SIGMAS = {1.0: 8.0, -1.0: 4.0}  # chamfers of a few mouths do not cancel as noise does
+_FEWEST = 60  # points: a mean of fewer is noise
+
+# From where on it counts.
+_BENT_FROM = {_MOUTHS: 0.18, _TOPS: 0.07}  # of the pitch: chamfered mouths off centre bend by 0.13, cut bars do not
+_BENT_SIGMAS = {_MOUTHS: 8.0, _TOPS: 4.0}  # chamfers of a few mouths do not cancel as noise does
 _ROUGH_EDGES, _ROUGH_SIGMAS = 2.5, 2.0  # heights at edges that scatter so much more than within are mixed ones
-_BENT_FROM = {
-    1.0: 0.18,
-    -1.0: 0.07,
-}  # of the pitch: mouths with chamfers, off centre, bend by 0.13 themselves; cut bars do not
+_BLUR_SHARE, _BLUR_ROUGH = 0.12, 1.5  # of the bend at the edge; of the scatter within
+_BLUR_FROM = {_MOUTHS: 0.0, _TOPS: 0.95}  # of the pitch: small tops are flat nowhere near their edges
+
+# Discs of surfaces that bend: shifts that are taken off, and what is left of them. docs/method.md, 2.4, has the scans.
 _BANDS_MM, _BAND_SIGMAS = (0.5, 1.5, 2.5), 3.5  # about the surface; never narrower than its noise
 _COUNTING = 1.3  # neighbouring lines share their errors: standard errors are this much larger
 _OVERHANG_PITCHES = 0.25  # a mixed pixel is returned while a quarter of it sees the surface
+_OWN_PITCHES, _ERODED_OWN_PITCHES = 0.05, 0.10  # what each disc errs by itself, and more for each ring lost
 _BEND_SHIFT = 0.09  # of the bend: what narrow bands lose on the side that bends away
 _ALONG_BASE_PITCHES, _ACROSS_BASE_PITCHES = 0.07, 0.05
 _ERODED_BASE = 0.10, 0.28  # pitches a ring, mean and spread: filters see a step where the wall behind it is lit
-_BENT_VIEW_MM, _BENT_VIEW_SPREAD_MM = 0.10, 0.15  # beyond the wall that bands take in
-_FAR_NO_MORE = 1.1  # at 2 m shifts are no larger than at 1.4 m
+_BENT_VIEW_MM, _BENT_VIEW_SPREAD_MM = 0.10, 0.15  # per unit of slope, beyond the wall that bands take in
+_ERODED_BENT_VIEW, _ERODED_BENT_FROM = 0.25, 0.6  # the wall near the face goes with the second ring
 _NEARER_TAKES_LESS = 1.3  # seen from nearer, less of the wall is taken in: measured at 0.8 m and at 1.3 m
-_ERODED_BENT_VIEW, _ERODED_BENT_FROM = 0.25, 0.6
-_OWN_PITCHES, _ERODED_OWN_PITCHES = 0.05, 0.10
-_USUAL_PITCH_MM = 0.5  # shifts along the view are those at such a distance of pixels
+
+# Outlines of sharp surfaces: mm per unit of slope along the view, mean and spread; eroded: more for each ring lost.
+_USUAL_PITCH_MM, _FAR_NO_MORE = 0.5, 1.1  # at which they were measured; at 2 m they are no larger than at 1.4 m
 _USUAL_STEP_PITCHES = 0.4  # a camera that loses half of the pixels at steps sees rims that far behind
+_USUAL_GAP_PITCHES = 2.0  # one to two pixels lie between a top and what passed it; half of them lost, more
 _SHARP_MOUTH_VIEW, _ERODED_MOUTH_VIEW = (-0.08, 0.14), (-0.60, 0.40)
-_ERODED_MOUTH_OWN_PITCHES = 0.22
-_RADIUS_U_PITCHES = 0.15
-_SHARED_UNKNOWNS = 3
+_SHARP_TOP_VIEW, _BENT_TOP_VIEW, _ERODED_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33), (-0.80, 0.15)
+_ERODED_MOUTH_OWN_PITCHES = 0.22  # half rims stand on fewer points, and on fewer points of the bore
+_RADIUS_U_PITCHES = 0.15  # of a radius where no ring is lost
+_SHARED_UNKNOWNS = 3  # a shift, and a part along the view
 _APART_PITCHES, _APART_SHARE = 0.15, 0.8  # rims and lines of sight differ by so much where both are sound
 _NOISE_FROM_MM, _NOISE_SHARE = 0.10, 0.22  # of the scatter of heights, that edges and bores carry on to centres
-_USUAL_GAP_PITCHES = 2.0  # one to two pixels lie between a top and what passed it; half of them lost, more
-_SHARP_TOP_VIEW, _BENT_TOP_VIEW, _ERODED_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33), (-0.80, 0.15)
-
 
 BLURRED = (
     "the picture is out of focus: surfaces bend at their edges over several pixels; "
@@ -82,19 +85,21 @@ class Bend:
     reach_mm: float
 
     @property
-    def blurred(self) -> bool:
-        """Whether the bend goes on for more pixels than that of a camera in focus."""
-        height_mm = float(np.hypot(*self.towards))
-        return (
-            self.bent and self.reach_mm > _BLUR_SHARE * height_mm and height_mm > _BLUR_FROM[self.side] * self.pitch_mm
-        )
+    def height_mm(self) -> float:
+        """How far the surface bends up on the side towards which it does."""
+        return float(np.hypot(*self.towards))
 
     @property
     def bent(self) -> bool:
         """Whether the camera mixes what an edge separates."""
-        height_mm = float(np.hypot(*self.towards))
         sigmas = _ROUGH_SIGMAS if self.side < 0 and self.ratio > _ROUGH_EDGES else _BENT_SIGMAS[self.side]
-        return height_mm > max(_BENT_FROM[self.side] * self.pitch_mm, sigmas * self.u_mm)
+        return self.height_mm > max(_BENT_FROM[self.side] * self.pitch_mm, sigmas * self.u_mm)
+
+    @property
+    def blurred(self) -> bool:
+        """Whether the bend goes on for more pixels than that of a camera in focus."""
+        high = self.height_mm > _BLUR_FROM[self.side] * self.pitch_mm
+        return self.bent and high and self.reach_mm > _BLUR_SHARE * self.height_mm
 
 
 def no_bend(pitch_mm: float, side: float) -> Bend:
@@ -156,13 +161,13 @@ class BentDiscs:
     eroded: float
 
 
-def bent_discs(lines: SightLines, centre: Array, radius_mm: float, bend: Bend, side: float) -> BentDiscs:
+def bent_discs(lines: SightLines, centre: Array, radius_mm: float, bend: Bend) -> BentDiscs:
     """Discs by the share of lines of sight that find the surface, in bands about it that take in its bend.
 
     Narrow bands lose the side that bends away, wide ones take in the wall on the visible side, as deep as they are:
     the mean of three is taken. What is left of both is taken off, and counts with its spread.
     """
-    pitch_mm = bend.pitch_mm
+    pitch_mm, side = bend.pitch_mm, bend.side
     bands = [max(band, _BAND_SIGMAS * bend.inner_mm) for band in _BANDS_MM]
     fits = [seen_discs(lines, np.abs(lines.height) < band, centre, radius_mm, pitch_mm, side) for band in bands]
     middle = fits[1]

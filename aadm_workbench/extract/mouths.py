@@ -67,11 +67,7 @@ def mouths_in(
     centre, other = settled_centres(rim, start, radius_mm, bins, zone_mm, innermost=True, others_mm=others_mm)
     close = rim.where(np.abs(rim.distance(centre) - radius_mm) < _WALL_BAND_MM + 1.0)
     shape = outlines(close, centre, bins, innermost=True)
-    at = np.flatnonzero(front)
-    hangs = (patches.height.ravel()[at] > _FACE_BAND_MM) & ~patches.borne(
-        at
-    )  # ghosts before an unlit wall close nothing
-    inside = PlanPoints.of(patches.x, patches.y, at[~hangs])
+    inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front & ~_ghosts(patches, front)))
     kept = ~other & (shape.coverage >= _COVERAGE_MIN) & ~_closed(inside, centre, radius_mm, pitch_mm)
     bores = _bores(patches, centre, radius_mm, near)
     upper = (bores.depth > _UPPER_WALL_MM[0]) & (bores.depth < _UPPER_WALL_MM[1])
@@ -81,6 +77,14 @@ def mouths_in(
     return Mouths(
         np.flatnonzero(kept), places[kept], centre[kept], rims.of(kept), shape.coverage[kept], xy, depth, slope, seen
     )
+
+
+def _ghosts(patches: Patches, front: BoolArray) -> BoolArray:
+    """Which points (k, n) hang in the air before the face, as before unlit walls: they close no mouth."""
+    above = np.flatnonzero(front & (patches.height > _FACE_BAND_MM))
+    ghosts = np.zeros(front.size, bool)
+    ghosts[above] = ~patches.borne(above)
+    return ghosts.reshape(front.shape)
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,7 +24,7 @@ from aadm_workbench.extract.seen_disc import seen_discs
 from aadm_workbench.extract.sight_lines import SightLines, sight_lines_on_tops
 from aadm_workbench.extract.standing import Standing, find_standing, standing_along
 from aadm_workbench.extract.start_circles import CircleEvidence, likeliest_circles
-from aadm_workbench.extract.top_planes import top_planes
+from aadm_workbench.extract.top_planes import TopPlanes, top_planes
 from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, Tops, tops_in
 from aadm_workbench.extract.witnesses import Rims, Walls
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Scan
@@ -127,24 +127,22 @@ def _measured(
     tops = tops_in(patches, centres, radius_mm, rng, tuple(others_mm), beside, planes)
     if len(tops.place) == 0:
         return f"no bar of {sizes_mm[0]:g} mm has a top that could be measured"
-    lines = _lines(patches, tops)
+    lines = _lines(patches, planes, tops)
     bend = _bend(lines, tops, radius_mm)
     if bend.blurred:
         return BLURRED
     if bend.bent:
         wide = tops_in(patches, centres, radius_mm, rng, tuple(others_mm), beside, planes, BENT_TOP_BAND_MM)
         if len(wide.place):
-            tops, lines = wide, _lines(patches, wide)
+            tops, lines = wide, _lines(patches, planes, wide)
     fit = _shifted(_fit(tops, radius_mm, priors), tops, lines, bend)
     return _Bars(tops, fit, _points(tops, fit, level))
 
 
-def _lines(patches: Patches, tops: Tops) -> SightLines | None:
+def _lines(patches: Patches, planes: TopPlanes, tops: Tops) -> SightLines | None:
     """The lines of sight about each kept top, crossing its plane."""
-    own = patches.of(tops.kept)
-    normal = tops.normal.astype(np.float32)
-    over = own.x * normal[:, :1] + own.y * normal[:, 1:2] + own.height * normal[:, 2:]
-    return sight_lines_on_tops(own, tops.normal, tops.offset, over - tops.offset[:, None].astype(np.float32))
+    own, cuts = patches.of(tops.kept), planes.of(tops.kept)
+    return sight_lines_on_tops(own, cuts.normal, cuts.offset, cuts.height(own))
 
 
 def _bend(lines: SightLines | None, tops: Tops, radius_mm: float) -> Bend:

@@ -19,11 +19,11 @@ from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouth
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
 from aadm_workbench.extract.plane import facing, find_planes, from_plane, in_plane, near, turned_over
 from aadm_workbench.extract.pooled import Evidence, PooledFit, fit_pooled, settled
-from aadm_workbench.extract.pooled_system import Priors, State
+from aadm_workbench.extract.pooled_system import PUSH, WALL, Priors, State
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm, thinned
 from aadm_workbench.extract.seen_disc import SeenDiscs, seen_discs
 from aadm_workbench.extract.sight_lines import SightLines, sight_lines_on_face
-from aadm_workbench.extract.witnesses import Rims, Walls
+from aadm_workbench.extract.witnesses import Rims, Walls, WallTerms
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, Kind, Plane, Scan
 
 _SAMPLE = 90_000
@@ -31,16 +31,14 @@ _FACE_BAND_MM = 1.5
 _WALL_COUNT_MIN = 20
 _WALL_LAW = BracketLaw(0.08, 0.4)  # many points lie on ribs, which only ever stand inwards
 _TAIL_PITCHES, _TAIL_TO_KEPT, _USUALLY_KEPT = 6.0, 1.5, 0.7
-_FIRST_SETTLED_MM = 0.03  # the first fit only tells which share of the pixels the camera keeps
+_FIRST_SETTLED_MM = 0.03  # the first fit only tells which share of the pixels the camera keeps, and how bores scatter
 _BORE_LEAN_U = 2e-3  # light that bounces in a bore pushes its wall by less or more as it goes deeper
 _WHOLE_WITHIN_MM = 1.5  # between the innermost points of a rim and the disc that is seen: filters move it by less
 _ERODED_RADIUS_MAX = 0.5  # rings: beyond, walls that light pushes know the radius better
 _BROKEN_U_MM = 0.3  # of a broken rim, seen by a camera that adds to its edges
 _SIDES, _SIDE_COUNT_MIN = 6, 10
 _RIM_TO_WALL_PITCHES = 0.05
-_BENT_PRIORS = Priors(
-    radius=0.15, push=0.6, own_push=0.4
-)  # light that bounces in the bore pushes each wall its own way
+_BENT_PRIORS = Priors(radius=0.15, push=0.6, own_push=0.4)  # light that bounces pushes each bore's wall its own way
 _FIT_SHARE = 0.8  # the fit's own covariance has neighbours share more of their errors than they do
 _WEAR_PITCHES = 0.04  # how far rims may be worn away unnoticed; it shifts centres along the view
 _FOREIGN = 0.01  # share of outline points that are flying pixels or dirt
@@ -167,7 +165,7 @@ def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm:
     if bend.blurred:
         return None
     if bend.bent:
-        discs = bent_discs(lines.of(whole), seen.centre, diameter_mm / 2, bend, 1.0)
+        discs = bent_discs(lines.of(whole), seen.centre, diameter_mm / 2, bend)
         return _fit_of_bent(mouths, discs, whole, diameter_mm, pitch_mm)
     fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
     shift = shift_of_mouths(lines.slope, fit.centre, seen, whole, diameter_mm / 2, bend)
@@ -191,13 +189,15 @@ def _fit_of_bent(mouths: Mouths, discs: BentDiscs, whole: BoolArray, diameter_mm
     centre, information = mouths.centre.copy(), np.zeros((len(whole), 2, 2))
     centre[whole], information[whole] = discs.centre, np.linalg.inv(discs.own)
     evidence = Evidence(none, rims, walls, diameter_mm / 2, _BENT_PRIORS, (centre, information))
-    start = State(centre, diameter_mm / 2)
-    first = fit_pooled(evidence, start)
-    scattered = replace(walls, law=BracketLaw(max(_WALL_LAW.width_mm, first.wall_mm), _WALL_LAW.foreign))
-    fit = fit_pooled(replace(evidence, walls=scattered), start)
+    state = settled(evidence, State(centre, diameter_mm / 2), _FIRST_SETTLED_MM)
+    spread_mm = WallTerms(walls, state.own, state.pooled[WALL], state.pooled[PUSH]).spread_mm
+    scattered = replace(walls, law=BracketLaw(max(_WALL_LAW.width_mm, spread_mm), _WALL_LAW.foreign))
+    fit = fit_pooled(replace(evidence, walls=scattered), state)
     shared = np.tile(_BROKEN_U_MM**2 * np.eye(2), (len(whole), 1, 1))
     shared[whole] = discs.shared
-    radius = np.where(whole, discs.radius, fit.radius) if discs.eroded < _ERODED_RADIUS_MAX else fit.radius
+    radius = fit.radius
+    if discs.eroded < _ERODED_RADIUS_MAX:  # what all share from the rims, what is each one's own from its bore
+        radius = np.where(whole, discs.radius + radius - np.mean(radius[whole]), radius)
     return replace(fit, covariance=fit.covariance + shared, radius=radius, radius_u_mm=discs.radius_u_mm)
 
 

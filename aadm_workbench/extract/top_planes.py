@@ -8,7 +8,7 @@ import numpy as np
 
 from aadm_workbench.extract.patches import Patches
 from aadm_workbench.extract.plan_points import in_rows, thinned_rows
-from aadm_workbench.model import Array, BoolArray, FloatArray
+from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
 
 _TOP_ZONE_MM = 8.0  # a cut of 15 degrees over a 28 mm bar
 _CORE = 0.95  # of the radius
@@ -33,6 +33,10 @@ class TopPlanes:
     offset: Array
     residual_mm: Array
     found: BoolArray
+
+    def of(self, chosen: IntArray) -> TopPlanes:
+        """Those of some of the tops (m,)."""
+        return TopPlanes(self.normal[chosen], self.offset[chosen], self.residual_mm[chosen], self.found[chosen])
 
     def height(self, patches: Patches) -> FloatArray:
         """Height (k, n) float32, mm, of all points of the patches over the top of their bar."""

@@ -19,6 +19,11 @@ _SHIFT_DEPTHS_MM = (1.5, 2.0)
 SEGMENTS = 256  # of a bore's outline: the chord stays within 0.003 mm of a 36 mm circle
 
 
+def surface_of(part: Foot | BarGroup) -> Surface:
+    """Mesh of a foot or of a group of bars."""
+    return foot_surface(part) if isinstance(part, Foot) else bars_surface(part)
+
+
 def foot_surface(foot: Foot) -> Surface:
     """Mesh of the foot with its bores, plugs, chips, tapes and grout, and of what stands beside it."""
     import manifold3d

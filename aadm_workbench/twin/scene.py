@@ -11,7 +11,7 @@ from aadm_workbench.model import Array, AssemblyPoint, Camera, Kind, Scan
 from aadm_workbench.scan.camera import depth_to_points
 from aadm_workbench.twin.camera import PRO_M
 from aadm_workbench.twin.finite_pixel import seen_by_pixels
-from aadm_workbench.twin.meshes import bars_surface, foot_surface
+from aadm_workbench.twin.meshes import surface_of
 from aadm_workbench.twin.noise import CameraNoise, captured
 from aadm_workbench.twin.parts import BarGroup, Foot, axis_of
 from aadm_workbench.twin.raycast import caster_of, rays_of
@@ -51,8 +51,7 @@ def scan_of(
     part: Foot | BarGroup, T_column_scan: Array, noise: CameraNoise, rng: np.random.Generator, camera: Camera = PRO_M
 ) -> TrueScan:
     """Scan a foot or a bar group from a pose of the camera."""
-    surface = foot_surface(part) if isinstance(part, Foot) else bars_surface(part)
-    return shot(surface, truth_of(part), T_column_scan, noise, rng, camera)
+    return shot(surface_of(part), truth_of(part), T_column_scan, noise, rng, camera)
 
 
 def shot(

@@ -14,7 +14,7 @@ from aadm_workbench.twin.fringe.phases import depth_of, unwrapped
 from aadm_workbench.twin.fringe.render import Effort, rendered
 from aadm_workbench.twin.fringe.rig import FringeRig
 from aadm_workbench.twin.fringe.sensor import recorded
-from aadm_workbench.twin.meshes import bars_surface, foot_surface
+from aadm_workbench.twin.meshes import surface_of
 from aadm_workbench.twin.parts import BarGroup, Foot
 from aadm_workbench.twin.scene import TrueScan, truth_of
 from aadm_workbench.twin.surface import Surface
@@ -70,8 +70,7 @@ def fringe_scan_of(
     camera: Camera = PRO_M,
 ) -> TrueScan:
     """Scan a foot or a bar group from a pose of the camera, as ``scene.scan_of`` does with the ray caster."""
-    surface = foot_surface(part) if isinstance(part, Foot) else bars_surface(part)
-    return fringe_shot(surface, truth_of(part), T_column_scan, fringe, rng, camera)
+    return fringe_shot(surface_of(part), truth_of(part), T_column_scan, fringe, rng, camera)
 
 
 def fringe_shot(
