@@ -25,7 +25,7 @@ from aadm_workbench.extract.sight_lines import SightLines, sight_lines_on_tops
 from aadm_workbench.extract.standing import Standing, find_standing, standing_along
 from aadm_workbench.extract.start_circles import CircleEvidence, likeliest_circles
 from aadm_workbench.extract.top_planes import TopPlanes, top_planes
-from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, Tops, tops_in
+from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, UPRIGHT_LEAN, Tops, tops_in, with_sides_along
 from aadm_workbench.extract.witnesses import Rims, Walls
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Scan
 
@@ -43,9 +43,10 @@ _BAR_PRIORS = Priors(
 )
 _BAR_LEAN_U = 7e-3  # ribs, which stand out on one side here and on the other there: half of one over 60 mm of side
 _USUAL_LEAN, _COMMON_COUNT = 5e-3, 4  # 0.3 degrees, as bars are cast in
-_ALIKE_CHI2 = 9.2  # 1 % of chi-squared with two degrees of freedom
+_ALIKE_CHI2 = 5.99  # 5 % of chi-squared with two degrees of freedom
 _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)
 _TURNS = 3
+_LEAN_ROUNDS = 3  # of following a side down; each sees about half of what the last one missed
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +136,13 @@ def _measured(
         wide = tops_in(patches, centres, radius_mm, rng, tuple(others_mm), beside, planes, BENT_TOP_BAND_MM)
         if len(wide.place):
             tops, lines = wide, _lines(patches, planes, wide)
-    fit = _shifted(_fit(tops, radius_mm, priors), tops, lines, bend)
+    fit = _fit(tops, radius_mm, priors)
+    for _ in range(_LEAN_ROUNDS):
+        if np.abs(fit.lean).max() < UPRIGHT_LEAN:
+            break
+        tops = with_sides_along(tops, patches, planes, fit.centre, fit.lean, radius_mm)
+        fit = _fit(tops, radius_mm, priors)
+    fit = _shifted(fit, tops, lines, bend)
     return _Bars(tops, fit, _points(tops, fit, level))
 
 
@@ -210,18 +217,23 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
 def _believed_leans(fit: PooledFit) -> tuple[Array, Array]:
     """Leans (k, 2) and covariances (k, 2, 2): what sides show, and that bars of one group stand alike.
 
-    A bar that leans like the others, as far as its side tells, is drawn towards their median by what is usual; one that
-    does not, does lean, and is left as it is seen.
+    A bar that leans like the others, as far as its side tells, is drawn towards their median by what is usual; the
+    less alike it looks, the more of what it was drawn counts as uncertainty. One that is not alike does lean, and is
+    left as it is seen.
     """
     seen = fit.lean_covariance + _BAR_LEAN_U**2 * np.eye(2)
     common = np.median(fit.lean, axis=0) if len(fit.lean) >= _COMMON_COUNT else np.zeros(2)
     off = fit.lean - common
     usual = _USUAL_LEAN**2 * np.eye(2)
-    gain = usual @ np.linalg.inv(seen + usual)
-    alike = np.einsum("ki,kij,kj->k", off, np.linalg.inv(seen + usual), off) < _ALIKE_CHI2
-    drawn = common + np.einsum("kij,kj->ki", gain, off)
+    precision = np.linalg.inv(seen + usual)
+    gain = usual @ precision
+    unlike = np.einsum("ki,kij,kj->k", off, precision, off) / _ALIKE_CHI2
+    drawn = np.einsum("kij,kj->ki", gain, off)
+    pulled = off - drawn
     left = (np.eye(2) - gain) @ usual + np.eye(2) * (_USUAL_LEAN**2 / max(len(fit.lean), 1))
-    return np.where(alike[:, None], drawn, fit.lean), np.where(alike[:, None, None], left, seen)
+    left = left + unlike[:, None, None] * pulled[:, :, None] * pulled[:, None, :]
+    alike = unlike < 1.0
+    return np.where(alike[:, None], common + drawn, fit.lean), np.where(alike[:, None, None], left, seen)
 
 
 def _points(tops: Tops, fit: PooledFit, level: Plane) -> tuple[AssemblyPoint, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,6 +28,8 @@ _PITCH_MAX = 0.2  # of the radius: 80 points on a top; on fewer anything passes 
 _PASSED_FROM, _PASSED_BEYOND_MM = 0.75, 6.0
 _SIDE_DEPTH_MM = (0.8, 60.0)
 _SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
+UPRIGHT_LEAN = 0.01
+"""Leans that keep a side within half of its band over the depth that is looked at; others have to be followed."""
 _SIDE_POINTS_MAX = 350
 
 
@@ -152,16 +154,34 @@ def _passed(patches: Patches, planes: TopPlanes, behind: BoolArray, centre: Arra
     return crossed.where(close)
 
 
+def with_sides_along(
+    tops: Tops, patches: Patches, planes: TopPlanes, centre: Array, lean: Array, radius_mm: float
+) -> Tops:
+    """The tops with the points of their bars' sides about axes that lean: ``centre`` (k, 2) mm, ``lean`` (k, 2).
+
+    About an upright axis the side of a leaning bar leaves the band in which it is looked for, and what is left of it
+    leans less than the bar does.
+    """
+    own = patches.of(tops.kept)
+    everyone = np.ones(len(tops.kept), bool)
+    side_xy, side_depth, side_seen = _sides(own, planes.of(tops.kept).height(own), centre, radius_mm, everyone, lean)
+    return replace(tops, side_xy=side_xy, side_depth=side_depth, side_seen=side_seen)
+
+
 def _sides(
-    patches: Patches, height: FloatArray, centre: Array, radius_mm: float, kept: BoolArray
+    patches: Patches, height: FloatArray, centre: Array, radius_mm: float, kept: BoolArray, lean: Array | None = None
 ) -> tuple[Array, Array, BoolArray]:
     """Plan (k, m, 2) and depth (k, m) of points of the kept bars' sides, and which are there."""
     low, high = _SIDE_DEPTH_MM
     at = np.flatnonzero((height < -low) & (height > -high) & kept[:, None])
-    points = PlanPoints.of(patches.x, patches.y, at)
-    off_mm = points.distance(centre) - radius_mm
+    points, depth = PlanPoints.of(patches.x, patches.y, at), -height.ravel()[at]
+    upright = points
+    if lean is not None:
+        moved = (lean.astype(np.float32)[points.owner] * depth[:, None]).T
+        upright = PlanPoints(points.x - moved[0], points.y - moved[1], points.owner, points.features)
+    off_mm = upright.distance(centre) - radius_mm
     in_band = (off_mm > _SIDE_BAND_MM[0]) & (off_mm < _SIDE_BAND_MM[1])
-    points, depth = points.where(in_band), -height.ravel()[at[in_band]]
+    points, depth = points.where(in_band), depth[in_band]
     some = thinned_rows(points.owner, points.features, _SIDE_POINTS_MAX)
     owner = (np.cumsum(kept) - 1)[points.owner[some]]
     values = np.column_stack([points.x[some], points.y[some], depth[some]])
