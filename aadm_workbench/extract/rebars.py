@@ -43,7 +43,7 @@ _BAR_PRIORS = Priors(
 )
 _BAR_LEAN_U = 7e-3  # ribs, which stand out on one side here and on the other there: half of one over 60 mm of side
 _USUAL_LEAN, _COMMON_COUNT = 5e-3, 4  # 0.3 degrees, as bars are cast in
-_ALIKE_CHI2 = 5.99  # 5 % of chi-squared with two degrees of freedom
+_ALIKE_CHI2 = 9.21  # 1 % of chi-squared with two degrees of freedom
 _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)
 _TURNS = 3
 _LEAN_ROUNDS = 3  # of following a side down; each sees about half of what the last one missed

@@ -16,7 +16,6 @@ LARGEST_IN_U = 4.0  # a normal error in the plane is farther off once in 3000 ti
 PLACE, HONEST = "test_what_is_spoilt_is_measured_at_its_place", "test_no_error_hides_behind_its_uncertainty"
 NOT_YET = {
     (HONEST, "bores that appear beside their place"): "7.6 u off",
-    (PLACE, "bars with a piece of the top broken off"): "0.55 mm off",
     (HONEST, "bars with a burr on one side"): "4.7 u off: it looks like a bar that stands there",
 }
 
