@@ -43,7 +43,8 @@ _BAR_PRIORS = Priors(
 )
 _BAR_LEAN_U = 7e-3  # ribs, which stand out on one side here and on the other there: half of one over 60 mm of side
 _USUAL_LEAN, _COMMON_COUNT = 5e-3, 4  # 0.3 degrees, as bars are cast in
-_ALIKE_CHI2 = 9.21  # 1 % of chi-squared with two degrees of freedom
+_BENT_SHARE = 0.1  # of bars that lean by more than that: bent by hand, or hit
+_DENSITY_CHI2_MAX = 500.0  # beyond, odds are certain, and exp(-x) is no number
 _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)
 _TURNS = 3
 _LEAN_ROUNDS = 3  # of following a side down; each sees about half of what the last one missed
@@ -217,23 +218,27 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
 def _believed_leans(fit: PooledFit) -> tuple[Array, Array]:
     """Leans (k, 2) and covariances (k, 2, 2): what sides show, and that bars of one group stand alike.
 
-    A bar that leans like the others, as far as its side tells, is drawn towards their median by what is usual; the
-    less alike it looks, the more of what it was drawn counts as uncertainty. One that is not alike does lean, and is
-    left as it is seen.
+    Most bars lean about their median by what is usual, some were bent and lean anyhow. Each is both, by the odds of the
+    two: one that leans like the others, as far as its side tells, is drawn to them; one that does not is left as seen;
+    between the two it is not known which, and that counts.
     """
     seen = fit.lean_covariance + _BAR_LEAN_U**2 * np.eye(2)
     common = np.median(fit.lean, axis=0) if len(fit.lean) >= _COMMON_COUNT else np.zeros(2)
     off = fit.lean - common
-    usual = _USUAL_LEAN**2 * np.eye(2)
-    precision = np.linalg.inv(seen + usual)
-    gain = usual @ precision
-    unlike = np.einsum("ki,kij,kj->k", off, precision, off) / _ALIKE_CHI2
-    drawn = np.einsum("kij,kj->ki", gain, off)
-    pulled = off - drawn
+    usual, anyhow = _USUAL_LEAN**2 * np.eye(2), _BAR_PRIORS.lean**2 * np.eye(2)
+    odds = _BENT_SHARE / (1.0 - _BENT_SHARE) * _density(off, seen + anyhow) / _density(off, seen + usual)
+    bent = (odds / (1.0 + odds))[:, None, None]
+    gain = usual @ np.linalg.inv(seen + usual)
+    pulled = off - np.einsum("kij,kj->ki", gain, off)
     left = (np.eye(2) - gain) @ usual + np.eye(2) * (_USUAL_LEAN**2 / max(len(fit.lean), 1))
-    left = left + unlike[:, None, None] * pulled[:, :, None] * pulled[:, None, :]
-    alike = unlike < 1.0
-    return np.where(alike[:, None], common + drawn, fit.lean), np.where(alike[:, None, None], left, seen)
+    unsure = bent * (1.0 - bent) * pulled[:, :, None] * pulled[:, None, :]
+    return fit.lean - (1.0 - bent[:, 0]) * pulled, bent * seen + (1.0 - bent) * left + unsure
+
+
+def _density(off: Array, covariance: Array) -> Array:
+    """Normal density (k,) of offsets (k, 2), but for a factor that all share."""
+    squares = np.einsum("ki,kij,kj->k", off, np.linalg.inv(covariance), off)
+    return np.asarray(np.exp(-0.5 * np.minimum(squares, _DENSITY_CHI2_MAX)) / np.sqrt(np.linalg.det(covariance)))
 
 
 def _points(tops: Tops, fit: PooledFit, level: Plane) -> tuple[AssemblyPoint, ...]:
