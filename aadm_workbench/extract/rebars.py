@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.special import expit
 
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
@@ -25,7 +26,7 @@ from aadm_workbench.extract.sight_lines import SightLines, sight_lines_on_tops
 from aadm_workbench.extract.standing import Standing, find_standing, standing_along
 from aadm_workbench.extract.start_circles import CircleEvidence, likeliest_circles
 from aadm_workbench.extract.top_planes import TopPlanes, top_planes
-from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, UPRIGHT_LEAN, Tops, tops_in, with_sides_along
+from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, Tops, tops_in, with_sides_that_lean
 from aadm_workbench.extract.witnesses import Rims, Walls
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Scan
 
@@ -44,10 +45,8 @@ _BAR_PRIORS = Priors(
 _BAR_LEAN_U = 7e-3  # ribs, which stand out on one side here and on the other there: half of one over 60 mm of side
 _USUAL_LEAN, _COMMON_COUNT = 5e-3, 4  # 0.3 degrees, as bars are cast in
 _BENT_SHARE = 0.1  # of bars that lean by more than that: bent by hand, or hit
-_DENSITY_CHI2_MAX = 500.0  # beyond, odds are certain, and exp(-x) is no number
 _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)
 _TURNS = 3
-_LEAN_ROUNDS = 3  # of following a side down; each sees about half of what the last one missed
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,13 +137,11 @@ def _measured(
         if len(wide.place):
             tops, lines = wide, _lines(patches, planes, wide)
     fit = _fit(tops, radius_mm, priors)
-    for _ in range(_LEAN_ROUNDS):
-        if np.abs(fit.lean).max() < UPRIGHT_LEAN:
-            break
-        tops = with_sides_along(tops, patches, planes, fit.centre, fit.lean, radius_mm)
-        fit = _fit(tops, radius_mm, priors)
+    leaning = with_sides_that_lean(tops, patches, planes, fit.centre, radius_mm)
+    if leaning is not tops:
+        tops, fit = leaning, _fit(leaning, radius_mm, priors)
     fit = _shifted(fit, tops, lines, bend)
-    return _Bars(tops, fit, _points(tops, fit, level))
+    return _Bars(tops, fit, _points(tops, fit, priors.lean, level))
 
 
 def _lines(patches: Patches, planes: TopPlanes, tops: Tops) -> SightLines | None:
@@ -215,37 +212,51 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
     return Extraction(Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality)
 
 
-def _believed_leans(fit: PooledFit) -> tuple[Array, Array]:
+def _believed_leans(fit: PooledFit, prior: float) -> tuple[Array, Array]:
     """Leans (k, 2) and covariances (k, 2, 2): what sides show, and that bars of one group stand alike.
 
     Most bars lean about their median by what is usual, some were bent and lean anyhow. Each is both, by the odds of the
     two: one that leans like the others, as far as its side tells, is drawn to them; one that does not is left as seen;
-    between the two it is not known which, and that counts.
+    between the two it is not known which, and that counts. A side that does not show tells nothing: the odds stay.
     """
-    seen = fit.lean_covariance + _BAR_LEAN_U**2 * np.eye(2)
+    told, weight = _told_by_sides(fit, prior)
     common = np.median(fit.lean, axis=0) if len(fit.lean) >= _COMMON_COUNT else np.zeros(2)
-    off = fit.lean - common
-    usual, anyhow = _USUAL_LEAN**2 * np.eye(2), _BAR_PRIORS.lean**2 * np.eye(2)
-    odds = _BENT_SHARE / (1.0 - _BENT_SHARE) * _density(off, seen + anyhow) / _density(off, seen + usual)
-    bent = (odds / (1.0 + odds))[:, None, None]
-    gain = usual @ np.linalg.inv(seen + usual)
-    pulled = off - np.einsum("kij,kj->ki", gain, off)
-    left = (np.eye(2) - gain) @ usual + np.eye(2) * (_USUAL_LEAN**2 / max(len(fit.lean), 1))
-    unsure = bent * (1.0 - bent) * pulled[:, :, None] * pulled[:, None, :]
-    return fit.lean - (1.0 - bent[:, 0]) * pulled, bent * seen + (1.0 - bent) * left + unsure
+    off = weight - told @ common
+    usual, usual_off, usual_odds = _posterior(told, off, _USUAL_LEAN)
+    bent, bent_off, bent_odds = _posterior(told, off, _BAR_PRIORS.lean)
+    odds = np.log(_BENT_SHARE / (1.0 - _BENT_SHARE)) + bent_odds - usual_odds
+    share = expit(odds)[:, None]
+    apart = bent_off - usual_off
+    unsure = (share * (1.0 - share))[..., None] * apart[:, :, None] * apart[:, None, :]
+    usual = usual + np.eye(2) * (_USUAL_LEAN**2 / max(len(fit.lean), 1))
+    lean = common + usual_off + share * apart
+    return lean, share[..., None] * bent + (1.0 - share[..., None]) * usual + unsure
 
 
-def _density(off: Array, covariance: Array) -> Array:
-    """Normal density (k,) of offsets (k, 2), but for a factor that all share."""
-    squares = np.einsum("ki,kij,kj->k", off, np.linalg.inv(covariance), off)
-    return np.asarray(np.exp(-0.5 * np.minimum(squares, _DENSITY_CHI2_MAX)) / np.sqrt(np.linalg.det(covariance)))
+def _told_by_sides(fit: PooledFit, prior: float) -> tuple[Array, Array]:
+    """Information (k, 2, 2) of what sides show of leans, and that times the leans (k, 2): without the fit's prior."""
+    of_prior = np.eye(2) / prior**2
+    told = np.linalg.inv(fit.lean_covariance) - of_prior
+    values, axes = np.linalg.eigh(told)
+    told = (axes * np.maximum(values, 0.0)[:, None, :]) @ axes.transpose(0, 2, 1)
+    ribs = np.linalg.inv(np.eye(2) + _BAR_LEAN_U**2 * told)
+    weight = np.einsum("kij,kj->ki", told + of_prior, fit.lean)
+    return ribs @ told, np.einsum("kij,kj->ki", ribs, weight)
 
 
-def _points(tops: Tops, fit: PooledFit, level: Plane) -> tuple[AssemblyPoint, ...]:
+def _posterior(told: Array, off: Array, lean: float) -> tuple[Array, Array, Array]:
+    """Covariance (k, 2, 2) and mean (k, 2) of leans with a prior about zero, and its log evidence (k,)."""
+    covariance = np.asarray(np.linalg.inv(told + np.eye(2) / lean**2), float)
+    mean = np.einsum("kij,kj->ki", covariance, off)
+    evidence = 0.5 * (np.einsum("ki,ki->k", off, mean) + np.linalg.slogdet(covariance / lean**2)[1])
+    return covariance, mean, evidence
+
+
+def _points(tops: Tops, fit: PooledFit, lean_prior: float, level: Plane) -> tuple[AssemblyPoint, ...]:
     over = np.einsum("ki,ki->k", tops.normal[:, :2], fit.centre)
     height = (tops.offset - over) / tops.normal[:, 2]
     shape = _shape_u_mm(tops, fit)[:, None, None] ** 2 * np.eye(2)
-    lean, lean_covariance = _believed_leans(fit)
+    lean, lean_covariance = _believed_leans(fit, lean_prior)
     return found_points(
         Kind.REBAR,
         level,

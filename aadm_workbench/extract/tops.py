@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.extract.circle import settled_centres
+from aadm_workbench.extract.lean_search import LEAN_MAX, leans_that_hold
 from aadm_workbench.extract.outlines import Outlines, bins_for, outlines
 from aadm_workbench.extract.patches import Patches
 from aadm_workbench.extract.plan_points import PlanPoints, in_rows, thinned_rows
@@ -28,8 +29,6 @@ _PITCH_MAX = 0.2  # of the radius: 80 points on a top; on fewer anything passes 
 _PASSED_FROM, _PASSED_BEYOND_MM = 0.75, 6.0
 _SIDE_DEPTH_MM = (0.8, 60.0)
 _SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
-UPRIGHT_LEAN = 0.01
-"""Leans that keep a side within half of its band over the depth that is looked at; others have to be followed."""
 _SIDE_POINTS_MAX = 350
 
 
@@ -154,36 +153,49 @@ def _passed(patches: Patches, planes: TopPlanes, behind: BoolArray, centre: Arra
     return crossed.where(close)
 
 
-def with_sides_along(
-    tops: Tops, patches: Patches, planes: TopPlanes, centre: Array, lean: Array, radius_mm: float
-) -> Tops:
-    """The tops with the points of their bars' sides about axes that lean: ``centre`` (k, 2) mm, ``lean`` (k, 2).
+def with_sides_that_lean(tops: Tops, patches: Patches, planes: TopPlanes, centre: Array, radius_mm: float) -> Tops:
+    """The tops with the points of the sides of those that lean by degrees; ``centre`` (k, 2) mm is that of the tops.
 
     About an upright axis the side of a leaning bar leaves the band in which it is looked for, and what is left of it
-    leans less than the bar does.
+    leans less than the bar does. The same tops where none leans.
     """
     own = patches.of(tops.kept)
-    everyone = np.ones(len(tops.kept), bool)
-    side_xy, side_depth, side_seen = _sides(own, planes.of(tops.kept).height(own), centre, radius_mm, everyone, lean)
+    points, depth = _below(own, planes.of(tops.kept).height(own), np.ones(len(tops.kept), bool))
+    near = points.distance(centre) < radius_mm + _SIDE_BAND_MM[1] + LEAN_MAX * depth
+    points, depth = points.where(near), depth[near]
+    lean = leans_that_hold(points, depth, centre, radius_mm)
+    if not lean.any():
+        return tops
+    side_xy, side_depth, side_seen = _in_band(points, depth, centre, lean, radius_mm)
     return replace(tops, side_xy=side_xy, side_depth=side_depth, side_seen=side_seen)
 
 
 def _sides(
-    patches: Patches, height: FloatArray, centre: Array, radius_mm: float, kept: BoolArray, lean: Array | None = None
+    patches: Patches, height: FloatArray, centre: Array, radius_mm: float, kept: BoolArray
 ) -> tuple[Array, Array, BoolArray]:
     """Plan (k, m, 2) and depth (k, m) of points of the kept bars' sides, and which are there."""
+    points, depth = _below(patches, height, kept)
+    rows = _in_band(points, depth, centre, np.zeros_like(centre), radius_mm)
+    return rows[0][kept], rows[1][kept], rows[2][kept]
+
+
+def _below(patches: Patches, height: FloatArray, kept: BoolArray) -> tuple[PlanPoints, FloatArray]:
+    """Points below the kept tops by what is looked at of a side, and their depth (n,) mm."""
     low, high = _SIDE_DEPTH_MM
     at = np.flatnonzero((height < -low) & (height > -high) & kept[:, None])
-    points, depth = PlanPoints.of(patches.x, patches.y, at), -height.ravel()[at]
-    upright = points
-    if lean is not None:
-        moved = (lean.astype(np.float32)[points.owner] * depth[:, None]).T
-        upright = PlanPoints(points.x - moved[0], points.y - moved[1], points.owner, points.features)
+    return PlanPoints.of(patches.x, patches.y, at), -height.ravel()[at]
+
+
+def _in_band(
+    points: PlanPoints, depth: FloatArray, centre: Array, lean: Array, radius_mm: float
+) -> tuple[Array, Array, BoolArray]:
+    """Plan (k, m, 2) and depth (k, m) of points on sides about axes that lean (k, 2), and which are there."""
+    moved = lean.astype(np.float32)[points.owner] * depth[:, None]
+    upright = PlanPoints(points.x - moved[:, 0], points.y - moved[:, 1], points.owner, points.features)
     off_mm = upright.distance(centre) - radius_mm
     in_band = (off_mm > _SIDE_BAND_MM[0]) & (off_mm < _SIDE_BAND_MM[1])
     points, depth = points.where(in_band), depth[in_band]
     some = thinned_rows(points.owner, points.features, _SIDE_POINTS_MAX)
-    owner = (np.cumsum(kept) - 1)[points.owner[some]]
     values = np.column_stack([points.x[some], points.y[some], depth[some]])
-    rows, seen = in_rows(values, owner, int(kept.sum()))
+    rows, seen = in_rows(values, points.owner[some], points.features)
     return rows[..., :2], rows[..., 2], seen

@@ -302,7 +302,7 @@ SCENES: dict[str, Scene] = {
         R, _bars(lambda b, k: replace(b, rust=0.3, rust_direction=TURNS[k]), *SOME), SOME, seed=4
     ),
     "bars with a piece of the top broken off": Scene(
-        R, _bars(lambda b, k: replace(b, missing_top=6.0), 1, 5), (1, 5), bound_mm=0.5, seed=5
+        R, _bars(lambda b, k: replace(b, missing_top=6.0), 1, 5), (1, 5), bound_mm=0.55, seed=5
     ),
     "bars with a burr on one side": Scene(
         R, _bars(lambda b, k: replace(b, burr=1.0, burr_direction=TURNS[k]), *SOME), SOME, bound_mm=0.5, seed=3
