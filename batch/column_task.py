@@ -6,56 +6,26 @@ Whatever goes wrong with a column costs that column alone: its verdict is then `
 from __future__ import annotations
 
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Generic, TypeVar
 
-from aadm_workbench.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.check import ColumnScans, check_column
 from aadm_workbench.design.extent import extent_mm
 from aadm_workbench.errors import AadmError, DesignError
-from aadm_workbench.model import Camera, ColumnDesign, ColumnReport, Kind, Scan, Verdict
+from aadm_workbench.model import ColumnDesign, ColumnReport, Kind, Scan, Verdict
 from aadm_workbench.scan.plausible import check_plausible
 from aadm_workbench.scan.read import read_scan
 
 from .column_files import files_of
 from .hoisting_task import measure_frames
-from .job import JobColumn
 from .stopwatch import Stopwatch
+from .task import ColumnTask
 
 Result = TypeVar("Result")
 
 _NO_MEMORY = "there is not enough memory for its scans: check fewer columns at a time, or raise --memory-limit"
 _WITHOUT_MEMORY = ("Insufficient memory", "bad_alloc")  # as OpenCV and C++ say it
-
-
-@dataclass(frozen=True, eq=False)
-class ColumnTask:
-    """All that is needed to check one column.
-
-    ``folder`` is where relative paths start; ``places`` says where files lie that are not found from there;
-    ``design`` None means that the job's model gives none, for the reason ``no_design``. ``others`` are the designs of
-    the job that are unlike this one.
-    """
-
-    column: JobColumn
-    folder: Path
-    design: ColumnDesign | None
-    settings: CheckSettings
-    units: str = "mm"
-    camera: Camera | None = None
-    depth_scale_mm: float | None = None
-    no_design: str = ""
-    places: Mapping[str, Path] = field(default_factory=dict)
-    others: tuple[ColumnDesign, ...] = ()
-
-    def path_of(self, name: str) -> Path:
-        """Where a file lies that the job names."""
-        return self.places.get(name, self.folder / name)
-
-    def at(self, places: Mapping[str, Path]) -> ColumnTask:
-        """The same task where its files lie elsewhere."""
-        return replace(self, places=places)
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,8 +19,8 @@ from aadm_workbench.model import (
 )
 
 if TYPE_CHECKING:
-    from .column_task import ColumnTask
     from .stopwatch import Stopwatch
+    from .task import ColumnTask
 
 Before = tuple[AssemblyPoint | None, ...] | None
 

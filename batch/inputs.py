@@ -12,8 +12,8 @@ from aadm_workbench.scan.capture import MOST_FILES
 from aadm_workbench.scan.file import LARGEST_FILE_BYTES
 
 from .column_files import files_of
-from .column_task import ColumnTask
 from .exact_json import to_exact_json
+from .task import ColumnTask
 
 _CHUNK_BYTES = 1 << 20
 

@@ -8,8 +8,9 @@ from aadm_workbench.check import Measured, measure_column
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import ColumnDesign, Kind, ShipmentProblem, Verdict
 
-from .column_task import ColumnTask, attempt, read_scans
+from .column_task import attempt, read_scans
 from .stopwatch import Stopwatch
+from .task import ColumnTask
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from .column_task import ColumnTask, check_task, killed
+from .column_task import check_task, killed
 from .inputs import ShippedFile, read_for_shipping, task_key
 from .record import Record
+from .task import ColumnTask
 
 
 @dataclass(frozen=True, eq=False)

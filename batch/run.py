@@ -23,7 +23,6 @@ from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.errors import DesignError, JobError
 from aadm_workbench.model import ColumnReport, JobReport
 
-from .column_task import ColumnTask
 from .engine import Death, Pool, work_through
 from .inputs import ShippedFile
 from .job import Job, JobColumn
@@ -34,6 +33,7 @@ from .pools import PoolOptions, open_pool
 from .program import program_key, tool_entry
 from .record import Record
 from .stopwatch import Stopwatch
+from .task import ColumnTask
 from .workers_log import WorkersLog
 
 SCRATCH_NAME = ".aadm-workers"

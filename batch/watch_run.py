@@ -15,8 +15,9 @@ from aadm_workbench.hoisting import HoistingSettings, measure_hoisting
 from aadm_workbench.model import ColumnDesign, HoistingMeasurement, HoistingReport, Verdict
 from aadm_workbench.report.json import encode
 
-from .column_task import ColumnTask, check_task
+from .column_task import check_task
 from .hoisting_task import Before, before_hoisting, read_frame
+from .task import ColumnTask
 from .watch_folder import FolderWatch
 from .watch_state import frame_line, state_document
 

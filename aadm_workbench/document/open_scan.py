@@ -11,13 +11,13 @@ from typing import Any
 
 import FreeCAD
 
+from aadm_workbench.document.asking import SCAN_PANELS
 from aadm_workbench.document.column import columns_in
 from aadm_workbench.document.messages import complain, tell
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError, ScanError
 
 translate = FreeCAD.Qt.translate
-_IN_NAMES_OF_BARS = ("bar", "rebar", "steel", "筋", "钢")
 
 
 def open(file: str) -> Any:  # noqa: A001 - the name that FreeCAD calls
@@ -35,13 +35,10 @@ def insert(file: str, docname: str) -> Any:
         document = FreeCAD.getDocument(docname)
     except NameError:
         document = FreeCAD.newDocument(docname)
-    if FreeCAD.GuiUp:
-        # There a person can say what file does not: unit, camera, which side is up.
-        from aadm_workbench.gui.import_panel import open_panel
-
-        open_panel(document, [Path(file)])
+    if SCAN_PANELS:
+        SCAN_PANELS[0](document, [Path(file)])
         return document
-    from aadm_workbench.document.scan_reading import read_for, take_scan
+    from aadm_workbench.document.scan_reading import guessed_kind, read_for, take_scan
 
     try:
         column = _column_of(document)
@@ -53,12 +50,6 @@ def insert(file: str, docname: str) -> Any:
     else:
         tell(translate("AADM", "{file} was added to {column}").format(file=Path(file).name, column=column.Label))
     return document
-
-
-def guessed_kind(file: str) -> str:
-    """``rebars`` where the file is called so, else ``sleeves``."""
-    name = Path(file).stem.lower()
-    return "rebars" if any(word in name for word in _IN_NAMES_OF_BARS) else "sleeves"
 
 
 def _column_of(document: Any) -> Any:

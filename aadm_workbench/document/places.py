@@ -30,6 +30,11 @@ def global_placement(obj: Any) -> FreeCAD.Placement:
     return obj.getGlobalPlacement() if hasattr(obj, "getGlobalPlacement") else FreeCAD.Placement()
 
 
+def world_point(result: Any, place_mm: tuple[float, float]) -> Array:
+    """A place (x, y) on the foot of a result's column as a point (3,) mm of the model."""
+    return np.array(result.Placement.multVec(FreeCAD.Vector(place_mm[0], place_mm[1], 0.0)))
+
+
 def same_place(one: FreeCAD.Placement, other: FreeCAD.Placement) -> bool:
     """Whether two placements differ by less than any display or file can tell."""
     # Two quaternions with opposite signs are one rotation.

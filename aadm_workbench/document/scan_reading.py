@@ -13,6 +13,14 @@ from aadm_workbench.document.scan_cloud import make_scan
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Camera, Kind, Scan
 
+_IN_NAMES_OF_BARS = ("bar", "rebar", "steel", "筋", "钢")
+
+
+def guessed_kind(file: str | Path) -> str:
+    """``rebars`` where a file is called so, else ``sleeves``."""
+    name = Path(file).stem.lower()
+    return "rebars" if any(word in name for word in _IN_NAMES_OF_BARS) else "sleeves"
+
 
 @dataclass(frozen=True, eq=False)
 class ReadScan:

@@ -14,13 +14,13 @@ from aadm_workbench.document.colours import of_verdict
 from aadm_workbench.document.column import DECISIONS, METHODS
 from aadm_workbench.document.marks import pitch_of
 from aadm_workbench.document.messages import tell
+from aadm_workbench.document.places import world_point
 from aadm_workbench.document.result import found_of
 from aadm_workbench.document.result_rows import Row
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.document.words import in_words
 from aadm_workbench.gui.language import in_language
 from aadm_workbench.gui.result_table import ResultTable
-from aadm_workbench.gui.result_view import world_point
 from aadm_workbench.gui.sentences import sentences, show_error
 from aadm_workbench.gui.task_panel import TaskPanel, show_panel
 from aadm_workbench.gui.view_camera import active_view, zoom_to

@@ -13,9 +13,8 @@ from PySide import QtGui
 from aadm_workbench.design.directions import UP_DEG
 from aadm_workbench.document.column import columns_in
 from aadm_workbench.document.messages import tell
-from aadm_workbench.document.open_scan import guessed_kind
 from aadm_workbench.document.scan_cloud import KINDS, UNITS
-from aadm_workbench.document.scan_reading import ReadScan, read_for, take_scan
+from aadm_workbench.document.scan_reading import ReadScan, guessed_kind, read_for, take_scan
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError, ScanError
 from aadm_workbench.gui import settings

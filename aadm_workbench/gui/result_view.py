@@ -242,8 +242,3 @@ class ResultView(MarksView):
         to_corner.translation.setValue(*(turned_back @ offset).tolist())
         held.point.setValues(0, 2, [[0.0, 0.0, 0.0], (turned_back @ foot).tolist()])
         switch.whichChild = coin.SO_SWITCH_ALL
-
-
-def world_point(result: Any, place_mm: tuple[float, float]) -> Array:
-    """A place (x, y) on the foot of a result's column as a point (3,) mm of the model."""
-    return np.array(result.Placement.multVec(FreeCAD.Vector(place_mm[0], place_mm[1], 0.0)))

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from importlib import import_module
+from pathlib import Path
+from typing import Any
 
 import FreeCAD
 import FreeCADGui
 
+from aadm_workbench.document.asking import SCAN_PANELS
 from aadm_workbench.gui.resources import FORMS, ICONS, TRANSLATIONS, icon_path
 
 translate = FreeCAD.Qt.translate  # a module without a place on disk: it cannot be imported from
@@ -50,3 +53,10 @@ def set_up() -> None:
     FreeCADGui.addIconPath(str(ICONS))
     FreeCADGui.addPreferencePage(str(FORMS / "preferences.ui"), "AADM")
     FreeCADGui.addWorkbench(AADMWorkbench())
+    SCAN_PANELS[:] = [_open_import_panel]
+
+
+def _open_import_panel(document: Any, files: list[Path]) -> None:
+    from aadm_workbench.gui.import_panel import open_panel
+
+    open_panel(document, files)

@@ -10,10 +10,10 @@ import pytest
 from aadm_workbench.check import CheckSettings
 from aadm_workbench.model import Camera
 from batch.column_files import files_of
-from batch.column_task import ColumnTask
 from batch.inputs import content_hash, read_for_shipping, task_key, unpack
 from batch.job import JobColumn
 from batch.job_file import read_job
+from batch.task import ColumnTask
 
 from .conftest import WriteJob, column_text
 

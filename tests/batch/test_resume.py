@@ -15,6 +15,7 @@ from aadm_workbench.errors import AadmError
 from batch import column_task, order
 from batch.journal import Journal
 from batch.main import main
+from batch.task import ColumnTask
 
 from .conftest import WriteJob, column_text
 from .test_run import raising
@@ -48,7 +49,7 @@ def counted(
     seen: list[str] = []
     real = order.check_task
 
-    def check_task(task: column_task.ColumnTask) -> column_task.ColumnOutcome:
+    def check_task(task: ColumnTask) -> column_task.ColumnOutcome:
         if task.column.id == ends_at and error is not None:
             raise error
         seen.append(task.column.id)

@@ -207,11 +207,11 @@ checking.only_failing.setChecked(True)
 result["failing_rows"] = checking.table.rowCount()
 
 # What is seen: the whole, and the foot from below with the colours at their places.
+from aadm_workbench.document.places import world_point
 from aadm_workbench.document.projection import project
 from aadm_workbench.document.result import found_of
 from aadm_workbench.gui.label_keeper import KEEPER
 from aadm_workbench.gui.picture import save_picture
-from aadm_workbench.gui.result_view import world_point
 from aadm_workbench.gui.view_camera import active_view, camera_of, zoom_to
 
 window.resizeDocks(
