@@ -96,7 +96,9 @@ class _PlainSpeaking(Console):
 
 
 def _console(is_terminal: bool) -> Console:
-    return _PlainSpeaking(file=sys.stdout, width=None if is_terminal else _UNBOUNDED, highlight=False)
+    return _PlainSpeaking(
+        file=sys.stdout, width=None if is_terminal else _UNBOUNDED, highlight=False, markup=False, emoji=False
+    )
 
 
 def _give_up_stdout() -> None:

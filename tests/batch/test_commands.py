@@ -194,6 +194,14 @@ def test_doctor(capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "Missing for every check: ifcopenshell, rich" in printed
 
 
+def test_doctor_names_the_extra_of_what_is_missing(capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
+    # In brackets, which a terminal's library takes for a style and leaves out.
+    monkeypatch.setitem(sys.modules, "lazrs", None)
+    monkeypatch.setattr("batch.commands.doctor.PACKAGES", tuple(p for p in PACKAGES if p.core or p.module == "lazrs"))
+    assert main(["doctor"]) == 0
+    assert "pip install 'aadm-workbench[formats]'" in capsys.readouterr().out
+
+
 def test_doctor_knows_every_dependency(repository: Path) -> None:
     project = tomllib.loads((repository / "pyproject.toml").read_text("utf-8"))["project"]
     names = {name for package in PACKAGES for name in package.distributions}

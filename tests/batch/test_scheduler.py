@@ -1,4 +1,4 @@
-"""A scheduler and two workers as processes of their own, as docs/cluster.md has them started: the same report."""
+"""A scheduler and two workers as processes of their own, as docs/overnight.md has them started: the same report."""
 
 import contextlib
 import json
