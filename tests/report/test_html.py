@@ -73,6 +73,12 @@ def test_nothing_is_loaded_and_no_name_is_markup(hostile: dict[str, Any]) -> Non
         assert name.strip("\x01") in seen.text.replace("\x01", "") or name in html.unescape(seen.text)
 
 
+def test_what_a_model_does_not_say_is_left_empty(floor: dict[str, Any]) -> None:
+    for column in floor["columns"]:
+        column |= {"grid": None, "storey": None, "piece_mark": None}
+    assert "None" not in Seen(html_text(floor)).text.replace("None of", "")
+
+
 def test_policy_lets_run_only_what_stands_in_the_file(floor: dict[str, Any]) -> None:
     policy = re.search(r'Content-Security-Policy" content="([^"]+)"', html_text(floor))
     assert policy is not None
