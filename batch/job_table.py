@@ -13,6 +13,9 @@ from aadm_workbench.errors import JobError
 from .job_lines import KeyPath
 from .printable import steering_character
 
+WINDOWS_PATHS = "write paths of Windows with / or in single quotes"
+"""Said of backslashes in double quotes, which TOML takes for signs of its own."""
+
 LONGEST_TEXT = 4096
 """Longest path that Linux takes."""
 
@@ -64,6 +67,10 @@ class JobTable:
         while path and path not in self.lines:
             path = path[:-1]
         return JobError(f"{self.source}, line {self.lines.get(path, 1)}: {message}")
+
+    def line(self, *path: str | int) -> int:
+        """The line that a key inside this table stands in."""
+        return self.lines.get((*self.at, *path), 1)
 
     def allow(self, known: Iterable[str]) -> None:
         """Refuse keys that are not known."""
@@ -181,7 +188,8 @@ class JobTable:
         if len(value) > LONGEST_TEXT:
             raise self.wrong(key, f"{key} has {len(value)} characters, {LONGEST_TEXT} are the most", *index)
         if (sign := steering_character(value)) is not None:
-            raise self.wrong(key, f"{key} holds the control character {sign}; take it out of the name", *index)
+            message = f"{key} holds the control character {sign}; take it out of the name, and {WINDOWS_PATHS}"
+            raise self.wrong(key, message, *index)
 
     def _number(self, key: str, value: Any, *index: int) -> float:
         if not is_finite_number(value):

@@ -21,7 +21,7 @@ from aadm_workbench.assembly.mould import assess_moulds
 from aadm_workbench.check import CheckSettings
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.errors import DesignError, JobError
-from aadm_workbench.model import ColumnReport, JobReport
+from aadm_workbench.model import ColumnDesign, ColumnReport, JobReport
 
 from .column_task import ColumnTask
 from .engine import Death, Pool, work_through
@@ -205,8 +205,39 @@ def plan_tasks(
     columns = chosen_columns(job, options.only)
     with watch.stage("model"):
         model = model_of(job)
+    if model is not None:
+        check_named_once(job, model)
     settings = CheckSettings(job.profile, options.method, job.decision, job.checks, job.turns)
     return model, settings, _tasks(job, columns, model, settings)
+
+
+def check_named_once(job: Job, model: ModelDesign) -> None:
+    """Refuse a job that names one column of its model twice, by its id and by its GlobalId for instance.
+
+    Raises
+    ------
+    JobError
+        With the lines of both.
+    """
+    first: dict[int, str] = {}
+    for column in job.columns:
+        design = None if column.design is not None else _designed(model, column)
+        if not isinstance(design, ColumnDesign):
+            continue
+        other = first.setdefault(id(design), column.id)
+        if other != column.id:
+            raise JobError(
+                f'{job.source}, line {job.lines.get(column.id, 1)}: "{column.id}" and "{other}" (line '
+                f"{job.lines.get(other, 1)}) are one column of {model.source} ({design.id}); name it once"
+            )
+
+
+def _designed(model: ModelDesign, column: JobColumn) -> ColumnDesign | str:
+    """The design of a column that brings none along; or why the model gives none."""
+    try:
+        return model.column(column.id)
+    except DesignError as error:
+        return str(error)
 
 
 def chosen_columns(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
@@ -260,10 +291,8 @@ def _tasks(
 def _task(job: Job, column: JobColumn, model: ModelDesign | None, settings: CheckSettings) -> ColumnTask:
     design, no_design = column.design, ""
     if design is None and model is not None:
-        try:
-            design = model.column(column.id)
-        except DesignError as error:
-            no_design = str(error)
+        found = _designed(model, column)
+        design, no_design = (found, "") if isinstance(found, ColumnDesign) else (None, found)
     # Workers have another working folder.
     folder = job.folder.absolute()
     return ColumnTask(column, folder, design, settings, job.units, job.camera, job.depth_scale_mm, no_design)

@@ -17,6 +17,7 @@ from aadm_workbench.design.ifc_design import design_of, with_ids
 from aadm_workbench.design.ifc_file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc_grid import crossings
 from aadm_workbench.design.ifc_hints import explain
+from aadm_workbench.design.ifc_ids import shared_id_warning, shared_ids, with_shared_ids
 from aadm_workbench.design.ifc_search import FoundFoot, SleeveSearch
 from aadm_workbench.design.ifc_shapes import Shapes, evaluator
 from aadm_workbench.design.ifc_sleeves import MOUTH_TO_FOOT_MM, Candidate, left_out, loose_point, named_candidates
@@ -64,14 +65,21 @@ def read_ifc(
     designs, used_bars = _designs(opened, shapes, feet, bars)
     loose_rebars, inside = loose_rebars_of(bars, used_bars, feet, lambda ends: ends_in_walls(opened, shapes, ends))
     not_taken = (*unreadable, *doubles, *_bare(feet), *excluded, *refused, *bars.not_taken, *inside)
+    shared = shared_ids(opened.file)
     return ModelDesign(
         source=opened.source,
         sha256=opened.sha256,
         schema=opened.file.schema_identifier,
-        columns=with_ids(designs),
+        columns=with_ids([with_shared_ids(design, shared) for design in designs]),
         loose_sleeves=loose_sleeves,
         loose_rebars=loose_rebars,
-        warnings=(*opened.warnings, *bars.warnings, *_sleeve_sizes(opened, feet, named), *_problems(shapes)),
+        warnings=(
+            *opened.warnings,
+            *shared_id_warning(shared),
+            *bars.warnings,
+            *_sleeve_sizes(opened, feet, named),
+            *_problems(shapes),
+        ),
         not_taken=not_taken,
         holdings=ifc_names.holdings(opened.file),
         hint=explain(opened, feet, search, not_taken, len(loose_sleeves), len(loose_rebars)),
@@ -91,7 +99,7 @@ def _one_column_each(
         claimed = [id(mouth.candidate) for mouth in found.mouths]
         other = next((owners[candidate] for candidate in claimed if candidate in owners), None)
         if other is not None:
-            doubles[id(body)] = f"has sleeves that belong to column {_called(other)}, which stands in the same place"
+            doubles[id(body)] = f"has sleeves that belong to column {other.called}, which stands in the same place"
             continue
         owners.update((candidate, body) for candidate in claimed)
     kept = [(body, found) for body, found in feet if id(body) not in doubles]
@@ -119,15 +127,15 @@ def loose_sleeves_of(
     named: Sequence[Candidate], feet: Sequence[tuple[ColumnBody, FoundFoot]]
 ) -> tuple[tuple[AssemblyPoint, ...], list[NotTaken]]:
     """Named sleeves that open in no foot face, and those that are none, with the reason."""
-    taken = {mouth.candidate.element.GlobalId for _, found in feet for mouth in found.mouths}
+    taken = {mouth.candidate.element.id() for _, found in feet for mouth in found.mouths}
     reasons = {id(candidate): reason for _, found in feet for candidate, reason in found.refused}
     loose: list[AssemblyPoint] = []
     refused: list[NotTaken] = []
-    left = [candidate for candidate in named if candidate.element.GlobalId not in taken]
+    left = [candidate for candidate in named if candidate.element.id() not in taken]
     middles = [(candidate.tube.start + candidate.tube.end) / 2.0 for candidate in left]
     for candidate, host in zip(left, _hosts(middles, feet), strict=True):
         # Sockets for lifting and bracing are called sleeves too.
-        elsewhere = host and f"is in column {_called(host)} but does not open in its foot face"
+        elsewhere = host and f"is in column {host.called} but does not open in its foot face"
         point = reasons.get(id(candidate)) or elsewhere or loose_point(candidate)
         if isinstance(point, str):
             refused.append(left_out(candidate, point))
@@ -159,7 +167,7 @@ def loose_rebars_of(
     left = [end for number, end in enumerate(bars.ends) if number not in used]
     hosts = _hosts([end.top for end in left], feet)
     reasons = [
-        f"ends inside column {_called(host)}: its own reinforcement" if host and _begins_in(end, host) else ""
+        f"ends inside column {host.called}: its own reinforcement" if host and _begins_in(end, host) else ""
         for end, host in zip(left, hosts, strict=True)
     ]
     outside = [number for number, reason in enumerate(reasons) if not reason]
@@ -193,10 +201,6 @@ def _sleeve_sizes(
             drawn_mm = [size for size in (*tube.bore_mm, tube.outer_mm) if size is not None]
             contradictions.compare_sleeve(candidate.element, drawn_mm, tube.length_mm)
     return contradictions.lines()
-
-
-def _called(body: ColumnBody) -> str:
-    return str(body.element.Tag or body.element.Name or body.element.GlobalId)
 
 
 def _bare(feet: Sequence[tuple[ColumnBody, FoundFoot]]) -> list[NotTaken]:

@@ -44,7 +44,7 @@ class BarEnd:
     """An upright end of a bar, in the model frame.
 
     ``top`` (3,) mm is where the axis meets the top, ``axis`` (3,) points up and out of the bar, ``lowest_mm`` is the
-    height of the bar's lowest point. ``wholes`` are the GlobalIds of what the bar is a part of.
+    height of the bar's lowest point. ``wholes`` are the numbers of what the bar is a part of.
     """
 
     global_id: str
@@ -56,7 +56,7 @@ class BarEnd:
     diameter_mm: float
     length_mm: float
     over_ribs_mm: float | None
-    wholes: frozenset[str]
+    wholes: frozenset[int]
     why: str
 
     def point(self, why: str) -> AssemblyPoint:
@@ -212,7 +212,7 @@ def _end(
         diameter_mm=sizes[0],
         length_mm=bar.length_mm,
         over_ribs_mm=sizes[1],
-        wholes=frozenset(whole.GlobalId for whole in ifc_names.wholes(element)),
+        wholes=frozenset(whole.id() for whole in ifc_names.wholes(element)),
         why="; ".join([f'{evidence} "{said}"' if said else evidence, *sizes[2]]),
     )
 

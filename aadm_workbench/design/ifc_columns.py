@@ -70,18 +70,19 @@ class ColumnBody:
     """A column of the model before its sleeves are known.
 
     ``drawn`` are the elements that draw its concrete, itself or its parts; ``feet`` has one face, or both ends of a
-    lying column.
+    lying column; ``called`` is what messages call it.
     """
 
     element: Any
     drawn: tuple[Any, ...]
     feet: tuple[Foot, ...]
     wholes: tuple[Any, ...]
+    called: str
 
     @property
-    def own_ids(self) -> frozenset[str]:
-        """GlobalIds of the column and the assemblies that it is a part of."""
-        return frozenset([self.element.GlobalId, *(whole.GlobalId for whole in self.wholes)])
+    def own_ids(self) -> frozenset[int]:
+        """Numbers of the column and the assemblies that it is a part of; a GlobalId may be that of several elements."""
+        return frozenset([self.element.id(), *(whole.id() for whole in self.wholes)])
 
 
 def find_columns(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> tuple[list[ColumnBody], list[NotTaken]]:
@@ -101,7 +102,8 @@ def find_columns(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> tup
         except UnreadableGeometryError:
             feet = ()
         if feet:
-            found.append(ColumnBody(element, tuple(drawn), feet, tuple(ifc_names.wholes(element))))
+            wholes = tuple(ifc_names.wholes(element))
+            found.append(ColumnBody(element, tuple(drawn), feet, wholes, ifc_names.called(element)))
         else:
             left.append(not_a_column(element, "has no geometry that could be evaluated"))
     return found, left
@@ -120,10 +122,11 @@ def not_a_column(element: Any, reason: str) -> NotTaken:
 
 
 def names(element: Any) -> tuple[str, ...]:
-    """All that a job may call a column by: Tag, PieceMark, Name, GlobalId, its assembly's too."""
+    """All that a job may call a column by: Tag, Mark, PieceMark, Name, GlobalId, its assembly's too."""
     called: list[str | None] = []
     for holder in (element, *ifc_names.wholes(element)):
-        called += [optional(holder, "Tag"), ifc_names.piece_mark(holder), holder.Name, holder.GlobalId]
+        called += [optional(holder, "Tag"), ifc_names.mark(holder), ifc_names.piece_mark(holder)]
+        called += [holder.Name, holder.GlobalId]
     return tuple(dict.fromkeys(name.strip() for name in called if name and name.strip()))
 
 

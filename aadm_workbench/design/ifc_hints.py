@@ -30,7 +30,7 @@ def explain(
         return ""
     if not feet:
         return " ".join([_no_columns(opened, left), _lying_about(loose_sleeves, loose_rebars)]).strip()
-    called = sorted({str(body.element.Tag or body.element.Name or body.element.GlobalId) for body, _ in feet})
+    called = sorted({body.called for body, _ in feet})
     more = f" and {len(called) - _SHOWN} more" if len(called) > _SHOWN else ""
     number = f"{len(feet)} column{'s were' if len(feet) > 1 else ' was'}"
     looked = f"{number} looked at ({', '.join(called[:_SHOWN])}{more}); no grouting sleeve opens in a foot face."

@@ -18,6 +18,14 @@ _PIECE_MARK = frozenset(
     {"piecemark", "piece mark", "assembly/cast unit mark", "cast unit mark", "castunitmark", "构件编号", "構件編號"}
 )
 
+_MARK = frozenset({"mark", "标记", "標記", "マーク", "kennzeichen"})
+"""Revit's own mark of an instance, as its languages export it; its Tag is the number of the element."""
+
+_MACHINE_MADE = re.compile(
+    r"\d+|ID[0-9a-f-]{30,}|[{(]?[0-9a-f]{8}(-?[0-9a-f]{4}){3}-?[0-9a-f]{12}[)}]?|[0-3][0-9a-z_$]{21}", re.IGNORECASE
+)
+"""Tags that programs give (Revit's element number, Tekla's and ArchiCAD's GUID) and nobody on site says."""
+
 _SAID = (2, 4, 3)
 """Places of Name, ObjectType and Description among the attributes of an object; by name they take thrice as long."""
 
@@ -118,6 +126,26 @@ def piece_mark(element: Any) -> str | None:
     """The mark of the mould that a precast piece comes from, shared by all pieces cast in it."""
     marks = (str(value) for name, value in properties(element) if name.strip().lower() in _PIECE_MARK and value)
     return next(marks, None)
+
+
+def mark(element: Any) -> str | None:
+    """What people call this one element in a property of its own, where their program gives them no Tag for it."""
+    from ifcopenshell.util.element import get_psets
+
+    groups = get_psets(element, psets_only=True, should_inherit=False).values()
+    named = (value for group in groups for name, value in group.items() if name.strip().lower() in _MARK)
+    return next((str(value) for value in named if isinstance(value, str | int) and str(value).strip()), None)
+
+
+def is_machine_made(name: str) -> bool:
+    """Whether a program made a name up, so that nobody says it."""
+    return _MACHINE_MADE.fullmatch(name.strip()) is not None
+
+
+def called(element: Any) -> str:
+    """What a person calls an element, in a message: its Tag, unless a program made that up, else its Name."""
+    told = (name for name in (optional(element, "Tag"), mark(element), element.Name) if name and name.strip())
+    return str(next((name for name in told if not is_machine_made(name)), element.GlobalId))
 
 
 def storey_name(element: Any) -> str | None:

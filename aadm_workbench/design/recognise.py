@@ -203,7 +203,8 @@ def _on(
     """An element as a column; of a lying one's two ends the one with more sleeves. None where it has no extent."""
     solids = [shape for solid in element.solids for shape in [solid.body] if len(shape.vertices)]
     T = own_frame(element.T_model_element, element.solids)
-    body = ColumnBody(element, (element,), feet_of(T, solids), ())
+    called = element.Tag or element.Name or element.GlobalId
+    body = ColumnBody(element, (element,), feet_of(T, solids), (), called)
     if not body.feet:
         return None
     own = [] if selected else own_holes(element)
