@@ -157,7 +157,7 @@ def _model(top: JobTable) -> JobModel | None:
     table.require("path", 'path = "floor3.ifc", or remove the table where every column has a [columns.design]')
     units = table.one_of("units", ("mm", "cm", "m", "inch", "foot"), "mm")
     columns, sleeves, rebars = (table.text(key) for key in _MODEL[1:4])
-    return JobModel(table.text("path") or "", columns, sleeves, rebars, units)
+    return JobModel(table.path("path") or "", columns, sleeves, rebars, units)
 
 
 def _camera(top: JobTable) -> tuple[Camera | None, float | None]:

@@ -34,6 +34,7 @@ from .pools import PoolOptions, open_pool
 from .program import program_key, tool_entry
 from .record import Record
 from .stopwatch import Stopwatch
+from .unforeseen import unforeseen_in
 from .workers_log import WorkersLog
 
 SCRATCH_NAME = ".aadm-workers"
@@ -111,6 +112,9 @@ def run_job(
     with watch.stage("total"):
         model, settings, tasks = plan_tasks(job, options, watch)
         follower.started(len(tasks))
+        if model is not None:
+            for warning in model.warnings:
+                follower.message(f"{model.source}: {warning}")
         _check_all(tasks, options.pool, follower, journal, folder)
         kept = (journal.record(task.column.id) for task in tasks)
         report, seconds, traces = _collected(job, model, settings, kept)
@@ -204,11 +208,27 @@ def plan_tasks(
     """The job's model, the settings, and a task for each chosen column; errors as :func:`run_job`."""
     columns = chosen_columns(job, options.only)
     with watch.stage("model"):
-        model = model_of(job)
+        model, unreadable = _model_for(job, columns)
     if model is not None:
         check_named_once(job, model)
     settings = CheckSettings(job.profile, options.method, job.decision, job.checks, job.turns)
-    return model, settings, _tasks(job, columns, model, settings)
+    return model, settings, _tasks(job, columns, model, settings, unreadable)
+
+
+def _model_for(job: Job, columns: Sequence[JobColumn]) -> tuple[ModelDesign | None, str]:
+    """The job's model, and where it cannot be read why: that costs only the columns that are looked up in it.
+
+    Raises
+    ------
+    DesignError
+        Where it cannot be read, and no column brings a design along.
+    """
+    try:
+        return model_of(job), ""
+    except DesignError as error:
+        if not any(column.design is not None for column in columns):
+            raise
+        return None, str(error)
 
 
 def check_named_once(job: Job, model: ModelDesign) -> None:
@@ -267,15 +287,16 @@ def model_of(job: Job) -> ModelDesign | None:
         return None
     path = job.folder / job.model.path
     rules = {"columns": job.model.columns, "sleeves": job.model.sleeves, "rebars": job.model.rebars}
-    model = read_design(path, **rules, units=job.model.units)
+    with unforeseen_in(str(path)):
+        model = read_design(path, **rules, units=job.model.units)
     return replace(model, source=job.model.path)
 
 
 def _tasks(
-    job: Job, columns: Sequence[JobColumn], model: ModelDesign | None, settings: CheckSettings
+    job: Job, columns: Sequence[JobColumn], model: ModelDesign | None, settings: CheckSettings, unreadable: str
 ) -> list[ColumnTask]:
     """A task for each column, each with the designs of the job that are unlike its own."""
-    tasks = [_task(job, column, model, settings) for column in columns]
+    tasks = [_task(job, column, model, settings, unreadable) for column in columns]
     designs = [task.design for task in tasks if task.design is not None]
     patterns = {design_shape(design): design for design in reversed(designs)}
     if len(patterns) < 2:
@@ -288,8 +309,10 @@ def _tasks(
     return found
 
 
-def _task(job: Job, column: JobColumn, model: ModelDesign | None, settings: CheckSettings) -> ColumnTask:
-    design, no_design = column.design, ""
+def _task(
+    job: Job, column: JobColumn, model: ModelDesign | None, settings: CheckSettings, unreadable: str
+) -> ColumnTask:
+    design, no_design = column.design, unreadable
     if design is None and model is not None:
         found = _designed(model, column)
         design, no_design = (found, "") if isinstance(found, ColumnDesign) else (None, found)

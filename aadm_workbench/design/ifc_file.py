@@ -44,7 +44,7 @@ class OpenedIfc:
     def draws_coarsely(self) -> bool:
         """Whether it comes from a program that may draw circles with four sides (FreeCAD, in files in metres)."""
         names = (application.ApplicationFullName for application in self.file.by_type("IfcApplication"))
-        return any("freecad" in (name or "").lower() for name in names)
+        return any("freecad" in name.lower() for name in names if isinstance(name, str))
 
     @cached_property
     def naming(self) -> Naming:
@@ -69,15 +69,19 @@ def open_ifc(path: str | Path) -> OpenedIfc:
     written = _bytes(path)
     content = model_in_archive(path) if packed else written
     _check_frame(path, content)
-    text = prepared(content, ifcopenshell.ifcopenshell_wrapper.schema_names())
+    schemas = ifcopenshell.ifcopenshell_wrapper.schema_names()
+    text = prepared(content, schemas)
+    if text.schema not in schemas:
+        named = f"its header names the schema {text.schema}" if text.schema else "its header names no schema"
+        raise DesignError(f"{path} cannot be read as an IFC model: {named}. Export it as IFC2X3, IFC4 or IFC4X3.")
     file, warnings = _parsed(path, text.content, is_on_disk=text.content == written)
     return OpenedIfc(
         source=str(path),
         sha256=hashlib.sha256(written).hexdigest(),
         file=file,
         mm=_length_unit_mm(path, file),
-        radians=_angle_unit(file),
-        mm2=_area_unit_mm2(file),
+        radians=_angle_unit(path, file),
+        mm2=_area_unit_mm2(path, file),
         warnings=(*text.notes, *warnings),
         seconds=perf_counter() - began,
     )
@@ -195,22 +199,47 @@ def _complaints(log: str, content: bytes) -> list[str]:
 
 
 def _length_unit_mm(path: Path, file: Any) -> float:
-    from ifcopenshell.util.unit import calculate_unit_scale, get_project_unit
-
-    if get_project_unit(file, "LENGTHUNIT") is None:
+    scale = _unit(path, file, "LENGTHUNIT", "length")
+    if scale is None:
         raise DesignError(f"{path} declares no unit of length (IfcUnitAssignment): export it again with units.")
-    return 1000.0 * float(calculate_unit_scale(file))
+    return 1000.0 * scale
 
 
-def _angle_unit(file: Any) -> float:
-    from ifcopenshell.util.unit import calculate_unit_scale
-
-    return float(calculate_unit_scale(file, "PLANEANGLEUNIT"))
-
-
-def _area_unit_mm2(file: Any) -> float | None:
+def _unit(path: Path, file: Any, kind: str, called: str) -> float | None:
+    """A unit of the file in SI units; None where it declares none."""
     from ifcopenshell.util.unit import calculate_unit_scale, get_project_unit
 
-    if get_project_unit(file, "AREAUNIT") is None:
-        return None
-    return 1e6 * float(calculate_unit_scale(file, "AREAUNIT"))
+    try:
+        unit = get_project_unit(file, kind)
+        if unit is None:
+            return None
+        _check_chain(unit)
+        scale = float(calculate_unit_scale(file, kind))
+    except (AttributeError, TypeError, ValueError, LookupError, ArithmeticError, RuntimeError) as error:
+        raise DesignError(f"{path} declares a unit of {called} that makes no sense: export it again.") from error
+    if not _SMALLEST_UNIT < scale < _LARGEST_UNIT:
+        raise DesignError(f"{path} declares a unit of {called} of {scale:g} SI units: export it again.")
+    return scale
+
+
+def _check_chain(unit: Any) -> None:
+    """Refuse a unit that is defined by itself: who follows that comes to no end."""
+    passed: set[int] = set()
+    while unit.is_a("IfcConversionBasedUnit"):
+        if unit.id() in passed:
+            raise ValueError("a unit is defined by itself")
+        passed.add(unit.id())
+        unit = unit.ConversionFactor.UnitComponent
+
+
+_SMALLEST_UNIT, _LARGEST_UNIT = 1e-12, 1e9
+"""Square micrometres and square kilometres, with room: programs write no smaller and no larger units."""
+
+
+def _angle_unit(path: Path, file: Any) -> float:
+    return _unit(path, file, "PLANEANGLEUNIT", "angle") or 1.0
+
+
+def _area_unit_mm2(path: Path, file: Any) -> float | None:
+    scale = _unit(path, file, "AREAUNIT", "area")
+    return None if scale is None else 1e6 * scale

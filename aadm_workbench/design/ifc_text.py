@@ -22,7 +22,16 @@ _BYTES = re.compile(r"(?:[ -&(-\[\]-~]|\\\\|\\X\\[0-9A-Fa-f]{2}|\\S\\[ -~])+")
 _BYTE = re.compile(r"\\X\\([0-9A-Fa-f]{2})|\\S\\(.)|(\\\\|[^\\]+)")
 _PAGE = re.compile(r"\\P[A-I]\\")
 _NOT_ASCII = re.compile(r"[^\x00-\x7f]+")
-_SCHEMA = re.compile(r"(FILE_SCHEMA\s*\(\s*\()(?P<names>[^)]*)(\)\s*\))", re.IGNORECASE)
+_HEADER = re.compile(r"HEADER\s*;(?P<entries>(?:'[^']*+'|/\*.*?\*/|[^'])*?)ENDSEC\s*;", re.DOTALL | re.IGNORECASE)
+_SCHEMA = re.compile(r"FILE_SCHEMA\s*\(\s*\((?P<names>[^)]*)\)\s*\)", re.IGNORECASE)
+_BLANK = re.compile(r"('[^']*+')|/\*.*?\*/|\s+", re.DOTALL)
+_TEXTS = r"\((?:'[^']*+',?)++\)"
+_PLAIN_ENTRIES = re.compile(
+    rf"FILE_DESCRIPTION\({_TEXTS},'[^']*+'\);FILE_NAME\((?:(?:'[^']*+'|\$|{_TEXTS}),?)++\);"
+    r"FILE_SCHEMA\(\('[^']*+'\)\);",
+    re.IGNORECASE,
+)
+_ENTRIES = "FILE_DESCRIPTION((''),'2;1');FILE_NAME('','',(''),(''),'','','');FILE_SCHEMA(('{}'));"
 _HEADER_CHARACTERS = 65536
 
 _MEANT_BY_STEP = 12.0
@@ -38,10 +47,14 @@ _FAMILIES = (
 
 @dataclass(frozen=True)
 class PreparedText:
-    """A STEP file in ASCII, line by line as it was; ``notes`` say what was not as STEP wants it."""
+    """A STEP file in ASCII, line by line as it was; ``notes`` say what was not as STEP wants it.
+
+    ``schema`` is what its header names, None where it names none.
+    """
 
     content: bytes
     notes: tuple[str, ...]
+    schema: str | None
 
 
 def prepared(content: bytes, schemas: Sequence[str]) -> PreparedText:
@@ -60,8 +73,8 @@ def prepared(content: bytes, schemas: Sequence[str]) -> PreparedText:
         text = _with_code_pages(text, notes)
     if "\\" in text:
         text = _with_plain_backslashes(text, notes)
-    text = _with_schema(text, schemas, notes)
-    return PreparedText(_NOT_ASCII.sub(escaped, text).encode("ascii"), tuple(notes))
+    text, schema = _with_header(text, schemas, notes)
+    return PreparedText(_NOT_ASCII.sub(escaped, text).encode("ascii"), tuple(notes), schema)
 
 
 def escaped(found: re.Match[str]) -> str:
@@ -168,21 +181,26 @@ def _with_plain_backslashes(text: str, notes: list[str]) -> str:
 _SHOWN_LINES = 4
 
 
-def _with_schema(text: str, schemas: Sequence[str], notes: list[str]) -> str:
-    """The header with an identifier that the parser knows, where the file's own belongs to the same family."""
-    found = _SCHEMA.search(text, 0, _HEADER_CHARACTERS)
-    if found is None:
-        return text
+def _with_header(text: str, schemas: Sequence[str], notes: list[str]) -> tuple[str, str | None]:
+    """The file with a header that the parser knows, and its schema; None where it names none that is read.
+
+    A parser takes a header at its word: one that is put together in another way, or names a version of the schema that
+    is not the parser's own, is replaced by one that says the same of the schema and nothing else.
+    """
+    section = _HEADER.search(text, 0, _HEADER_CHARACTERS)
+    found = None if section is None else _SCHEMA.search(section["entries"])
+    if section is None or found is None:
+        return text, None
     names = re.findall(r"'([^']*)'", found["names"])
-    known = [name for name in names if name.upper() in schemas]
-    if known and len(names) == 1:
-        return text
-    for name in [*known, *names]:
-        taken = _taken_as(name, schemas)
-        if taken is not None:
-            notes.append(f"its schema {name} was read as {taken}")
-            return f"{text[: found.start()]}{found[1]}'{taken}'{found[3]}{text[found.end() :]}"
-    return text
+    taken = next((schema for name in names if (schema := _taken_as(name, schemas)) is not None), None)
+    if taken is None:
+        return text, names[0] if names else None
+    if taken not in (name.strip().upper() for name in names):
+        notes.append(f"its schema {', '.join(names)} was read as {taken}")
+    if _PLAIN_ENTRIES.fullmatch(_BLANK.sub(r"\1", section["entries"])) and [taken] == names:
+        return text, taken
+    lines = "\n" * section["entries"].count("\n")
+    return f"{text[: section.start('entries')]}{_ENTRIES.format(taken)}{lines}{text[section.end('entries') :]}", taken
 
 
 def _taken_as(name: str, schemas: Iterable[str]) -> str | None:
