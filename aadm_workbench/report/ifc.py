@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import tempfile
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -145,6 +146,7 @@ def remove_ifc(model: Path, out: Path) -> WriteBack:
     AadmError
         Where ``out`` cannot be written.
     """
+    _check_writable(model)
     opened = open_ifc(model)
     stripped = without_results(opened.file, step_text(model.read_bytes()))
     if not stripped.found:
@@ -161,6 +163,7 @@ def remove_ifc(model: Path, out: Path) -> WriteBack:
 
 def _original(model: Path) -> tuple[Stripped, OpenedIfc]:
     """The model without results of earlier runs, and open."""
+    _check_writable(model)
     opened = open_ifc(model)
     stripped = without_results(opened.file, step_text(model.read_bytes()))
     if not stripped.found:
@@ -169,6 +172,17 @@ def _original(model: Path) -> tuple[Stripped, OpenedIfc]:
         path = Path(folder) / "model.ifc"
         path.write_bytes(stripped.content)
         return stripped, open_ifc(path)
+
+
+def _check_writable(model: Path) -> None:
+    """Refuse forms of IFC in which no line can be put behind the others."""
+    if model.suffix.lower() == ".ifczip":
+        raise ReportError(
+            f"{model}: results are written into .ifc files; unpack it and name the .ifc, and check with it"
+        )
+    with suppress(OSError), model.open("rb") as stream:  # whoever opens it says what is wrong
+        if stream.read(2) in (b"\xff\xfe", b"\xfe\xff"):
+            raise ReportError(f"{model}: is written in UTF-16, into which no line of STEP fits; export it again")
 
 
 def _is_same_model(report: Report, model: Path, stripped: Stripped) -> bool:

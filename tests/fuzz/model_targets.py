@@ -40,7 +40,8 @@ def elements(rng: Dice) -> bytes:
     """What FreeCAD's process hands over of a small yard, with numbers and lists that make no sense."""
     document = json.loads(_yard_of_elements())
     for _ in range(1 + rng.below(4)):
-        _spoil(document, rng)
+        element = rng.choice(document)
+        _spoil(element if rng.number() < 0.1 else element["solids"], rng)
     return json.dumps(document).encode()
 
 
@@ -53,18 +54,18 @@ def _yard_of_elements() -> str:
 
 
 def _spoil(value: Any, rng: Dice) -> None:
-    """Replace something deep in a document."""
-    while True:
-        keys = list(value) if isinstance(value, dict) else list(range(len(value)))
-        if not keys:
-            return
+    """Replace something deep in what is drawn of an element; its names are texts, whatever they say."""
+    while isinstance(value, dict | list) and value:
+        drawn = ("solids", "T_model_element", "tubes", "bars", "edges")
+        keys = [key for key in value if key in drawn] if isinstance(value, dict) else list(range(len(value)))
         key = rng.choice(keys)
-        inside = value[key]
-        if isinstance(inside, dict | list) and inside and rng.number() < 0.9:
-            value = inside
-            continue
-        value[key] = rng.choice((0.0, -1.0, 1e308, float("nan"), float("inf"), None, [], "", {}, 1e-320, 7))
-        return
+        if not isinstance(value[key], dict | list) or rng.number() < 0.1:
+            value[key] = rng.choice(_SPOILT)
+            return
+        value = value[key]
+
+
+_SPOILT: tuple[Any, ...] = (0.0, -1.0, 1e308, float("nan"), float("inf"), None, [], "", {}, 1e-320, 7)
 
 
 KINDS: dict[str, Callable[[Dice], bytes]] = {"plain": plain, "ifczip": ifczip, "elements": elements}
@@ -95,7 +96,7 @@ def _read(content: bytes, suffix: str) -> ModelDesign:
 def _recognised(content: bytes) -> ModelDesign:
     try:
         given = from_json(json.loads(content))
-    except (KeyError, TypeError, ValueError) as error:
+    except (LookupError, TypeError, ValueError) as error:
         raise AadmError(str(error) or "no elements") from error  # as the reader says it
     return recognise(given, Origin("model", "", ""))
 
