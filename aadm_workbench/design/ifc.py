@@ -76,9 +76,19 @@ def _found(
     searched, lost = _searched(shapes, search, bodies)
     feet, doubles = _one_column_each(searched)
     loose_sleeves, refused = loose_sleeves_of(named, feet)
-    designs, used_bars = _designs(opened, shapes, feet, bars)
+    designs, used_bars, broken = _designs(opened, shapes, feet, bars)
     loose_rebars, inside = loose_rebars_of(bars, used_bars, feet, lambda ends: ends_in_walls(opened, shapes, ends))
-    not_taken = (*unreadable, *lost, *doubles, *_bare(feet, search), *excluded, *refused, *bars.not_taken, *inside)
+    not_taken = (
+        *unreadable,
+        *lost,
+        *broken,
+        *doubles,
+        *_bare(feet, search),
+        *excluded,
+        *refused,
+        *bars.not_taken,
+        *inside,
+    )
     shared = shared_ids(opened.file)
     return ModelDesign(
         source=opened.source,
@@ -135,19 +145,23 @@ def _one_column_each(
 
 def _designs(
     opened: OpenedIfc, shapes: Shapes, feet: Sequence[tuple[ColumnBody, FoundFoot]], bars: FoundBars
-) -> tuple[list[ColumnDesign], set[int]]:
-    """The designs of all columns with sleeves, and the numbers of the bar ends that they stand on."""
+) -> tuple[list[ColumnDesign], set[int], list[NotTaken]]:
+    """The designs of all columns with sleeves, the numbers of the bar ends under them, and columns that are broken."""
     grid = crossings(opened.file, shapes)
     number = {id(end): k for k, end in enumerate(bars.ends)}
     designs: list[ColumnDesign] = []
     used: set[int] = set()
+    lost: list[NotTaken] = []
     for body, found in feet:
-        if found.mouths:
+        if not found.mouths:
+            continue
+        with shapes.guarded(body.element):
             under = bars_under(body, found.foot, found.mouths, bars)
+            designs.append(design_of(body, found, under, grid))
             used |= {number[id(end)] for end in under.bars if end is not None}
-            with shapes.guarded(body.element):
-                designs.append(design_of(body, found, under, grid))
-    return designs, used
+            continue
+        lost.append(not_a_column(body.element, shapes.undrawn(body.element)))
+    return designs, used, lost
 
 
 def loose_sleeves_of(

@@ -169,7 +169,10 @@ def storey_name(element: Any) -> str | None:
     """Name of the storey that holds an element, or the assembly that it is a part of."""
     from ifcopenshell.util.element import get_container
 
-    storey = get_container(element, ifc_class="IfcBuildingStorey")
+    try:
+        storey = get_container(element, ifc_class="IfcBuildingStorey")
+    except (RecursionError, AttributeError, TypeError):  # wholes that are parts of each other
+        return None
     return None if storey is None else text_of(storey.Name) or text_of(storey.LongName) or None
 
 

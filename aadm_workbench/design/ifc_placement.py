@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -23,6 +25,25 @@ class UnreadableGeometryError(ValueError):
 
 class NothingThereError(UnreadableGeometryError):
     """A piece of geometry that no kernel makes anything of: it has no extent, lies nowhere, or is a part of itself."""
+
+
+@contextmanager
+def within(begun: set[int], entity: Any) -> Iterator[None]:
+    """While an entity is evaluated it may not be met again.
+
+    Raises
+    ------
+    NothingThereError
+        Where it is: it is a part of itself.
+    """
+    number = entity.id()
+    if number in begun:
+        raise NothingThereError(f"#{number} {entity.is_a()} is a part of itself")
+    begun.add(number)
+    try:
+        yield
+    finally:
+        begun.discard(number)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,13 +112,8 @@ class Placements:
     def _on_grid(self, placement: Any) -> Array:
         from aadm_workbench.design.ifc_grid_placement import grid_frame  # axes are curves, which need placements
 
-        if placement.id() in self._begun:
-            raise UnreadableGeometryError(f"placement #{placement.id()} is relative to itself")
-        self._begun.add(placement.id())
-        try:
+        with within(self._begun, placement):
             return grid_frame(self, placement)
-        finally:
-            self._begun.discard(placement.id())
 
     def of_axes(self, axes: Any) -> Array:
         """An IfcAxis2Placement3D or 2D, or an IfcAxis1Placement; None is the identity."""

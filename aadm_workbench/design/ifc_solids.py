@@ -14,7 +14,7 @@ from aadm_workbench.design.circles import Circle
 from aadm_workbench.design.ifc_curve import Curves
 from aadm_workbench.design.ifc_entity import optional
 from aadm_workbench.design.ifc_kernel import Kernel
-from aadm_workbench.design.ifc_placement import NothingThereError, Placements, UnreadableGeometryError, unit
+from aadm_workbench.design.ifc_placement import NothingThereError, Placements, UnreadableGeometryError, unit, within
 from aadm_workbench.design.ifc_profile import Profiles
 from aadm_workbench.design.paths import Arc, rounded
 from aadm_workbench.design.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned, pieces
@@ -29,6 +29,7 @@ BROKEN = (
     AttributeError,
     ArithmeticError,
     RuntimeError,
+    SystemError,
     np.linalg.LinAlgError,
 )
 """What numbers and references that are missing, make no sense or go in circles raise, in a file by strangers."""
@@ -85,13 +86,8 @@ class Solids:
         """
         number = item.id()
         if number not in self._known:
-            if number in self._begun:
-                raise NothingThereError(f"#{number} {item.is_a()} is a part of itself")
-            self._begun.add(number)
-            try:
+            with within(self._begun, item):
                 self._known[number] = self._sound(item)
-            finally:
-                self._begun.discard(number)
         return self._known[number]
 
     def _sound(self, item: Any) -> tuple[Shape, ...]:
@@ -99,8 +95,8 @@ class Solids:
             shapes = tuple(sound(shape) for shape in self._evaluated(item))
         except UnsoundError as error:
             raise NothingThereError(f"#{item.id()} {item.is_a()}: {error}") from error
-        except RecursionError as error:
-            raise NothingThereError(f"#{item.id()} {item.is_a()} is a part of itself, or of too many parts") from error
+        except (RecursionError, SystemError) as error:  # the second from deep inside ifcopenshell
+            raise NothingThereError(f"#{item.id()} {item.is_a()} is nested too deeply") from error
         except NothingThereError:
             raise
         except BROKEN:

@@ -42,7 +42,7 @@ def sound(shape: Shape) -> Shape:
             _check_places(shape.point, shape.towards)
             return shape
         case Cut():
-            return _cut(shape)
+            return shape  # its body and its tool have been looked at before it was made
 
 
 def _swept(disk: SweptDisk) -> SweptDisk:
@@ -94,15 +94,6 @@ def _mesh(mesh: Mesh) -> Mesh:
     if not faces:
         raise UnsoundError("it has no faces")
     return replace(mesh, faces=faces)
-
-
-def _cut(cut: Cut) -> Shape:
-    """A body with what can be taken away from it; a tool that is nothing takes nothing away."""
-    body = sound(cut.body)
-    try:
-        return Cut(body, sound(cut.tool))
-    except UnsoundError:
-        return body
 
 
 def _check_places(*places: Array) -> None:
