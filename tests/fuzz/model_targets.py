@@ -77,7 +77,7 @@ def tried(kind: str, content: bytes) -> str:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
-            found = _recognised(content) if kind == "elements" else _read(content, _SUFFIXES[kind])
+            found = _recognised(content) if kind == "elements" else read_bytes(content, _SUFFIXES[kind])
         except AadmError as error:
             return "refused" if str(error).strip() else "refused without a word"
         except Exception as error:  # noqa: BLE001 - that is what is looked for
@@ -85,7 +85,7 @@ def tried(kind: str, content: bytes) -> str:
     return "read" if _makes_sense(found) else "numbers that are none came through"
 
 
-def _read(content: bytes, suffix: str) -> ModelDesign:
+def read_bytes(content: bytes, suffix: str) -> ModelDesign:
     folder = Path("/dev/shm")
     with tempfile.NamedTemporaryFile(dir=folder if folder.is_dir() else None, suffix=suffix) as stream:
         stream.write(content)
