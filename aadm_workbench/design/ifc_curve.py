@@ -12,6 +12,9 @@ from aadm_workbench.design.paths import Arc, Leg, Straight, arc_through, cut, po
 from aadm_workbench.model import Array
 
 _FULL_TURN = 2.0 * math.pi
+_MOST_TURNS = 100.0
+"""The spiral of a column's stirrups has some dozens."""
+
 _MOST_LEGS = 20_000
 """A spiral drawn in small steps has some thousands; curves of curves of curves may have more than can be counted."""
 
@@ -112,6 +115,7 @@ class Curves:
         return Straight(origin + begin * step, origin + stop * step, abs(stop - begin))
 
     def _conic(self, conic: Any, begin: float, stop: float) -> Arc:
+        check_turn(conic, stop - begin)
         T = self.placements.of_axes(conic.Position)
         radii = (conic.Radius, conic.Radius) if conic.is_a("IfcCircle") else (conic.SemiAxis1, conic.SemiAxis2)
         u, v = (self.placements.mm * radius * T[:3, axis] for axis, radius in enumerate(radii))
@@ -163,6 +167,18 @@ class Curves:
 
     def _cartesian(self, trim: Sequence[Any]) -> Array | None:
         return next((self.placements.point(value) for value in trim if value.is_a("IfcCartesianPoint")), None)
+
+
+def check_turn(entity: Any, turn: float) -> None:
+    """Refuse an arc of more turns, in radians, than anything is wound.
+
+    Raises
+    ------
+    NothingThereError
+        Naming the entity.
+    """
+    if not abs(turn) <= _MOST_TURNS * _FULL_TURN:
+        raise NothingThereError(f"#{entity.id()} {entity.is_a()} goes around {abs(turn) / _FULL_TURN:g} times")
 
 
 def _parameter(trim: Sequence[Any]) -> float | None:

@@ -16,8 +16,11 @@ import numpy as np
 from aadm_workbench.design.ifc_placement import UnreadableGeometryError
 from aadm_workbench.model import Array, IntArray
 
-_LONGEST_S = 60.0
+_LONGEST_S = 20.0
 """For one solid; the largest exact B-reps of real models take a second or two."""
+
+_MOST_HANGS = 3
+"""So many solids of a model to which there is no end: after them none is waited for any more."""
 
 _HEAD = struct.Struct("<qq")
 _FAILED = -1
@@ -36,6 +39,7 @@ class Kernel:
     def __init__(self) -> None:
         self._process = 0
         self._line: socket.socket | None = None
+        self._hangs = 0
 
     def facets(self, item: Any) -> Drawn:
         """The facets of a representation item, in its own frame.
@@ -47,15 +51,17 @@ class Kernel:
         """
         if not hasattr(os, "fork"):
             return _facets(item)
+        if self._hangs >= _MOST_HANGS:
+            raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} was not tried: others came to no end")
         line = self._line or self._start(item.file)
         try:
             line.sendall(_HEAD.pack(item.id(), 0))
             found = _answer(line)
         except (EOFError, OSError) as error:
             self.close()
-            said = (
-                "comes to no end in the geometry kernel" if isinstance(error, TimeoutError) else "cannot be evaluated"
-            )
+            hangs = isinstance(error, TimeoutError)
+            self._hangs += hangs
+            said = "comes to no end in the geometry kernel" if hangs else "cannot be evaluated"
             raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} {said}") from error
         if found is None:
             raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} cannot be evaluated")

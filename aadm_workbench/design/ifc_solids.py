@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.design.circles import Circle
-from aadm_workbench.design.ifc_curve import Curves
+from aadm_workbench.design.ifc_curve import Curves, check_turn
 from aadm_workbench.design.ifc_entity import optional
 from aadm_workbench.design.ifc_kernel import Kernel
 from aadm_workbench.design.ifc_placement import NothingThereError, Placements, UnreadableGeometryError, unit, within
 from aadm_workbench.design.ifc_profile import Profiles
 from aadm_workbench.design.paths import Arc, rounded
 from aadm_workbench.design.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned, pieces
-from aadm_workbench.design.sound import UnsoundError, sound
+from aadm_workbench.design.sound import FARTHEST_MM, UnsoundError, sound
 from aadm_workbench.model import Array, IntArray
 
 BROKEN = (
@@ -100,10 +100,17 @@ class Solids:
         except NothingThereError:
             raise
         except BROKEN:
+            self._check_sizes(item)
             shapes = self._tessellated(item)
         if sum(map(pieces, shapes)) > _MOST_PIECES:
             raise NothingThereError(f"#{item.id()} {item.is_a()} is made of more than {_MOST_PIECES} pieces")
         return shapes
+
+    def _check_sizes(self, item: Any) -> None:
+        """Keep a solid from the kernel that has a size beyond all maps, over which it would sit for hours."""
+        for value in item:
+            if isinstance(value, float) and not abs(value) * self.placements.mm < FARTHEST_MM:
+                raise NothingThereError(f"#{item.id()} {item.is_a()} has a size of {value:g}")
 
     def _evaluated(self, item: Any) -> Sequence[Shape]:
         for ifc_class, evaluate in self._evaluators.items():
@@ -178,6 +185,7 @@ class Solids:
     def _revolved(self, item: Any) -> list[Shape]:
         if item.is_a("IfcRevolvedAreaSolidTapered"):
             raise UnreadableGeometryError(f"#{item.id()} tapers")
+        check_turn(item, item.Angle * self.curves.radians)
         whole = abs(item.Angle * self.curves.radians) > 2.0 * math.pi - 1e-6
         origin = self.placements.point(item.Axis.Location)
         axis = unit(item.Axis.Axis.DirectionRatios) if item.Axis.Axis else np.array([0.0, 0.0, 1.0])

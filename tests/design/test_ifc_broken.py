@@ -112,6 +112,14 @@ BROKEN: dict[str, Item] = {
     "scaled to nothing": lambda step: scaled(step, "0."),
     "a curve that is a point": lambda step: swept(step, step.point(0.0, 0.0, 0.0)),
     "nothing": lambda step: step.add("IFCEXTRUDEDAREASOLID($,$,$,900.)"),
+    "a turn without end": lambda step: step.add(
+        f"IFCREVOLVEDAREASOLID({circle_profile(step)},{step.axes()},"
+        f"{step.add(f'IFCAXIS1PLACEMENT({step.point(50.0, 0.0, 0.0)},{step.direction(0.0, 1.0, 0.0)})')},1.E12)"
+    ),
+    "an arc without end": lambda step: step.add(
+        f"IFCSURFACECURVESWEPTAREASOLID({circle_profile(step)},{step.axes()},"
+        f"{step.add(f'IFCCIRCLE({step.axes()},50.)')},0.,1.E12,$)"
+    ),
     "a boolean of itself": itself("IFCBOOLEANRESULT(.UNION.,@,%)"),
     "a boolean of its tool": itself("IFCBOOLEANRESULT(.DIFFERENCE.,%,@)"),
     "a tree of itself": itself("IFCCSGSOLID(@)"),
