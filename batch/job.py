@@ -46,7 +46,8 @@ class JobColumn:
 class Job:
     """A job, as its file says it; paths are relative to ``folder``.
 
-    ``checks`` None: what each column's scans allow. ``sha256`` is of the file's bytes.
+    ``checks`` None: what each column's scans allow. ``sha256`` is of the file's bytes. ``lines`` says where columns
+    stand in it, by id.
     """
 
     source: str
@@ -63,3 +64,4 @@ class Job:
     depth_scale_mm: float | None
     columns: tuple[JobColumn, ...]
     capture: dict[str, str] = field(default_factory=dict)
+    lines: dict[str, int] = field(default_factory=dict)

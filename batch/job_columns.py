@@ -55,11 +55,11 @@ def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
         raise table.wrong(None, message)
     return JobColumn(
         id=name,
-        sleeves=table.texts("sleeves", or_one=True),
-        rebars=table.texts("rebars", or_one=True),
-        hoisting=table.texts("hoisting", or_one=True),
-        sleeves_image=table.text("sleeves_image"),
-        rebars_image=table.text("rebars_image"),
+        sleeves=table.paths("sleeves"),
+        rebars=table.paths("rebars"),
+        hoisting=table.paths("hoisting"),
+        sleeves_image=table.path("sleeves_image"),
+        rebars_image=table.path("rebars_image"),
         sleeves_up_deg=up if sleeves_up is None else sleeves_up,
         rebars_up_deg=up if rebars_up is None else rebars_up,
         near=near_corner(table),

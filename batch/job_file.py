@@ -20,7 +20,7 @@ from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
 from .job import Job, JobModel
 from .job_columns import read_columns
 from .job_lines import lines_of
-from .job_table import JobTable
+from .job_table import WINDOWS_PATHS, JobTable
 from .printable import steering_character
 
 LARGEST_JOB_BYTES = 64 * 2**20
@@ -51,6 +51,7 @@ def read_job(path: Path) -> Job:
     _check_schema(top)
     camera, depth_scale_mm = _camera(top)
     model, units = _model(top), top.one_of("units", ("mm", "m"), "mm")
+    columns = read_columns(top, units=units, has_model=model is not None)
     return Job(
         source=str(path),
         folder=path.parent,
@@ -64,8 +65,9 @@ def read_job(path: Path) -> Job:
         model=model,
         camera=camera,
         depth_scale_mm=depth_scale_mm,
-        columns=read_columns(top, units=units, has_model=model is not None),
+        columns=columns,
         capture=_capture(top),
+        lines={column.id: top.line("columns", place, "id") for place, column in enumerate(columns)},
     )
 
 
@@ -97,12 +99,17 @@ def _parsed(content: bytes, source: str) -> JobTable:
         place = re.search(r"\(at line (\d+), column \d+\)", str(error))
         line = int(place[1]) if place else text.count("\n") + 1
         what = re.sub(r"\s*\(at [^)]*\)$", "", str(error))
-        raise JobError(f"{source}, line {line}: this is no TOML: {what}") from error
+        raise JobError(f"{source}, line {line}: this is no TOML: {what}{_about_backslashes(text, line)}") from error
     try:
         lines = lines_of(text)
     except RecursionError as error:
         raise JobError(f"{source}: is nested deeper than any job; write it anew") from error
     return JobTable(values, (), "the job", source, lines)
+
+
+def _about_backslashes(text: str, line: int) -> str:
+    """What to do about a path of Windows in double quotes, in which TOML takes backslashes for signs of its own."""
+    return f"; {WINDOWS_PATHS}" if "\\" in text.split("\n")[line - 1] else ""
 
 
 def _check_keys(text: str, source: str) -> None:
@@ -150,7 +157,7 @@ def _model(top: JobTable) -> JobModel | None:
     table.require("path", 'path = "floor3.ifc", or remove the table where every column has a [columns.design]')
     units = table.one_of("units", ("mm", "cm", "m", "inch", "foot"), "mm")
     columns, sleeves, rebars = (table.text(key) for key in _MODEL[1:4])
-    return JobModel(table.text("path") or "", columns, sleeves, rebars, units)
+    return JobModel(table.path("path") or "", columns, sleeves, rebars, units)
 
 
 def _camera(top: JobTable) -> tuple[Camera | None, float | None]:

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
+from pathlib import Path
 from typing import Any
 
 from aadm_workbench.errors import JobError
 
 from .job_lines import KeyPath
 from .printable import steering_character
+
+WINDOWS_PATHS = "write paths of Windows with / or in single quotes"
+"""Said of backslashes in double quotes, which TOML takes for signs of its own."""
 
 LONGEST_TEXT = 4096
 """Longest path that Linux takes."""
@@ -32,6 +37,13 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     known = tuple(known)
     near = get_close_matches(word, known, n=1, cutoff=0.6)
     return f'did you mean "{near[0]}"?' if near else f"known: {', '.join(known)}"
+
+
+def local_path(name: str, folder: Path) -> str:
+    """A path of a job: backslashes of Windows as slashes where it has none, unless a file is really called so."""
+    if os.sep == "\\" or "\\" not in name or os.path.exists(folder / name):  # noqa: PTH110 - names may be too long
+        return name
+    return name.replace("\\", "/")
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +76,19 @@ class JobTable:
         while path and path not in self.lines:
             path = path[:-1]
         return JobError(f"{self.source}, line {self.lines.get(path, 1)}: {message}")
+
+    def paths(self, key: str) -> tuple[str, ...]:
+        """One path or a list of paths, as this system writes them; empty where the key is absent."""
+        return tuple(local_path(name, Path(self.source).parent) for name in self.texts(key, or_one=True))
+
+    def path(self, key: str) -> str | None:
+        """A path as this system writes it; None where the key is absent."""
+        name = self.text(key)
+        return None if name is None else local_path(name, Path(self.source).parent)
+
+    def line(self, *path: str | int) -> int:
+        """The line that a key inside this table stands in."""
+        return self.lines.get((*self.at, *path), 1)
 
     def allow(self, known: Iterable[str]) -> None:
         """Refuse keys that are not known."""
@@ -181,7 +206,8 @@ class JobTable:
         if len(value) > LONGEST_TEXT:
             raise self.wrong(key, f"{key} has {len(value)} characters, {LONGEST_TEXT} are the most", *index)
         if (sign := steering_character(value)) is not None:
-            raise self.wrong(key, f"{key} holds the control character {sign}; take it out of the name", *index)
+            message = f"{key} holds the control character {sign}; take it out of the name, and {WINDOWS_PATHS}"
+            raise self.wrong(key, message, *index)
 
     def _number(self, key: str, value: Any, *index: int) -> float:
         if not is_finite_number(value):

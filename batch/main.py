@@ -96,6 +96,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         code: int = options.run(options)
     except AadmError as error:
+        if options.debug and error.__cause__ is not None:
+            _show_trace()
         _say(str(error))
         return BAD_USAGE
     except KeyboardInterrupt:
@@ -103,9 +105,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return INTERRUPTED
     except Exception as error:  # noqa: BLE001 - this is the outermost boundary
         if options.debug:
-            import traceback
-
-            traceback.print_exc()
+            _show_trace()
         hint = "" if options.debug else "; repeat the command with --debug to see where it happened"
         _say(f"internal error: {type(error).__name__}: {error}{hint}")
         return INTERNAL
@@ -117,6 +117,12 @@ def _never_fail_on_a_sign() -> None:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
+
+
+def _show_trace() -> None:
+    import traceback
+
+    traceback.print_exc()
 
 
 def _say(message: str) -> None:

@@ -21,7 +21,7 @@ from aadm_workbench.assembly.mould import assess_moulds
 from aadm_workbench.check import CheckSettings
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.errors import DesignError, JobError
-from aadm_workbench.model import ColumnReport, JobReport
+from aadm_workbench.model import ColumnDesign, ColumnReport, JobReport
 
 from .engine import Death, Pool, work_through
 from .inputs import ShippedFile
@@ -34,6 +34,7 @@ from .program import program_key, tool_entry
 from .record import Record
 from .stopwatch import Stopwatch
 from .task import ColumnTask
+from .unforeseen import unforeseen_in
 from .workers_log import WorkersLog
 
 SCRATCH_NAME = ".aadm-workers"
@@ -111,6 +112,9 @@ def run_job(
     with watch.stage("total"):
         model, settings, tasks = plan_tasks(job, options, watch)
         follower.started(len(tasks))
+        if model is not None:
+            for warning in model.warnings:
+                follower.message(f"{model.source}: {warning}")
         _check_all(tasks, options.pool, follower, journal, folder)
         kept = (journal.record(task.column.id) for task in tasks)
         report, seconds, traces = _collected(job, model, settings, kept)
@@ -204,9 +208,56 @@ def plan_tasks(
     """The job's model, the settings, and a task for each chosen column; errors as :func:`run_job`."""
     columns = chosen_columns(job, options.only)
     with watch.stage("model"):
-        model = model_of(job)
+        model, unreadable = _model_for(job, columns)
+    if model is not None:
+        check_named_once(job, model)
     settings = CheckSettings(job.profile, options.method, job.decision, job.checks, job.turns)
-    return model, settings, _tasks(job, columns, model, settings)
+    return model, settings, _tasks(job, columns, model, settings, unreadable)
+
+
+def _model_for(job: Job, columns: Sequence[JobColumn]) -> tuple[ModelDesign | None, str]:
+    """The job's model, and where it cannot be read why: that costs only the columns that are looked up in it.
+
+    Raises
+    ------
+    DesignError
+        Where it cannot be read, and no column brings a design along.
+    """
+    try:
+        return model_of(job), ""
+    except DesignError as error:
+        if not any(column.design is not None for column in columns):
+            raise
+        return None, str(error)
+
+
+def check_named_once(job: Job, model: ModelDesign) -> None:
+    """Refuse a job that names one column of its model twice, by its id and by its GlobalId for instance.
+
+    Raises
+    ------
+    JobError
+        With the lines of both.
+    """
+    first: dict[int, str] = {}
+    for column in job.columns:
+        design = None if column.design is not None else _designed(model, column)
+        if not isinstance(design, ColumnDesign):
+            continue
+        other = first.setdefault(id(design), column.id)
+        if other != column.id:
+            raise JobError(
+                f'{job.source}, line {job.lines.get(column.id, 1)}: "{column.id}" and "{other}" (line '
+                f"{job.lines.get(other, 1)}) are one column of {model.source} ({design.id}); name it once"
+            )
+
+
+def _designed(model: ModelDesign, column: JobColumn) -> ColumnDesign | str:
+    """The design of a column that brings none along; or why the model gives none."""
+    try:
+        return model.column(column.id)
+    except DesignError as error:
+        return str(error)
 
 
 def chosen_columns(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
@@ -236,15 +287,16 @@ def model_of(job: Job) -> ModelDesign | None:
         return None
     path = job.folder / job.model.path
     rules = {"columns": job.model.columns, "sleeves": job.model.sleeves, "rebars": job.model.rebars}
-    model = read_design(path, **rules, units=job.model.units)
+    with unforeseen_in(str(path)):
+        model = read_design(path, **rules, units=job.model.units)
     return replace(model, source=job.model.path)
 
 
 def _tasks(
-    job: Job, columns: Sequence[JobColumn], model: ModelDesign | None, settings: CheckSettings
+    job: Job, columns: Sequence[JobColumn], model: ModelDesign | None, settings: CheckSettings, unreadable: str
 ) -> list[ColumnTask]:
     """A task for each column, each with the designs of the job that are unlike its own."""
-    tasks = [_task(job, column, model, settings) for column in columns]
+    tasks = [_task(job, column, model, settings, unreadable) for column in columns]
     designs = [task.design for task in tasks if task.design is not None]
     patterns = {design_shape(design): design for design in reversed(designs)}
     if len(patterns) < 2:
@@ -257,13 +309,13 @@ def _tasks(
     return found
 
 
-def _task(job: Job, column: JobColumn, model: ModelDesign | None, settings: CheckSettings) -> ColumnTask:
-    design, no_design = column.design, ""
+def _task(
+    job: Job, column: JobColumn, model: ModelDesign | None, settings: CheckSettings, unreadable: str
+) -> ColumnTask:
+    design, no_design = column.design, unreadable
     if design is None and model is not None:
-        try:
-            design = model.column(column.id)
-        except DesignError as error:
-            no_design = str(error)
+        found = _designed(model, column)
+        design, no_design = (found, "") if isinstance(found, ColumnDesign) else (None, found)
     # Workers have another working folder.
     folder = job.folder.absolute()
     return ColumnTask(column, folder, design, settings, job.units, job.camera, job.depth_scale_mm, no_design)

@@ -45,7 +45,7 @@ def from_json(written: Sequence[Mapping[str, Any]]) -> list[Element]:
 
     Raises
     ------
-    KeyError, TypeError, ValueError
+    LookupError, TypeError, ValueError
         Where the values are not such.
     """
     return [
@@ -72,11 +72,11 @@ def _solid(solid: Solid) -> dict[str, Any]:
 def _read_solid(written: Mapping[str, Any]) -> Solid:
     return Solid(
         tubes=tuple(
-            Tube(_array(start), _array(end), outer_mm, (bore_mm[0], bore_mm[1]))
+            Tube(_array(start), _array(end), _size(outer_mm), (_size(bore_mm[0]), _size(bore_mm[1])))
             for start, end, outer_mm, bore_mm in written["tubes"]
         ),
         bars=tuple(
-            Course(tuple(_read_leg(leg) for leg in legs), diameter_mm, bool(hollow), length_mm)
+            Course(tuple(_read_leg(leg) for leg in legs), float(diameter_mm), bool(hollow), _size(length_mm))
             for legs, diameter_mm, hollow, length_mm in written["bars"]
         ),
         edges=tuple(_array(line) for line in written["edges"]),
@@ -94,6 +94,10 @@ def _read_leg(written: Sequence[Any]) -> Leg:
         return Straight(_array(written[0]), _array(written[1]))
     centre, u, v, begin, stop = written
     return Arc(_array(centre), _array(u), _array(v), float(begin), float(stop))
+
+
+def _size(written: Any) -> float | None:
+    return None if written is None else float(written)
 
 
 def _array(written: Any) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
 
@@ -17,9 +18,12 @@ from aadm_workbench.design.ifc_design import design_of, with_ids
 from aadm_workbench.design.ifc_file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc_grid import crossings
 from aadm_workbench.design.ifc_hints import explain
+from aadm_workbench.design.ifc_ids import shared_id_warning, shared_ids, with_shared_ids
+from aadm_workbench.design.ifc_kernel import closing_kernel
 from aadm_workbench.design.ifc_search import FoundFoot, SleeveSearch
 from aadm_workbench.design.ifc_shapes import Shapes, evaluator
 from aadm_workbench.design.ifc_sleeves import MOUTH_TO_FOOT_MM, Candidate, left_out, loose_point, named_candidates
+from aadm_workbench.design.ifc_solids import BROKEN
 from aadm_workbench.design.ifc_under import bars_under
 from aadm_workbench.design.ifc_walls import ends_in_walls
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
@@ -55,30 +59,70 @@ def read_ifc(
     began = perf_counter()
     opened = open_ifc(path)
     shapes = evaluator(opened.mm, opened.radians, coarse=opened.draws_coarsely)
+    # Numbers that overflow are looked at where they come out.
+    with np.errstate(all="ignore"), closing_kernel(shapes.solids.kernel):
+        found = _found(opened, shapes, columns, sleeves, rebars)
+    return replace(found, seconds=perf_counter() - began - opened.seconds, parse_seconds=opened.seconds)
+
+
+def _found(
+    opened: OpenedIfc, shapes: Shapes, columns: str | None, sleeves: str | None, rebars: str | None
+) -> ModelDesign:
+    """What a model holds; elements that are broken are left out one by one."""
     bodies, unreadable = find_columns(opened, shapes, columns)
     named, excluded = named_candidates(opened, shapes, sleeves)
     bars = find_bars(opened, shapes, rebars)
     search = SleeveSearch(opened, shapes, named, selected=sleeves is not None, bodies=bodies, bars=bars)
-    feet, doubles = _one_column_each([(body, search.on(body)) for body in bodies])
+    searched, lost = _searched(shapes, search, bodies)
+    feet, doubles = _one_column_each(searched)
     loose_sleeves, refused = loose_sleeves_of(named, feet)
-    designs, used_bars = _designs(opened, shapes, feet, bars)
+    designs, used_bars, broken = _designs(opened, shapes, feet, bars)
     loose_rebars, inside = loose_rebars_of(bars, used_bars, feet, lambda ends: ends_in_walls(opened, shapes, ends))
-    not_taken = (*unreadable, *doubles, *_bare(feet), *excluded, *refused, *bars.not_taken, *inside)
+    not_taken = (
+        *unreadable,
+        *lost,
+        *broken,
+        *doubles,
+        *_bare(feet, search),
+        *excluded,
+        *refused,
+        *bars.not_taken,
+        *inside,
+    )
+    shared = shared_ids(opened.file)
     return ModelDesign(
         source=opened.source,
         sha256=opened.sha256,
         schema=opened.file.schema_identifier,
-        columns=with_ids(designs),
+        columns=with_ids([with_shared_ids(design, shared) for design in designs]),
         loose_sleeves=loose_sleeves,
         loose_rebars=loose_rebars,
-        warnings=(*opened.warnings, *bars.warnings, *_sleeve_sizes(opened, feet, named), *_problems(shapes)),
+        warnings=(
+            *opened.warnings,
+            *shared_id_warning(shared),
+            *bars.warnings,
+            *_sleeve_sizes(opened, shapes, feet, named),
+            *_problems(shapes),
+        ),
         not_taken=not_taken,
         holdings=ifc_names.holdings(opened.file),
         hint=explain(opened, feet, search, not_taken, len(loose_sleeves), len(loose_rebars)),
         T_model_file=_world(opened, shapes),
-        seconds=perf_counter() - began - opened.seconds,
-        parse_seconds=opened.seconds,
     )
+
+
+def _searched(
+    shapes: Shapes, search: SleeveSearch, bodies: Sequence[ColumnBody]
+) -> tuple[list[tuple[ColumnBody, FoundFoot]], list[NotTaken]]:
+    """Columns with what opens in their feet, and those over which the search broke off."""
+    feet: list[tuple[ColumnBody, FoundFoot]] = []
+    lost: list[NotTaken] = []
+    for body in bodies:
+        with shapes.guarded(body.element):
+            feet.append((body, search.on(body)))
+            continue
+        lost.append(not_a_column(body.element, shapes.undrawn(body.element)))
+    return feet, lost
 
 
 def _one_column_each(
@@ -91,7 +135,7 @@ def _one_column_each(
         claimed = [id(mouth.candidate) for mouth in found.mouths]
         other = next((owners[candidate] for candidate in claimed if candidate in owners), None)
         if other is not None:
-            doubles[id(body)] = f"has sleeves that belong to column {_called(other)}, which stands in the same place"
+            doubles[id(body)] = f"has sleeves that belong to column {other.called}, which stands in the same place"
             continue
         owners.update((candidate, body) for candidate in claimed)
     kept = [(body, found) for body, found in feet if id(body) not in doubles]
@@ -101,33 +145,38 @@ def _one_column_each(
 
 def _designs(
     opened: OpenedIfc, shapes: Shapes, feet: Sequence[tuple[ColumnBody, FoundFoot]], bars: FoundBars
-) -> tuple[list[ColumnDesign], set[int]]:
-    """The designs of all columns with sleeves, and the numbers of the bar ends that they stand on."""
+) -> tuple[list[ColumnDesign], set[int], list[NotTaken]]:
+    """The designs of all columns with sleeves, the numbers of the bar ends under them, and columns that are broken."""
     grid = crossings(opened.file, shapes)
     number = {id(end): k for k, end in enumerate(bars.ends)}
     designs: list[ColumnDesign] = []
     used: set[int] = set()
+    lost: list[NotTaken] = []
     for body, found in feet:
-        if found.mouths:
+        if not found.mouths:
+            continue
+        with shapes.guarded(body.element):
             under = bars_under(body, found.foot, found.mouths, bars)
-            used |= {number[id(end)] for end in under.bars if end is not None}
             designs.append(design_of(body, found, under, grid))
-    return designs, used
+            used |= {number[id(end)] for end in under.bars if end is not None}
+            continue
+        lost.append(not_a_column(body.element, shapes.undrawn(body.element)))
+    return designs, used, lost
 
 
 def loose_sleeves_of(
     named: Sequence[Candidate], feet: Sequence[tuple[ColumnBody, FoundFoot]]
 ) -> tuple[tuple[AssemblyPoint, ...], list[NotTaken]]:
     """Named sleeves that open in no foot face, and those that are none, with the reason."""
-    taken = {mouth.candidate.element.GlobalId for _, found in feet for mouth in found.mouths}
+    taken = {mouth.candidate.element.id() for _, found in feet for mouth in found.mouths}
     reasons = {id(candidate): reason for _, found in feet for candidate, reason in found.refused}
     loose: list[AssemblyPoint] = []
     refused: list[NotTaken] = []
-    left = [candidate for candidate in named if candidate.element.GlobalId not in taken]
+    left = [candidate for candidate in named if candidate.element.id() not in taken]
     middles = [(candidate.tube.start + candidate.tube.end) / 2.0 for candidate in left]
     for candidate, host in zip(left, _hosts(middles, feet), strict=True):
         # Sockets for lifting and bracing are called sleeves too.
-        elsewhere = host and f"is in column {_called(host)} but does not open in its foot face"
+        elsewhere = host and f"is in column {host.called} but does not open in its foot face"
         point = reasons.get(id(candidate)) or elsewhere or loose_point(candidate)
         if isinstance(point, str):
             refused.append(left_out(candidate, point))
@@ -159,7 +208,7 @@ def loose_rebars_of(
     left = [end for number, end in enumerate(bars.ends) if number not in used]
     hosts = _hosts([end.top for end in left], feet)
     reasons = [
-        f"ends inside column {_called(host)}: its own reinforcement" if host and _begins_in(end, host) else ""
+        f"ends inside column {host.called}: its own reinforcement" if host and _begins_in(end, host) else ""
         for end, host in zip(left, hosts, strict=True)
     ]
     outside = [number for number, reason in enumerate(reasons) if not reason]
@@ -182,7 +231,7 @@ def _begins_in(end: BarEnd, host: ColumnBody) -> bool:
 
 
 def _sleeve_sizes(
-    opened: OpenedIfc, feet: Sequence[tuple[ColumnBody, FoundFoot]], named: Sequence[Candidate]
+    opened: OpenedIfc, shapes: Shapes, feet: Sequence[tuple[ColumnBody, FoundFoot]], named: Sequence[Candidate]
 ) -> list[str]:
     """What sizes written on fasteners say against those drawn; of the sleeves of columns and of the loose ones."""
     contradictions = Contradictions(opened)
@@ -191,17 +240,19 @@ def _sleeve_sizes(
         if candidate.element.is_a("IfcMechanicalFastener"):
             tube = candidate.tube
             drawn_mm = [size for size in (*tube.bore_mm, tube.outer_mm) if size is not None]
-            contradictions.compare_sleeve(candidate.element, drawn_mm, tube.length_mm)
+            with shapes.guarded(candidate.element):
+                contradictions.compare_sleeve(candidate.element, drawn_mm, tube.length_mm)
     return contradictions.lines()
 
 
-def _called(body: ColumnBody) -> str:
-    return str(body.element.Tag or body.element.Name or body.element.GlobalId)
+def _bare(feet: Sequence[tuple[ColumnBody, FoundFoot]], search: SleeveSearch) -> list[NotTaken]:
+    return [not_a_column(body.element, _why_bare(body, search)) for body, found in feet if not found.mouths]
 
 
-def _bare(feet: Sequence[tuple[ColumnBody, FoundFoot]]) -> list[NotTaken]:
-    reason = "has no grouting sleeves in its foot face"
-    return [not_a_column(body.element, reason) for body, found in feet if not found.mouths]
+def _why_bare(body: ColumnBody, search: SleeveSearch) -> str:
+    if count := search.on_its_head(body):
+        return f"is drawn on its head: {count} sleeves open in its upper face; turn it over, and export the model again"
+    return "has no grouting sleeves in its foot face"
 
 
 def _problems(shapes: Shapes) -> list[str]:
@@ -214,4 +265,7 @@ def _problems(shapes: Shapes) -> list[str]:
 def _world(opened: OpenedIfc, shapes: Shapes) -> Array:
     contexts = opened.file.by_type("IfcGeometricRepresentationContext", include_subtypes=False)
     model = next((context for context in contexts if context.ContextType == "Model"), None)
-    return shapes.placements.of_context(model)
+    try:
+        return shapes.placements.of_context(model)
+    except BROKEN:
+        return np.eye(4)

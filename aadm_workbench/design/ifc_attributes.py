@@ -10,7 +10,7 @@ from typing import Any
 
 from aadm_workbench.design.bar_sizes import nominal_of_over_ribs
 from aadm_workbench.design.ifc_file import OpenedIfc
-from aadm_workbench.design.ifc_names import properties
+from aadm_workbench.design.ifc_names import properties, text_of
 
 _LENGTHS_MM = {"feet": 304.8, "inches": 25.4, "metres": 1000.0, "centimetres": 10.0, "millimetres": 1.0}
 _AREAS_MM2 = {"cm²": 100.0, "m²": 1e6, "mm²": 1.0, "square inches": 645.16, "square feet": 92903.04}
@@ -149,7 +149,7 @@ def _near(value: float, other: float, within_ratio: float) -> bool:
 def _listed(elements: Sequence[Any]) -> str:
     first = elements[0]
     if len(elements) == 1:
-        called = f' "{name}"' if (name := (first.Name or "").strip()) else ""
+        called = f' "{name}"' if (name := text_of(first.Name)) else ""
         return f"{first.is_a()} {first.GlobalId}{called}"
     shown = ", ".join(element.GlobalId for element in elements[:_SHOWN_ELEMENTS])
     more = f" and {len(elements) - _SHOWN_ELEMENTS} more" if len(elements) > _SHOWN_ELEMENTS else ""

@@ -44,7 +44,7 @@ class BarEnd:
     """An upright end of a bar, in the model frame.
 
     ``top`` (3,) mm is where the axis meets the top, ``axis`` (3,) points up and out of the bar, ``lowest_mm`` is the
-    height of the bar's lowest point. ``wholes`` are the GlobalIds of what the bar is a part of.
+    height of the bar's lowest point. ``wholes`` are the numbers of what the bar is a part of.
     """
 
     global_id: str
@@ -56,7 +56,7 @@ class BarEnd:
     diameter_mm: float
     length_mm: float
     over_ribs_mm: float | None
-    wholes: frozenset[str]
+    wholes: frozenset[int]
     why: str
 
     def point(self, why: str) -> AssemblyPoint:
@@ -97,19 +97,43 @@ def find_bars(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> FoundB
     left: list[NotTaken] = []
     contradictions = Contradictions(opened)
     for element, evidence in _candidates(opened, selector):
-        refused = None if selector else _refused_by_kind(opened, element)
-        bars, drawn = _bars_of(opened, element, shapes)
-        if not bars:
-            left += _without_bars(element, shapes, refused)
-        lengths_mm = [bar.length_mm for bar in bars]
-        for bar in bars:
-            sizes = contradictions.compare_bar(element, bar.diameter_mm, lengths_mm)
-            reason = refused or _not_a_bar(bar)
-            tops = [] if reason else upright_ends(list(bar.legs))
-            ends += [_end(opened, element, f"{evidence}{drawn}", bar, sizes, top) for top in tops]
-            if not tops:
-                left.append(_left_out(element, bar, sizes[0], reason or geometric_reason(list(bar.legs))))
+        with shapes.guarded(element):
+            taken, refused = _ends_of(opened, shapes, element, evidence, selector, contradictions)
+            ends += taken
+            left += refused
+            continue
+        left.append(_undrawn(element, shapes.undrawn(element)))
     return FoundBars(tuple(ends), tuple(left), tuple(contradictions.lines()))
+
+
+def _ends_of(
+    opened: OpenedIfc,
+    shapes: Shapes,
+    element: Any,
+    evidence: str,
+    selector: str | None,
+    contradictions: Contradictions,
+) -> tuple[list[BarEnd], list[NotTaken]]:
+    """The upright ends of the bars of one element, and those of its bars that have none."""
+    ends: list[BarEnd] = []
+    left: list[NotTaken] = []
+    refused = None if selector else _refused_by_kind(opened, element)
+    bars, drawn = _bars_of(opened, element, shapes)
+    if not bars:
+        left.append(_without_bars(element, shapes, refused))
+    lengths_mm = [bar.length_mm for bar in bars]
+    for bar in bars:
+        sizes = contradictions.compare_bar(element, bar.diameter_mm, lengths_mm)
+        reason = refused or _not_a_bar(bar)
+        tops = [] if reason else upright_ends(list(bar.legs))
+        ends += [_end(opened, element, f"{evidence}{drawn}", bar, sizes, top) for top in tops]
+        if not tops:
+            left.append(_left_out(element, bar, sizes[0], reason or geometric_reason(list(bar.legs))))
+    return ends, left
+
+
+def _undrawn(element: Any, reason: str) -> NotTaken:
+    return NotTaken("rebar", element.is_a(), element.GlobalId, ifc_names.text_of(element.Name), reason)
 
 
 def _not_a_bar(bar: Course) -> str | None:
@@ -158,14 +182,14 @@ def _bars_of(opened: OpenedIfc, element: Any, shapes: Shapes) -> tuple[Sequence[
     return [Course(legs, diameter_mm) for legs in lines], ", drawn as its axis alone"
 
 
-def _without_bars(element: Any, shapes: Shapes, refused: str | None) -> Iterable[NotTaken]:
+def _without_bars(element: Any, shapes: Shapes, refused: str | None) -> NotTaken:
     if shapes.axes_of_product(element):
         reason = "is drawn as its axis alone, and neither it nor its type says its diameter"
     elif shapes.of_product(element):
         reason = "is drawn as a body without two round ends: no straight bar"
     else:
-        reason = "has no geometry that could be evaluated"
-    yield NotTaken("rebar", element.is_a(), element.GlobalId, element.Name or "", refused or reason)
+        reason = shapes.undrawn(element)
+    return _undrawn(element, refused or reason)
 
 
 def upright_ends(legs: list[Leg]) -> list[tuple[Array, Array]]:
@@ -204,7 +228,7 @@ def _end(
     said = opened.naming.said(element)
     return BarEnd(
         global_id=element.GlobalId,
-        name=element.Name or "",
+        name=ifc_names.text_of(element.Name),
         ifc_class=element.is_a(),
         top=top[0],
         axis=top[1],
@@ -212,7 +236,7 @@ def _end(
         diameter_mm=sizes[0],
         length_mm=bar.length_mm,
         over_ribs_mm=sizes[1],
-        wholes=frozenset(whole.GlobalId for whole in ifc_names.wholes(element)),
+        wholes=frozenset(whole.id() for whole in ifc_names.wholes(element)),
         why="; ".join([f'{evidence} "{said}"' if said else evidence, *sizes[2]]),
     )
 
@@ -223,7 +247,7 @@ def _left_out(element: Any, bar: Course, diameter_mm: float, reason: str) -> Not
         what="rebar",
         ifc_class=element.is_a(),
         global_id=element.GlobalId,
-        name=element.Name or "",
+        name=ifc_names.text_of(element.Name),
         reason=reason,
         point=points[int(points[:, 2].argmax())],
         diameter_mm=diameter_mm,

@@ -12,7 +12,7 @@ from aadm_workbench.design import ifc_names
 from aadm_workbench.design.ifc_bars import UP
 from aadm_workbench.design.ifc_entity import optional
 from aadm_workbench.design.ifc_file import OpenedIfc
-from aadm_workbench.design.ifc_placement import UnreadableGeometryError, frame
+from aadm_workbench.design.ifc_placement import frame
 from aadm_workbench.design.ifc_shapes import Shapes
 from aadm_workbench.design.model_design import NotTaken
 from aadm_workbench.design.shapes import Prism, Shape, edges
@@ -70,18 +70,19 @@ class ColumnBody:
     """A column of the model before its sleeves are known.
 
     ``drawn`` are the elements that draw its concrete, itself or its parts; ``feet`` has one face, or both ends of a
-    lying column.
+    lying column; ``called`` is what messages call it.
     """
 
     element: Any
     drawn: tuple[Any, ...]
     feet: tuple[Foot, ...]
     wholes: tuple[Any, ...]
+    called: str
 
     @property
-    def own_ids(self) -> frozenset[str]:
-        """GlobalIds of the column and the assemblies that it is a part of."""
-        return frozenset([self.element.GlobalId, *(whole.GlobalId for whole in self.wholes)])
+    def own_ids(self) -> frozenset[int]:
+        """Numbers of the column and the assemblies that it is a part of; a GlobalId may be that of several elements."""
+        return frozenset([self.element.id(), *(whole.id() for whole in self.wholes)])
 
 
 def find_columns(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> tuple[list[ColumnBody], list[NotTaken]]:
@@ -92,19 +93,25 @@ def find_columns(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> tup
     found: list[ColumnBody] = []
     left: list[NotTaken] = []
     for element in _elements(opened, selector):
-        if selector is None and _is_sleeve_or_bar(opened, shapes, element):
-            continue
-        drawn = [element] if shapes.of_product(element) else _concrete_parts(opened, element)
-        body = [shape for part in drawn for shape in shapes.of_product(part)]
-        try:
-            feet = feet_of(shapes.placements.of_product(element), body)
-        except UnreadableGeometryError:
-            feet = ()
-        if feet:
-            found.append(ColumnBody(element, tuple(drawn), feet, tuple(ifc_names.wholes(element))))
+        body = None
+        with shapes.guarded(element):
+            if selector is None and _is_sleeve_or_bar(opened, shapes, element):
+                continue
+            body = _body_of(opened, shapes, element)
+        if body is not None:
+            found.append(body)
         else:
-            left.append(not_a_column(element, "has no geometry that could be evaluated"))
+            left.append(not_a_column(element, shapes.undrawn(element)))
     return found, left
+
+
+def _body_of(opened: OpenedIfc, shapes: Shapes, element: Any) -> ColumnBody | None:
+    drawn = [element] if shapes.of_product(element) else _concrete_parts(opened, element)
+    body = [shape for part in drawn for shape in shapes.of_product(part)]
+    feet = feet_of(shapes.placements.of_product(element), body)
+    if not feet:
+        return None
+    return ColumnBody(element, tuple(drawn), feet, tuple(ifc_names.wholes(element)), ifc_names.called(element))
 
 
 def not_a_column(element: Any, reason: str) -> NotTaken:
@@ -113,18 +120,19 @@ def not_a_column(element: Any, reason: str) -> NotTaken:
         what="column",
         ifc_class=element.is_a(),
         global_id=element.GlobalId,
-        name=element.Name or "",
+        name=ifc_names.text_of(element.Name),
         reason=reason,
         names=names(element),
     )
 
 
 def names(element: Any) -> tuple[str, ...]:
-    """All that a job may call a column by: Tag, PieceMark, Name, GlobalId, its assembly's too."""
-    called: list[str | None] = []
+    """All that a job may call a column by: Tag, Mark, PieceMark, Name, GlobalId, its assembly's too."""
+    called: list[Any] = []
     for holder in (element, *ifc_names.wholes(element)):
-        called += [optional(holder, "Tag"), ifc_names.piece_mark(holder), holder.Name, holder.GlobalId]
-    return tuple(dict.fromkeys(name.strip() for name in called if name and name.strip()))
+        called += [optional(holder, "Tag"), ifc_names.mark(holder), ifc_names.piece_mark(holder)]
+        called += [holder.Name, holder.GlobalId]
+    return tuple(dict.fromkeys(text for name in called if (text := ifc_names.text_of(name))))
 
 
 def _elements(opened: OpenedIfc, selector: str | None) -> Iterator[Any]:
@@ -188,15 +196,29 @@ def feet_of(T_model_element: Array, body: Sequence[Shape]) -> tuple[Foot, ...]:
     corners = edges(body).reshape(-1, 3)
     if not len(corners):
         return ()
+    axis, stands = _column_axis(T_model_element, body, corners)
+    if stands:
+        return (_foot(T_model_element, corners, axis),)
+    # A column drawn lying, as in the mould: its sleeves will tell which end is the foot.
+    return _foot(T_model_element, corners, axis), _foot(T_model_element, corners, -axis)
+
+
+def head_of(T_model_element: Array, body: Sequence[Shape]) -> Foot | None:
+    """The upper end of a standing column as if it were its foot; None of a lying one."""
+    corners = edges(body).reshape(-1, 3)
+    axis, stands = _column_axis(T_model_element, body, corners)
+    return _foot(T_model_element, corners, -axis) if stands else None
+
+
+def _column_axis(T_model_element: Array, body: Sequence[Shape], corners: Array) -> tuple[Array, bool]:
+    """The direction that a column runs along, upwards where it stands, and whether it does."""
     axes = _axes(T_model_element, body)
     reach_mm = [float(np.ptp((corners - corners[0]) @ axis)) for axis in axes]
     upright = [k for k, axis in enumerate(axes) if abs(float(axis @ UP)) > _STANDING_COS]
     if upright and reach_mm[upright[0]] > _STUBBIEST_RATIO * max(reach_mm):
         axis = axes[upright[0]]
-        return (_foot(T_model_element, corners, axis if float(axis @ UP) > 0.0 else -axis),)
-    # A column drawn lying, as in the mould: its sleeves will tell which end is the foot.
-    axis = axes[int(np.argmax(reach_mm))]
-    return _foot(T_model_element, corners, axis), _foot(T_model_element, corners, -axis)
+        return axis if float(axis @ UP) > 0.0 else -axis, True
+    return axes[int(np.argmax(reach_mm))], False
 
 
 def _axes(T_model_element: Array, body: Sequence[Shape]) -> list[Array]:

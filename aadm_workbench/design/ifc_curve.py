@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
-from aadm_workbench.design.ifc_placement import Placements, UnreadableGeometryError, unit
+from aadm_workbench.design.ifc_placement import NothingThereError, Placements, UnreadableGeometryError, unit, within
 from aadm_workbench.design.paths import Arc, Leg, Straight, arc_through, cut, polyline
 from aadm_workbench.model import Array
 
 _FULL_TURN = 2.0 * math.pi
+_MOST_TURNS = 100.0
+"""The spiral of a column's stirrups has some dozens."""
+
+_MOST_LEGS = 20_000
+"""A spiral drawn in small steps has some thousands; curves of curves of curves may have more than can be counted."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,6 +25,7 @@ class Curves:
 
     placements: Placements
     radians: float
+    _begun: set[int] = field(default_factory=set, repr=False)
 
     def legs(self, curve: Any) -> list[Leg]:
         """The legs of a bounded curve, mm, in the curve's own frame.
@@ -37,14 +43,24 @@ class Curves:
             case "IfcIndexedPolyCurve":
                 return self._indexed(curve)
             case "IfcTrimmedCurve":
-                return self._trimmed(curve)
+                with within(self._begun, curve):
+                    return self._trimmed(curve)
             case "IfcCircle" | "IfcEllipse":
                 return [self._conic(curve, 0.0, _FULL_TURN)]
             case "IfcLine":
                 return [self._line(curve, 0.0, 1.0)]
             case "IfcCompositeCurve" | "Ifc2DCompositeCurve" | "IfcBoundaryCurve" | "IfcOuterBoundaryCurve":
-                return [leg for segment in curve.Segments for leg in self._segment(segment)]
+                with within(self._begun, curve):
+                    return self._joined_up(curve)
         raise UnreadableGeometryError(f"#{curve.id()} {curve.is_a()} is not evaluated")
+
+    def _joined_up(self, curve: Any) -> list[Leg]:
+        legs: list[Leg] = []
+        for segment in curve.Segments:
+            legs += self._segment(segment)
+            if len(legs) > _MOST_LEGS:
+                raise NothingThereError(f"#{curve.id()} {curve.is_a()} has more than {_MOST_LEGS} legs")
+        return legs
 
     def swept(self, curve: Any, begin: float | None, stop: float | None) -> list[Leg]:
         """The part of a directrix between two of its parameters, as an IfcSweptDiskSolid takes it."""
@@ -99,6 +115,7 @@ class Curves:
         return Straight(origin + begin * step, origin + stop * step, abs(stop - begin))
 
     def _conic(self, conic: Any, begin: float, stop: float) -> Arc:
+        check_turn(conic, stop - begin)
         T = self.placements.of_axes(conic.Position)
         radii = (conic.Radius, conic.Radius) if conic.is_a("IfcCircle") else (conic.SemiAxis1, conic.SemiAxis2)
         u, v = (self.placements.mm * radius * T[:3, axis] for axis, radius in enumerate(radii))
@@ -150,6 +167,18 @@ class Curves:
 
     def _cartesian(self, trim: Sequence[Any]) -> Array | None:
         return next((self.placements.point(value) for value in trim if value.is_a("IfcCartesianPoint")), None)
+
+
+def check_turn(entity: Any, turn: float) -> None:
+    """Refuse an arc of more turns, in radians, than anything is wound.
+
+    Raises
+    ------
+    NothingThereError
+        Naming the entity.
+    """
+    if not abs(turn) <= _MOST_TURNS * _FULL_TURN:
+        raise NothingThereError(f"#{entity.id()} {entity.is_a()} goes around {abs(turn) / _FULL_TURN:g} times")
 
 
 def _parameter(trim: Sequence[Any]) -> float | None:

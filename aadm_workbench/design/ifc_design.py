@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,9 +17,6 @@ from aadm_workbench.design.ifc_sleeves import Mouth
 from aadm_workbench.design.ifc_under import Under
 from aadm_workbench.design.pattern import label_order
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Kind
-
-_MACHINE_TAG = re.compile(r"\d+|ID[0-9a-f-]{30,}", re.IGNORECASE)
-"""Tags that programs give (Revit's element number, Tekla's GUID) and nobody on site says."""
 
 _PAIR_LIMIT_MM = 3.0
 """Between the centre lines of a bar and its sleeve: GB/T 51231-2016, 10.4."""
@@ -88,7 +84,7 @@ def _off_axis(sleeve: AssemblyPoint, bar: AssemblyPoint) -> Array:
 
 
 def with_ids(columns: Sequence[ColumnDesign]) -> tuple[ColumnDesign, ...]:
-    """Give each column the shortest-lived name that it shares with no other: Tag, PieceMark, Name, else GlobalId.
+    """Give each column the shortest-lived name that it shares with no other: Tag, Mark, PieceMark, Name, else GlobalId.
 
     A Tag that a program made up comes after the others. ``names`` holds them in this order, GlobalId last.
     """
@@ -96,7 +92,7 @@ def with_ids(columns: Sequence[ColumnDesign]) -> tuple[ColumnDesign, ...]:
     named = []
     for column in columns:
         own = [name for name in column.names if owners[name] == 1 and name != column.global_id]
-        spoken = [name for name in own if not _MACHINE_TAG.fullmatch(name)]
+        spoken = [name for name in own if not ifc_names.is_machine_made(name)]
         named.append(replace(column, id=next(iter([*spoken, *own]), column.global_id or "")))
     return tuple(named)
 

@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import hashlib
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from aadm_workbench.design.ifc_archive import model_in_archive
 from aadm_workbench.design.ifc_names import Naming
+from aadm_workbench.design.ifc_step import numbered_once
+from aadm_workbench.design.ifc_text import prepared
 from aadm_workbench.errors import DesignError, MissingDependencyError
 
 _LOG_ERROR = re.compile(r"\[error\]\s*(?:\[[^\]]*\]\s*)*(?P<text>.+)")
 _AT_OFFSET = re.compile(r"\s*at offset (?P<offset>\d+)")
 _COMMENT = re.compile(rb"/\*.*?\*/", re.DOTALL)
-_NOT_ASCII = re.compile(r"[^\x00-\x7f]+")
+_OVERWRITTEN = re.compile(r"Overwriting instance with name #(\d+)")
+_SHOWN = 4
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +44,7 @@ class OpenedIfc:
     def draws_coarsely(self) -> bool:
         """Whether it comes from a program that may draw circles with four sides (FreeCAD, in files in metres)."""
         names = (application.ApplicationFullName for application in self.file.by_type("IfcApplication"))
-        return any("freecad" in (name or "").lower() for name in names)
+        return any("freecad" in name.lower() for name in names if isinstance(name, str))
 
     @cached_property
     def naming(self) -> Naming:
@@ -60,36 +65,74 @@ def open_ifc(path: str | Path) -> OpenedIfc:
     ifcopenshell = _ifcopenshell()
     began = perf_counter()
     path = Path(path)
-    content = _bytes(path)
-    sha256 = hashlib.sha256(content).hexdigest()
+    packed = path.suffix.lower() == ".ifczip"
+    written = _bytes(path)
+    content = model_in_archive(path) if packed else written
     _check_frame(path, content)
-    ifcopenshell.get_log()  # one log for all files: what others left there is not this one's
-    warnings: list[str] = []
-    try:
-        if content.isascii():
-            file = ifcopenshell.open(str(path))
-        else:
-            content, encoding = _escaped(content)
-            warnings.append(f"names are written in raw {encoding}, not as STEP wants it; they were read as {encoding}")
-            file = ifcopenshell.file.from_string(content.decode("ascii"))
-    except (ifcopenshell.Error, OSError, RuntimeError, UnicodeDecodeError) as error:
-        reasons = "; ".join(_complaints(ifcopenshell.get_log(), content)) or str(error)
-        raise DesignError(f"{path} cannot be read as an IFC model: {reasons}. Export it again.") from error
-    complaints = _complaints(ifcopenshell.get_log(), content)
-    if file is None or not file.by_type("IfcProject"):
-        reasons = "; ".join(complaints) or "it holds no IfcProject"
-        raise DesignError(f"{path} cannot be read as an IFC model: {reasons}. Export it again.")
-    warnings += [f"a line was skipped: {complaint}" for complaint in complaints]
+    schemas = ifcopenshell.ifcopenshell_wrapper.schema_names()
+    text = prepared(content, schemas)
+    if text.schema not in schemas:
+        named = f"its header names the schema {text.schema}" if text.schema else "its header names no schema"
+        raise DesignError(f"{path} cannot be read as an IFC model: {named}. Export it as IFC2X3, IFC4 or IFC4X3.")
+    file, warnings = _parsed(path, text.content, is_on_disk=text.content == written)
     return OpenedIfc(
         source=str(path),
-        sha256=sha256,
+        sha256=hashlib.sha256(written).hexdigest(),
         file=file,
         mm=_length_unit_mm(path, file),
-        radians=_angle_unit(file),
-        mm2=_area_unit_mm2(file),
-        warnings=tuple(warnings),
+        radians=_angle_unit(path, file),
+        mm2=_area_unit_mm2(path, file),
+        warnings=(*text.notes, *warnings),
         seconds=perf_counter() - began,
     )
+
+
+def _parsed(path: Path, content: bytes, *, is_on_disk: bool) -> tuple[Any, list[str]]:
+    """The file of ifcopenshell, each number in it that of one entity, and what a person should know of it."""
+    file, log = _read(path, content if not is_on_disk else None)
+    complaints = _complaints(log, content)
+    warnings = [f"a line was skipped: {complaint}" for complaint in complaints]
+    twice = list(dict.fromkeys(int(number) for number in _OVERWRITTEN.findall(log)))
+    if twice:
+        # The parser gives both under one number, and what refers to it gets either.
+        file, _ = _read(path, numbered_once(content))
+        warnings.append(
+            f"{_numbers(twice)} given to several entities: the first of each counts, the others were left out"
+        )
+    if file is None or not _holds_project(file):
+        reasons = "; ".join(complaints) or "it holds no IfcProject"
+        raise DesignError(f"{path} cannot be read as an IFC model: {reasons}. Export it again.")
+    return file, warnings
+
+
+def _read(path: Path, content: bytes | None) -> tuple[Any, str]:
+    """A file from its text, or from the disk where that is None, and the parser's log."""
+    ifcopenshell = _ifcopenshell()
+    ifcopenshell.get_log()  # one log for all files: what others left there is not this one's
+    try:
+        if content is None:
+            file = ifcopenshell.open(str(path))
+        else:
+            file = ifcopenshell.file.from_string(content.decode("ascii"))
+    except (ifcopenshell.Error, OSError, RuntimeError, UnicodeDecodeError) as error:
+        complaints = _complaints(ifcopenshell.get_log(), path.read_bytes() if content is None else content)
+        raise DesignError(
+            f"{path} cannot be read as an IFC model: {'; '.join(complaints) or error}. Export it again."
+        ) from error
+    return file, ifcopenshell.get_log()
+
+
+def _holds_project(file: Any) -> bool:
+    try:
+        return bool(file.by_type("IfcProject"))
+    except RuntimeError:  # the parser gave up at a line before it had a schema
+        return False
+
+
+def _numbers(numbers: Sequence[int]) -> str:
+    shown = ", ".join(f"#{number}" for number in numbers[:_SHOWN])
+    more = f" and {len(numbers) - _SHOWN} more" if len(numbers) > _SHOWN else ""
+    return f"the number{'s' if len(numbers) > 1 else ''} {shown}{more} {'are' if len(numbers) > 1 else 'is'}"
 
 
 def _ifcopenshell() -> Any:
@@ -139,24 +182,6 @@ def _check_frame(path: Path, content: bytes) -> None:
         raise DesignError(f"{path} is cut short: line {lines} is its last, without END-ISO-10303-21. Copy it again.")
 
 
-def _escaped(content: bytes) -> tuple[bytes, str]:
-    """The same file with names in raw UTF-8, Chinese or Japanese encoding written as STEP wants them.
-
-    ifcopenshell drops such bytes; several Chinese programs write them.
-    """
-    for encoding in ("utf-8", "gb18030", "shift_jis", "latin-1"):
-        try:
-            text = content.decode(encoding)
-        except UnicodeDecodeError:
-            continue
-        return _NOT_ASCII.sub(_escape, text.lstrip("\ufeff")).encode("ascii"), encoding
-    raise AssertionError("latin-1 decodes everything")
-
-
-def _escape(found: re.Match[str]) -> str:
-    return "\\X2\\" + found.group().encode("utf-16-be").hex().upper() + "\\X0\\"
-
-
 def _complaints(log: str, content: bytes) -> list[str]:
     """What the parser had to say, with the line instead of the offset."""
     complaints = []
@@ -174,22 +199,47 @@ def _complaints(log: str, content: bytes) -> list[str]:
 
 
 def _length_unit_mm(path: Path, file: Any) -> float:
-    from ifcopenshell.util.unit import calculate_unit_scale, get_project_unit
-
-    if get_project_unit(file, "LENGTHUNIT") is None:
+    scale = _unit(path, file, "LENGTHUNIT", "length")
+    if scale is None:
         raise DesignError(f"{path} declares no unit of length (IfcUnitAssignment): export it again with units.")
-    return 1000.0 * float(calculate_unit_scale(file))
+    return 1000.0 * scale
 
 
-def _angle_unit(file: Any) -> float:
-    from ifcopenshell.util.unit import calculate_unit_scale
-
-    return float(calculate_unit_scale(file, "PLANEANGLEUNIT"))
-
-
-def _area_unit_mm2(file: Any) -> float | None:
+def _unit(path: Path, file: Any, kind: str, called: str) -> float | None:
+    """A unit of the file in SI units; None where it declares none."""
     from ifcopenshell.util.unit import calculate_unit_scale, get_project_unit
 
-    if get_project_unit(file, "AREAUNIT") is None:
-        return None
-    return 1e6 * float(calculate_unit_scale(file, "AREAUNIT"))
+    try:
+        unit = get_project_unit(file, kind)
+        if unit is None:
+            return None
+        _check_chain(unit)
+        scale = float(calculate_unit_scale(file, kind))
+    except (AttributeError, TypeError, ValueError, LookupError, ArithmeticError, RuntimeError) as error:
+        raise DesignError(f"{path} declares a unit of {called} that makes no sense: export it again.") from error
+    if not _SMALLEST_UNIT < scale < _LARGEST_UNIT:
+        raise DesignError(f"{path} declares a unit of {called} of {scale:g} SI units: export it again.")
+    return scale
+
+
+def _check_chain(unit: Any) -> None:
+    """Refuse a unit that is defined by itself: who follows that comes to no end."""
+    passed: set[int] = set()
+    while unit.is_a("IfcConversionBasedUnit"):
+        if unit.id() in passed:
+            raise ValueError("a unit is defined by itself")
+        passed.add(unit.id())
+        unit = unit.ConversionFactor.UnitComponent
+
+
+_SMALLEST_UNIT, _LARGEST_UNIT = 1e-12, 1e9
+"""Square micrometres and square kilometres, with room: programs write no smaller and no larger units."""
+
+
+def _angle_unit(path: Path, file: Any) -> float:
+    return _unit(path, file, "PLANEANGLEUNIT", "angle") or 1.0
+
+
+def _area_unit_mm2(path: Path, file: Any) -> float | None:
+    scale = _unit(path, file, "AREAUNIT", "area")
+    return None if scale is None else 1e6 * scale

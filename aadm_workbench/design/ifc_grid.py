@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.design.ifc_placement import UnreadableGeometryError
+from aadm_workbench.design.ifc_names import text_of
 from aadm_workbench.design.ifc_shapes import Shapes
+from aadm_workbench.design.ifc_solids import BROKEN
 from aadm_workbench.design.paths import Straight, joined
 from aadm_workbench.model import Array
 
@@ -44,7 +45,7 @@ def crossings(file: Any, shapes: Shapes) -> list[Crossing]:
         try:
             T = shapes.placements.of_product(grid)
             families = [_axes(axes or (), T, shapes) for axes in (grid.UAxes, grid.VAxes, grid.WAxes)]
-        except UnreadableGeometryError as error:
+        except BROKEN as error:
             shapes.problems.append(f"IfcGrid {grid.GlobalId} was left out: {error}")
             continue
         for first, second in combinations(families, 2):
@@ -67,7 +68,7 @@ def _axes(axes: Sequence[Any], T_model_grid: Array, shapes: Shapes) -> list[Axis
         legs = joined(leg.moved(T_model_grid) for leg in shapes.curves.legs(axis.AxisCurve))
         if len(legs) == 1 and isinstance(legs[0], Straight):
             along = (legs[0].end - legs[0].start)[:2]
-            found.append(Axis(axis.AxisTag or "", legs[0].start[:2], along / np.linalg.norm(along)))
+            found.append(Axis(text_of(axis.AxisTag), legs[0].start[:2], along / np.linalg.norm(along)))
     return found
 
 

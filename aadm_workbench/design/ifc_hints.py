@@ -8,12 +8,14 @@ from collections.abc import Sequence
 
 from aadm_workbench.design.ifc_columns import ColumnBody
 from aadm_workbench.design.ifc_file import OpenedIfc
+from aadm_workbench.design.ifc_names import text_of
 from aadm_workbench.design.ifc_search import FoundFoot, SleeveSearch
 from aadm_workbench.design.ifc_sleeves import Candidate
 from aadm_workbench.design.model_design import NotTaken
 
 _SHOWN = 4
 _RUNNING_NUMBER = re.compile(r"[\s:#_.([-]*\d+[)\]]?$")
+_NUMBER = re.compile(r"#\d+ ")
 _MAY_BE_COLUMNS = ("IfcBuildingElementProxy", "IfcMember", "IfcBeam", "IfcPile", "IfcBuildingElementPart")
 
 
@@ -30,13 +32,19 @@ def explain(
         return ""
     if not feet:
         return " ".join([_no_columns(opened, left), _lying_about(loose_sleeves, loose_rebars)]).strip()
-    called = sorted({str(body.element.Tag or body.element.Name or body.element.GlobalId) for body, _ in feet})
+    called = sorted({body.called for body, _ in feet})
     more = f" and {len(called) - _SHOWN} more" if len(called) > _SHOWN else ""
     number = f"{len(feet)} column{'s were' if len(feet) > 1 else ' was'}"
     looked = f"{number} looked at ({', '.join(called[:_SHOWN])}{more}); no grouting sleeve opens in a foot face."
-    return " ".join(
-        text for text in (looked, _in_feet(feet, search), _lying_about(loose_sleeves, loose_rebars)) if text
-    )
+    on_head = [entry for entry in left if entry.what == "column" and "on its head" in entry.reason]
+    why = _on_head(on_head) if on_head else _in_feet(feet, search, left)
+    return " ".join(text for text in (looked, why, _lying_about(loose_sleeves, loose_rebars)) if text)
+
+
+def _on_head(left: Sequence[NotTaken]) -> str:
+    called = [entry.names[0] if entry.names else entry.global_id for entry in left]
+    more = f" and {len(called) - _SHOWN} more" if len(called) > _SHOWN else ""
+    return f"Column {', '.join(called[:_SHOWN])}{more} {left[0].reason}."
 
 
 def _no_columns(opened: OpenedIfc, left: Sequence[NotTaken]) -> str:
@@ -44,7 +52,7 @@ def _no_columns(opened: OpenedIfc, left: Sequence[NotTaken]) -> str:
         return "Its columns have no geometry that could be evaluated: export it with bodies, not as a reference only."
     names: Counter[tuple[str, str]] = Counter()
     for ifc_class in _MAY_BE_COLUMNS:
-        names.update((e.is_a(), _kind(e.Name or "")) for e in opened.file.by_type(ifc_class))
+        names.update((e.is_a(), _kind(text_of(e.Name))) for e in opened.file.by_type(ifc_class))
     says = "There is no IfcColumn in it, and nothing called a column."
     if not names:
         return says
@@ -55,19 +63,22 @@ def _no_columns(opened: OpenedIfc, left: Sequence[NotTaken]) -> str:
     )
 
 
-def _in_feet(feet: Sequence[tuple[ColumnBody, FoundFoot]], search: SleeveSearch) -> str:
+def _in_feet(feet: Sequence[tuple[ColumnBody, FoundFoot]], search: SleeveSearch, left: Sequence[NotTaken]) -> str:
     """What is round and lies in the feet without being a sleeve."""
     seen: dict[int, tuple[Candidate, str]] = {}
     for body, found in feet:
         for candidate, reason in (*found.refused, *search.refused_in(body, found.foot)):
             seen.setdefault(id(candidate), (candidate, reason))
+    if not seen and (undrawn := [entry for entry in left if entry.what == "sleeve" and entry.point is None]):
+        reasons = Counter(f"{entry.ifc_class}: each {_NUMBER.sub('', entry.reason)}" for entry in undrawn)
+        return "Left out were " + "; ".join(f"{count} {why}" for why, count in reasons.most_common(_SHOWN)) + "."
     if not seen:
         return (
             "Nothing round lies in their feet: the export may leave out what is cast in (embedded parts, "
             "reinforcement, openings). Sleeves elsewhere, or drawn in another way, are named with "
             f"{_selector('sleeves', 'IfcDiscreteAccessory', '套筒')}."
         )
-    groups = Counter((c.element.is_a(), _kind(c.element.Name or ""), reason) for c, reason in seen.values())
+    groups = Counter((c.element.is_a(), _kind(text_of(c.element.Name)), reason) for c, reason in seen.values())
     ranked = groups.most_common(_SHOWN)
     shown = "; ".join(f"{count} {cls} called {name!r}: each {reason}" for (cls, name, reason), count in ranked)
     (ifc_class, name, _), _ = ranked[0]

@@ -18,6 +18,14 @@ _PIECE_MARK = frozenset(
     {"piecemark", "piece mark", "assembly/cast unit mark", "cast unit mark", "castunitmark", "构件编号", "構件編號"}
 )
 
+_MARK = frozenset({"mark", "标记", "標記", "マーク", "kennzeichen"})
+"""Revit's own mark of an instance, as its languages export it; its Tag is the number of the element."""
+
+_MACHINE_MADE = re.compile(
+    r"\d+|ID[0-9a-f-]{30,}|[{(]?[0-9a-f]{8}(-?[0-9a-f]{4}){3}-?[0-9a-f]{12}[)}]?|[0-3][0-9a-z_$]{21}", re.IGNORECASE
+)
+"""Tags that programs give (Revit's element number, Tekla's and ArchiCAD's GUID) and nobody on site says."""
+
 _SAID = (2, 4, 3)
 """Places of Name, ObjectType and Description among the attributes of an object; by name they take thrice as long."""
 
@@ -36,8 +44,9 @@ class Naming:
         """The type of each occurrence, by the occurrence's number."""
         found: dict[int, Any] = {}
         for relation in self.file.by_type("IfcRelDefinesByType"):
-            of_type = relation.RelatingType
-            found.update((element.id(), of_type) for element in relation.RelatedObjects)
+            of_type, elements = relation.RelatingType, relation.RelatedObjects
+            if isinstance(elements, tuple) and _is_entity(of_type) and of_type.is_a("IfcTypeObject"):
+                found.update((element.id(), of_type) for element in elements if _is_entity(element))
         return found
 
     def type_of(self, element: Any) -> Any:
@@ -54,13 +63,13 @@ class Naming:
                 told.append(element[_TAG])
             if of_type is not None:
                 told += self._texts_of_type(of_type)
-            self._texts[number] = tuple(dict.fromkeys(text.strip() for text in told if text and not text.isspace()))
+            self._texts[number] = tuple(dict.fromkeys(text for told_text in told if (text := text_of(told_text))))
         return self._texts[number]
 
     def _texts_of_type(self, of_type: Any) -> tuple[str, ...]:
         if of_type.id() not in self._texts:
             told = (of_type.Name, optional(of_type, "ElementType"), of_type.Description)
-            self._texts[of_type.id()] = tuple(text for text in told if text)
+            self._texts[of_type.id()] = tuple(text for text in told if isinstance(text, str) and text)
         return self._texts[of_type.id()]
 
     def said(self, element: Any) -> str:
@@ -75,7 +84,7 @@ class Naming:
         """Elements of which a property says what the pattern looks for: by number, with that property's text."""
         found: dict[int, str] = {}
         for single in self.file.by_type("IfcPropertySingleValue"):
-            text = None if single.NominalValue is None else single.NominalValue.wrappedValue
+            text = getattr(single.NominalValue, "wrappedValue", None)
             if isinstance(text, str) and find(pattern, text):
                 for element in self._owners(single):
                     found.setdefault(element.id(), text)
@@ -85,7 +94,7 @@ class Naming:
         for group in self.file.get_inverse(single):
             for holder in self.file.get_inverse(group):
                 if holder.is_a("IfcRelDefinesByProperties"):
-                    yield from holder.RelatedObjects
+                    yield from (element for element in holder.RelatedObjects or () if _is_entity(element))
                 elif holder.is_a("IfcTypeObject"):
                     yield from (self.file.by_id(number) for number, kind in self._types.items() if kind == holder)
 
@@ -106,12 +115,30 @@ class Naming:
         return None
 
 
+def text_of(value: Any) -> str:
+    """A name without the blanks around it; empty where there is none, or something else stands in its place."""
+    return value.strip() if isinstance(value, str) else ""
+
+
+def _is_entity(value: Any) -> bool:
+    return hasattr(value, "is_a")
+
+
 def properties(element: Any) -> Iterator[tuple[str, Any]]:
     """Names and values of all properties of an element and its type."""
+    for group in _groups(element).values():
+        yield from ((name, value) for name, value in group.items() if name != "id" and isinstance(name, str))
+
+
+def _groups(element: Any, **how: bool) -> dict[str, dict[str, Any]]:
+    """Property sets by name; none where one of them is broken."""
     from ifcopenshell.util.element import get_psets
 
-    for group in get_psets(element).values():
-        yield from ((name, value) for name, value in group.items() if name != "id")
+    try:
+        found: dict[str, dict[str, Any]] = get_psets(element, **how)
+    except (AttributeError, TypeError, ValueError, LookupError, RuntimeError):
+        return {}
+    return found
 
 
 def piece_mark(element: Any) -> str | None:
@@ -120,12 +147,33 @@ def piece_mark(element: Any) -> str | None:
     return next(marks, None)
 
 
+def mark(element: Any) -> str | None:
+    """What people call this one element in a property of its own, where their program gives them no Tag for it."""
+    groups = _groups(element, psets_only=True, should_inherit=False).values()
+    named = (value for group in groups for name, value in group.items() if text_of(name).lower() in _MARK)
+    return next((str(value) for value in named if isinstance(value, str | int) and str(value).strip()), None)
+
+
+def is_machine_made(name: str) -> bool:
+    """Whether a program made a name up, so that nobody says it."""
+    return _MACHINE_MADE.fullmatch(name.strip()) is not None
+
+
+def called(element: Any) -> str:
+    """What a person calls an element, in a message: its Tag, unless a program made that up, else its Name."""
+    told = (text for name in (optional(element, "Tag"), mark(element), element.Name) if (text := text_of(name)))
+    return str(next((name for name in told if not is_machine_made(name)), element.GlobalId))
+
+
 def storey_name(element: Any) -> str | None:
     """Name of the storey that holds an element, or the assembly that it is a part of."""
     from ifcopenshell.util.element import get_container
 
-    storey = get_container(element, ifc_class="IfcBuildingStorey")
-    return None if storey is None else storey.Name or storey.LongName
+    try:
+        storey = get_container(element, ifc_class="IfcBuildingStorey")
+    except (RecursionError, AttributeError, TypeError):  # wholes that are parts of each other
+        return None
+    return None if storey is None else text_of(storey.Name) or text_of(storey.LongName) or None
 
 
 def wholes(element: Any) -> list[Any]:
@@ -134,18 +182,26 @@ def wholes(element: Any) -> list[Any]:
 
     found: list[Any] = []
     whole: Any = get_aggregate(element)
-    while whole is not None and whole.is_a("IfcElement") and whole not in found:
+    while whole is not None and whole.is_a("IfcElement") and whole not in found and whole != element:
         found.append(whole)
         whole = get_aggregate(whole)
     return found
 
 
 def parts(element: Any) -> list[Any]:
-    """All parts that an element is made of, of their parts too."""
+    """All parts that an element is made of, of their parts too; itself is none of them."""
     found: list[Any] = []
-    for relation in element.IsDecomposedBy:
-        for part in relation.RelatedObjects:
-            found += [part, *parts(part)]
+    seen, left = {element.id()}, [element]
+    while left:
+        own = [
+            part
+            for relation in left.pop(0).IsDecomposedBy
+            for part in relation.RelatedObjects or ()
+            if part.id() not in seen
+        ]
+        seen.update(part.id() for part in own)
+        found += own
+        left += own
     return found
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,11 +12,38 @@ import numpy as np
 
 from aadm_workbench.design.ifc_entity import optional
 from aadm_workbench.design.ifc_representation import body_of
+from aadm_workbench.design.sound import FARTHEST_MM
 from aadm_workbench.model import Array
+
+_LARGEST_SCALE = 1e9
+"""Millimetres drawn as kilometres and again as much; what is scaled by more is no drawing."""
 
 
 class UnreadableGeometryError(ValueError):
     """A piece of geometry that is broken, or of a kind that is not evaluated here."""
+
+
+class NothingThereError(UnreadableGeometryError):
+    """A piece of geometry that no kernel makes anything of: it has no extent, lies nowhere, or is a part of itself."""
+
+
+@contextmanager
+def within(begun: set[int], entity: Any) -> Iterator[None]:
+    """While an entity is evaluated it may not be met again.
+
+    Raises
+    ------
+    NothingThereError
+        Where it is: it is a part of itself.
+    """
+    number = entity.id()
+    if number in begun:
+        raise NothingThereError(f"#{number} {entity.is_a()} is a part of itself")
+    begun.add(number)
+    try:
+        yield
+    finally:
+        begun.discard(number)
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +56,7 @@ class Placements:
 
     mm: float
     _known: dict[int, Array] = field(default_factory=dict, repr=False)
+    _begun: set[int] = field(default_factory=set, repr=False)
 
     def of_product(self, product: Any, context: Any = None) -> Array:
         """``T_model_product``: the product's own frame in the model, world coordinate system included.
@@ -43,9 +73,12 @@ class Placements:
         if context is None:
             return np.eye(4)
         if context.id() not in self._known:
-            whole = context
+            whole, passed = context, {context.id()}
             while whole.is_a("IfcGeometricRepresentationSubContext"):
                 whole = whole.ParentContext
+                if whole is None or whole.id() in passed:
+                    raise UnreadableGeometryError(f"context #{context.id()} is a part of itself or of none")
+                passed.add(whole.id())
             self._known[context.id()] = self.of_axes(optional(whole, "WorldCoordinateSystem"))
         return self._known[context.id()]
 
@@ -55,14 +88,19 @@ class Placements:
         Raises
         ------
         UnreadableGeometryError
-            Where placements are relative to each other in a circle, or on a grid.
+            Where placements are relative to each other in a circle, or on a grid of curves.
         """
         chain: list[Any] = []
+        passed: set[int] = set()
         while placement is not None and placement.id() not in self._known:
+            if placement.is_a("IfcGridPlacement"):
+                self._known[placement.id()] = self._on_grid(placement)
+                break
             if _axes_of(placement) is None:
                 raise UnreadableGeometryError(f"#{placement.id()} {placement.is_a()} is not evaluated")
-            if any(placement.id() == link.id() for link in chain):
+            if placement.id() in passed:
                 raise UnreadableGeometryError(f"placement #{placement.id()} is relative to itself")
+            passed.add(placement.id())
             chain.append(placement)
             placement = optional(placement, "PlacementRelTo")
         T = np.eye(4) if placement is None else self._known[placement.id()]
@@ -70,6 +108,12 @@ class Placements:
             T = T @ self.of_axes(_axes_of(link))
             self._known[link.id()] = T
         return T
+
+    def _on_grid(self, placement: Any) -> Array:
+        from aadm_workbench.design.ifc_grid_placement import grid_frame  # axes are curves, which need placements
+
+        with within(self._begun, placement):
+            return grid_frame(self, placement)
 
     def of_axes(self, axes: Any) -> Array:
         """An IfcAxis2Placement3D or 2D, or an IfcAxis1Placement; None is the identity."""
@@ -90,6 +134,8 @@ class Placements:
         if scales != [None, None, None]:
             first = 1.0 if scales[0] is None else float(scales[0])
             T[:3, :3] *= [first if scale is None else float(scale) for scale in scales]
+            if not 0.0 < abs(float(np.linalg.det(T[:3, :3]))) < _LARGEST_SCALE**3:
+                raise UnreadableGeometryError(f"#{operator.id()} scales by {first:g}")
         return T
 
     def of_map(self, source: Any) -> Array:
@@ -106,7 +152,10 @@ class Placements:
         """Two or three coordinates of the file as (3,) mm."""
         xyz = np.zeros(3)
         xyz[: len(values)] = values
-        return self.mm * xyz
+        xyz *= self.mm
+        if not max(map(abs, xyz.tolist())) < FARTHEST_MM:
+            raise NothingThereError(f"a point lies {max(map(abs, values)):g} away, beyond all maps")
+        return xyz
 
 
 def _axes_of(placement: Any) -> Any:
@@ -153,6 +202,6 @@ def unit(values: Any) -> Array:
     vector = np.zeros(3)
     vector[: len(values)] = values
     length = math.sqrt(float(vector @ vector))
-    if length == 0.0:
+    if not 0.0 < length < math.inf:
         raise UnreadableGeometryError("a direction has no length")
     return vector / length

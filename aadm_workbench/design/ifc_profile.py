@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from aadm_workbench.design.circles import Circle, circle_through
 from aadm_workbench.design.ifc_curve import Curves
-from aadm_workbench.design.ifc_placement import Placements, UnreadableGeometryError
+from aadm_workbench.design.ifc_placement import Placements, UnreadableGeometryError, within
 from aadm_workbench.design.paths import outline
 from aadm_workbench.design.shapes import Loop
 from aadm_workbench.model import Array
@@ -35,6 +35,7 @@ class Profiles:
 
     placements: Placements
     curves: Curves
+    _begun: set[int] = field(default_factory=set, repr=False)
 
     def areas(self, profile: Any) -> list[Area]:
         """The areas of a profile; several for a composite one.
@@ -47,9 +48,11 @@ class Profiles:
         if profile.is_a("IfcArbitraryClosedProfileDef"):
             return [self._arbitrary(profile)]
         if profile.is_a("IfcCompositeProfileDef"):
-            return [area for part in profile.Profiles for area in self.areas(part)]
+            with within(self._begun, profile):
+                return [area for part in profile.Profiles for area in self.areas(part)]
         if profile.is_a("IfcDerivedProfileDef"):
-            return [area.moved(self._operator(profile)) for area in self.areas(profile.ParentProfile)]
+            with within(self._begun, profile):
+                return [area.moved(self._operator(profile)) for area in self.areas(profile.ParentProfile)]
         if profile.is_a("IfcParameterizedProfileDef"):
             T = self.placements.of_axes(profile.Position)
             return [self._parameterized(profile).moved(T)]

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from aadm_workbench.design.ifc_bars import BarEnd, FoundBars
-from aadm_workbench.design.ifc_columns import ColumnBody, Foot
+from aadm_workbench.design.ifc_columns import ColumnBody, Foot, head_of
 from aadm_workbench.design.ifc_file import OpenedIfc
 from aadm_workbench.design.ifc_shapes import Shapes
 from aadm_workbench.design.ifc_sleeves import (
@@ -88,6 +88,16 @@ class SleeveSearch:
     def on(self, body: ColumnBody) -> FoundFoot:
         """The foot face of a column with its sleeves: of a lying column's two ends, the one with more."""
         return max((self._on_foot(body, foot) for foot in body.feet), key=lambda found: len(found.mouths))
+
+    def on_its_head(self, body: ColumnBody) -> int:
+        """How many sleeves open in the upper face of a standing column instead of in its foot."""
+        shapes = [shape for part in body.drawn for shape in self.shapes.of_product(part)]
+        head = head_of(self.shapes.placements.of_product(body.element), shapes)
+        if head is None:
+            return 0
+        named = self._near(head, self.named, self._named_middles)
+        own = () if self.selected else own_candidates(self.opened, body, self.shapes)
+        return len(sleeves_in(head, named, own).mouths)
 
     def _on_foot(self, body: ColumnBody, foot: Foot) -> FoundFoot:
         named = self._near(foot, self.named, self._named_middles)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+from itertools import islice
 from typing import Any, TypeVar
 
 import numpy as np
@@ -11,7 +13,7 @@ import numpy as np
 from aadm_workbench.design.bar_courses import Course, courses, whole_bars
 from aadm_workbench.design.ifc_curve import Curves
 from aadm_workbench.design.ifc_entity import optional
-from aadm_workbench.design.ifc_placement import Placements
+from aadm_workbench.design.ifc_placement import NothingThereError, Placements
 from aadm_workbench.design.ifc_profile import Profiles
 from aadm_workbench.design.ifc_representation import axis_items, body_of
 from aadm_workbench.design.ifc_solids import BROKEN, Solids
@@ -23,6 +25,9 @@ from aadm_workbench.model import Array
 Part = TypeVar("Part")
 
 _FEWEST_SIDES = 4
+_MOST_ITEMS = 100_000
+"""Pieces of one element; a cage of reinforcement has some thousands."""
+
 _SAME_MM = 1e-4
 """Vertices that differ by less are drawn alike."""
 
@@ -31,13 +36,15 @@ _SAME_MM = 1e-4
 class Shapes:
     """Evaluates the shapes of products and keeps those that are drawn many times.
 
-    ``problems`` collects what could not be evaluated, one line for each kind. ``coarse`` where the file comes from a
-    program that draws circles with four sides.
+    ``problems`` collects what could not be evaluated, one line for each kind; ``reasons`` says by the number of a
+    product why nothing, or not all, is drawn of it. ``coarse`` where the file comes from a program that draws circles
+    with four sides.
     """
 
     solids: Solids
     coarse: bool = False
     problems: list[str] = field(default_factory=list)
+    reasons: dict[int, str] = field(default_factory=dict)
     _coarse_tubes: dict[int, tuple[Tube, ...]] = field(default_factory=dict, repr=False)
     _tubes: dict[int, tuple[Tube, ...]] = field(default_factory=dict, repr=False)
     _congruent: dict[tuple[str, bytes, bytes, bytes], Any] = field(default_factory=dict, repr=False)
@@ -55,7 +62,13 @@ class Shapes:
 
     def of_product(self, product: Any) -> tuple[Shape, ...]:
         """The bodies of a product, mm, in the model frame; none where it has none or they are broken."""
-        return tuple(shape.moved(T) for item, T in self._items(product) for shape in self._shapes(product, item))
+        found: list[Shape] = []
+        for item, T in self._items(product):
+            try:
+                found += [shape.moved(T) for shape in self._shapes(product, item)]
+            except BROKEN as error:
+                self._note(product, error)
+        return tuple(found)
 
     def tubes_of_product(
         self, product: Any, *, coarse: bool = False, near: Callable[[Array], bool] | None = None
@@ -100,10 +113,14 @@ class Shapes:
             anchor = None if near is None else self.solids.anchor(item)
             if anchor is not None and near is not None and not near(T[:3, :3] @ anchor + T[:3, 3]):
                 continue
-            if item.id() not in known:
-                shapes = self._shapes(product, item)
-                known[item.id()] = tuple(part for s in shapes for part in self._parts_of(s, recognise, move))
-            found += [move(part, T) for part in known[item.id()]]
+            try:
+                if item.id() not in known:
+                    shapes = self._shapes(product, item)
+                    known[item.id()] = tuple(part for s in shapes for part in self._parts_of(s, recognise, move))
+                found += [move(part, T) for part in known[item.id()]]
+            except BROKEN as error:
+                known[item.id()] = ()
+                self._note(product, error)
         return tuple(found)
 
     def _parts_of(
@@ -127,16 +144,22 @@ class Shapes:
         """The items of a product's body, each with the motion that places it in the model; mapped ones resolved."""
         try:
             context, items = body_of(product)
-            return list(self._leaves(items, self.placements.of_product(product, context)))
+            leaves = self._leaves(items, self.placements.of_product(product, context))
+            found = list(islice(leaves, _MOST_ITEMS))
+            if next(leaves, None) is not None:
+                raise NothingThereError(f"it is drawn in more than {_MOST_ITEMS} pieces")
+            return found
         except BROKEN as error:
             self._note(product, error)
             return []
 
-    def _leaves(self, items: Iterable[Any], T: Array) -> Iterator[tuple[Any, Array]]:
+    def _leaves(self, items: Iterable[Any], T: Array, within: tuple[int, ...] = ()) -> Iterator[tuple[Any, Array]]:
         for item in items:
             if item.is_a("IfcMappedItem"):
                 source = optional(optional(item, "MappingSource"), "MappedRepresentation")
-                yield from self._leaves(optional(source, "Items"), T @ self._mapping(item))
+                if source.id() in within:
+                    raise NothingThereError(f"#{item.id()} IfcMappedItem is a part of itself")
+                yield from self._leaves(optional(source, "Items"), T @ self._mapping(item), (*within, source.id()))
             else:
                 yield item, T
 
@@ -152,8 +175,23 @@ class Shapes:
             self._note(product, error)
             return ()
 
+    @contextmanager
+    def guarded(self, product: Any) -> Iterator[None]:
+        """Leave a product out where something of it, or related to it, is broken; the rest of the model is read."""
+        try:
+            yield
+        except BROKEN as error:
+            self._note(product, error)
+
+    def undrawn(self, product: Any) -> str:
+        """Why nothing is drawn of a product, for the list of what was left out."""
+        reason = self.reasons.get(product.id())
+        return f"has no geometry that could be evaluated{f' ({reason})' if reason else ''}"
+
     def _note(self, product: Any, error: Exception) -> None:
-        self.problems.append(f"{product.is_a()} {product.GlobalId}: its geometry was left out: {error}")
+        said = str(error) or type(error).__name__
+        self.reasons.setdefault(product.id(), said)
+        self.problems.append(f"{product.is_a()} {product.GlobalId}: its geometry was left out: {said}")
 
 
 def _coarse_tubes(shape: Shape) -> list[Tube]:

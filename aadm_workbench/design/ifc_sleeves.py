@@ -111,30 +111,43 @@ def _by_name(opened: OpenedIfc, shapes: Shapes) -> tuple[list[Candidate], list[N
     left: list[NotTaken] = []
     couplers = frozenset(element.id() for element in _couplers(opened))
     for element in opened.file.by_type("IfcElement"):
-        word = opened.naming.find(SLEEVE, element)
-        coupler = element.id() in couplers
-        if (not word and not coupler) or element.is_a("IfcElementAssembly"):
-            continue
-        excluded = opened.naming.find(NOT_SLEEVE, element)
-        if excluded:
-            left.append(_left_out(element, f"is called {excluded!r}: no grouting sleeve"))
-            continue
-        evidence = Evidence.CLASS if coupler else Evidence.NAME
-        why = f'{element.is_a()} "{opened.naming.said(element)}"'
-        drawn = _candidates(element, shapes, evidence, f"{why}, a COUPLER by its PredefinedType" if coupler else why)
-        if element.is_a("IfcReinforcingElement"):
-            # Bars are called after the sleeve that they go into.
-            drawn = [candidate for candidate in drawn if candidate.is_hollow]
-        elif not drawn:
-            left.append(_left_out(element, _undrawn(element, shapes)))
-        found += drawn
+        with shapes.guarded(element):
+            _take_by_name(opened, shapes, element, found, left, is_coupler=element.id() in couplers)
     return found, left
+
+
+def _take_by_name(
+    opened: OpenedIfc,
+    shapes: Shapes,
+    element: Any,
+    found: list[Candidate],
+    left: list[NotTaken],
+    *,
+    is_coupler: bool,
+) -> None:
+    """Put one element with what is found, or with what is left out, or with neither."""
+    word = opened.naming.find(SLEEVE, element)
+    if (not word and not is_coupler) or element.is_a("IfcElementAssembly"):
+        return
+    excluded = opened.naming.find(NOT_SLEEVE, element)
+    if excluded:
+        left.append(_left_out(element, f"is called {excluded!r}: no grouting sleeve"))
+        return
+    evidence = Evidence.CLASS if is_coupler else Evidence.NAME
+    why = f'{element.is_a()} "{opened.naming.said(element)}"'
+    drawn = _candidates(element, shapes, evidence, f"{why}, a COUPLER by its PredefinedType" if is_coupler else why)
+    if element.is_a("IfcReinforcingElement"):
+        # Bars are called after the sleeve that they go into.
+        drawn = [candidate for candidate in drawn if candidate.is_hollow]
+    elif not drawn:
+        left.append(_left_out(element, _undrawn(element, shapes)))
+    found += drawn
 
 
 def _undrawn(element: Any, shapes: Shapes) -> str:
     if shapes.of_product(element):
         return "is called a sleeve, but nothing in its shape is a straight round body or hole"
-    return "is called a sleeve, but has no geometry that could be evaluated"
+    return f"is called a sleeve, but {shapes.undrawn(element)}"
 
 
 def _couplers(opened: OpenedIfc) -> Iterator[Any]:
@@ -175,14 +188,13 @@ def unnamed_candidates(
         local = np.einsum("fi,fij->fj", point - frames[:, :3, 3], frames[:, :3, :3])
         return bool((np.abs(local) <= reach_mm).all(axis=1).any())
 
-    return [
-        candidate
-        for element in _each(opened.file, classes)
-        if not element.is_a("IfcReinforcingBar") and not opened.naming.find(NOT_SLEEVE, element)
-        for candidate in _candidates(
-            element, shapes, Evidence.GEOMETRY, f"{element.is_a()} without a telling name", near
-        )
-    ]
+    found: list[Candidate] = []
+    for element in _each(opened.file, classes):
+        with shapes.guarded(element):
+            if not element.is_a("IfcReinforcingBar") and not opened.naming.find(NOT_SLEEVE, element):
+                why = f"{element.is_a()} without a telling name"
+                found += _candidates(element, shapes, Evidence.GEOMETRY, why, near)
+    return found
 
 
 def own_candidates(opened: OpenedIfc, body: ColumnBody, shapes: Shapes) -> list[Candidate]:
@@ -191,12 +203,14 @@ def own_candidates(opened: OpenedIfc, body: ColumnBody, shapes: Shapes) -> list[
     found = [Candidate(body.element, tube, Evidence.GEOMETRY, "a round hole in the column's body") for tube in holes]
     related: list[Any] = []
     for holder in (body.element, *body.drawn, *body.wholes[:1]):
-        related += [relation.RelatedOpeningElement for relation in holder.HasOpenings]
+        related += [relation.RelatedOpeningElement for relation in holder.HasOpenings if relation.RelatedOpeningElement]
         related += ifc_names.parts(holder)
     own = {element.id(): element for element in related if element.id() != body.element.id()}
     for element in own.values():
-        if not element.is_a("IfcReinforcingBar") and not opened.naming.find(NOT_SLEEVE, element):
-            found += _candidates(element, shapes, Evidence.GEOMETRY, f"{element.is_a()} without a telling name")
+        with shapes.guarded(element):
+            if not element.is_a("IfcReinforcingBar") and not opened.naming.find(NOT_SLEEVE, element):
+                why = f"{element.is_a()} without a telling name"
+                found += _candidates(element, shapes, Evidence.GEOMETRY, why)
     return found
 
 
@@ -318,7 +332,7 @@ def _left_out(element: Any, reason: str, tube: Tube | None = None) -> NotTaken:
         what="sleeve",
         ifc_class=element.is_a(),
         global_id=element.GlobalId,
-        name=element.Name or "",
+        name=ifc_names.text_of(element.Name),
         reason=reason,
         point=None if tube is None else tube.start,
         diameter_mm=None if tube is None else tube.bore_mm[0] or tube.outer_mm,

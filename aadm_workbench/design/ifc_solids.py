@@ -11,16 +11,31 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.design.circles import Circle
-from aadm_workbench.design.ifc_curve import Curves
+from aadm_workbench.design.ifc_curve import Curves, check_turn
 from aadm_workbench.design.ifc_entity import optional
-from aadm_workbench.design.ifc_placement import Placements, UnreadableGeometryError, unit
+from aadm_workbench.design.ifc_kernel import Kernel
+from aadm_workbench.design.ifc_placement import NothingThereError, Placements, UnreadableGeometryError, unit, within
 from aadm_workbench.design.ifc_profile import Profiles
 from aadm_workbench.design.paths import Arc, rounded
-from aadm_workbench.design.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned
+from aadm_workbench.design.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned, pieces
+from aadm_workbench.design.sound import FARTHEST_MM, UnsoundError, sound
 from aadm_workbench.model import Array, IntArray
 
-BROKEN = (UnreadableGeometryError, TypeError, ValueError, IndexError, AttributeError, np.linalg.LinAlgError)
-"""What numbers and references that are missing or make no sense raise, in a file by strangers."""
+BROKEN = (
+    UnreadableGeometryError,
+    TypeError,
+    ValueError,
+    LookupError,
+    AttributeError,
+    ArithmeticError,
+    RuntimeError,
+    SystemError,
+    np.linalg.LinAlgError,
+)
+"""What numbers and references that are missing, make no sense or go in circles raise, in a file by strangers."""
+
+_MOST_PIECES = 5000
+"""Solids that one is made of by cutting; programs that cut a hundred holes one by one stay far below."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +45,9 @@ class Solids:
     placements: Placements
     curves: Curves
     profiles: Profiles
+    kernel: Kernel = field(default_factory=Kernel)
     _known: dict[int, tuple[Shape, ...]] = field(default_factory=dict, repr=False)
+    _begun: set[int] = field(default_factory=set, repr=False)
 
     def leave_out(self, item: Any) -> None:
         """Take an item for nothing: it is broken."""
@@ -60,14 +77,40 @@ class Solids:
         return None
 
     def of_item(self, item: Any) -> tuple[Shape, ...]:
-        """The solids of one representation item, mm, in the item's own frame."""
-        if item.id() not in self._known:
-            try:
-                shapes = tuple(self._evaluated(item))
-            except BROKEN:
-                shapes = (self._tessellated(item),)
-            self._known[item.id()] = shapes
-        return self._known[item.id()]
+        """The solids of one representation item, mm, in the item's own frame.
+
+        Raises
+        ------
+        UnreadableGeometryError
+            Where it is broken, encloses nothing or is a part of itself.
+        """
+        number = item.id()
+        if number not in self._known:
+            with within(self._begun, item):
+                self._known[number] = self._sound(item)
+        return self._known[number]
+
+    def _sound(self, item: Any) -> tuple[Shape, ...]:
+        try:
+            shapes = tuple(sound(shape) for shape in self._evaluated(item))
+        except UnsoundError as error:
+            raise NothingThereError(f"#{item.id()} {item.is_a()}: {error}") from error
+        except (RecursionError, SystemError) as error:  # the second from deep inside ifcopenshell
+            raise NothingThereError(f"#{item.id()} {item.is_a()} is nested too deeply") from error
+        except NothingThereError:
+            raise
+        except BROKEN:
+            self._check_sizes(item)
+            shapes = self._tessellated(item)
+        if sum(map(pieces, shapes)) > _MOST_PIECES:
+            raise NothingThereError(f"#{item.id()} {item.is_a()} is made of more than {_MOST_PIECES} pieces")
+        return shapes
+
+    def _check_sizes(self, item: Any) -> None:
+        """Keep a solid from the kernel that has a size beyond all maps, over which it would sit for hours."""
+        for value in item:
+            if isinstance(value, float) and not abs(value) * self.placements.mm < FARTHEST_MM:
+                raise NothingThereError(f"#{item.id()} {item.is_a()} has a size of {value:g}")
 
     def _evaluated(self, item: Any) -> Sequence[Shape]:
         for ifc_class, evaluate in self._evaluators.items():
@@ -85,6 +128,7 @@ class Solids:
             "IfcSurfaceCurveSweptAreaSolid": self._swept_along,
             "IfcRevolvedAreaSolid": self._revolved,
             "IfcRightCircularCylinder": self._cylinder,
+            "IfcRightCircularCone": self._cone,
             "IfcBooleanResult": self._boolean,
             "IfcCsgSolid": lambda item: self.of_item(item.TreeRootExpression),
             "IfcHalfSpaceSolid": self._half_space,
@@ -141,6 +185,7 @@ class Solids:
     def _revolved(self, item: Any) -> list[Shape]:
         if item.is_a("IfcRevolvedAreaSolidTapered"):
             raise UnreadableGeometryError(f"#{item.id()} tapers")
+        check_turn(item, item.Angle * self.curves.radians)
         whole = abs(item.Angle * self.curves.radians) > 2.0 * math.pi - 1e-6
         origin = self.placements.point(item.Axis.Location)
         axis = unit(item.Axis.Axis.DirectionRatios) if item.Axis.Axis else np.array([0.0, 0.0, 1.0])
@@ -174,14 +219,25 @@ class Solids:
         circle = Circle(T[:3, 3], T[:3, 2], mm * item.Radius)
         return [Prism(Loop(ring, circle), (), mm * item.Height * T[:3, 2])]
 
+    def _cone(self, item: Any) -> list[Shape]:
+        T, mm = self.placements.of_axes(item.Position), self.placements.mm
+        outline = mm * np.array([(0.0, 0.0), (item.BottomRadius, 0.0), (0.0, item.Height)])
+        return [Turned(T[:3, 3], T[:3, 2], outline)]
+
     def _boolean(self, item: Any) -> list[Shape]:
         if item.SecondOperand.is_a("IfcPolygonalBoundedHalfSpace"):
             raise UnreadableGeometryError(f"#{item.id()} is cut by a plane that reaches only so far")
         bodies = list(self.of_item(item.FirstOperand))
+        try:
+            others = self.of_item(item.SecondOperand)
+        except NothingThereError as error:
+            if isinstance(error.__cause__, UnsoundError):
+                return bodies  # a tool without extent takes nothing away
+            raise
         if item.Operator == "UNION":
-            return bodies + list(self.of_item(item.SecondOperand))
+            return bodies + list(others)
         if item.Operator == "DIFFERENCE":
-            for tool in self.of_item(item.SecondOperand):
+            for tool in others:
                 bodies = [Cut(body, tool) for body in bodies]
         return bodies
 
@@ -233,20 +289,12 @@ class Solids:
     def _coordinates(self, item: Any) -> Array:
         return self.placements.mm * np.array(item.Coordinates.CoordList, dtype=np.float64)
 
-    def _tessellated(self, item: Any) -> Shape:
+    def _tessellated(self, item: Any) -> tuple[Shape, ...]:
         """The solid as ifcopenshell's geometry kernel facets it: for whatever is not evaluated here."""
-        import ifcopenshell.geom
-
-        kernel: Any = ifcopenshell.geom
-        try:
-            drawn = kernel.create_shape(kernel.settings(), item)
-        except RuntimeError as error:
-            raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} cannot be evaluated") from error
-        vertices = 1000.0 * np.array(drawn.verts, dtype=np.float64).reshape(-1, 3)
-        corners = np.array(drawn.faces, dtype=np.int64).reshape(-1, 3)
+        vertices, corners = self.kernel.facets(item)
         if not len(corners):
             raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} encloses nothing")
-        return Mesh(vertices, tuple((triangle,) for triangle in corners))
+        return (sound(Mesh(vertices, tuple((triangle,) for triangle in corners))),)
 
 
 def _faces_of(shells: Sequence[Any]) -> list[Any]:

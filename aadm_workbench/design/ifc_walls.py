@@ -26,7 +26,12 @@ def ends_in_walls(opened: OpenedIfc, shapes: Shapes, ends: Sequence[BarEnd]) -> 
         return found
     tops = np.array([end.top for end in ends])
     for wall in opened.file.by_type("IfcWall"):
-        called = str(wall.Tag or wall.Name or wall.GlobalId)
+        with shapes.guarded(wall):
+            _note_ends(wall, shapes, ends, tops, found)
+    return found
+    tops = np.array([end.top for end in ends])
+    for wall in opened.file.by_type("IfcWall"):
+        called = ifc_names.called(wall)
         own_ids = set(_own_ids(wall))
         for index in {*np.flatnonzero(_inside(wall, shapes, tops)).tolist()}:
             found.setdefault(index, called)
@@ -36,12 +41,22 @@ def ends_in_walls(opened: OpenedIfc, shapes: Shapes, ends: Sequence[BarEnd]) -> 
     return found
 
 
-def _own_ids(wall: Any) -> Iterator[str]:
-    """GlobalIds of a wall and of the assemblies that it is a part of and no column is."""
-    yield wall.GlobalId
+def _note_ends(wall: Any, shapes: Shapes, ends: Sequence[BarEnd], tops: Array, found: dict[int, str]) -> None:
+    called = ifc_names.called(wall)
+    own_ids = set(_own_ids(wall))
+    for index in {*np.flatnonzero(_inside(wall, shapes, tops)).tolist()}:
+        found.setdefault(index, called)
+    for index, end in enumerate(ends):
+        if end.wholes & own_ids:
+            found.setdefault(index, called)
+
+
+def _own_ids(wall: Any) -> Iterator[int]:
+    """Numbers of a wall and of the assemblies that it is a part of and no column is."""
+    yield wall.id()
     for whole in ifc_names.wholes(wall):
         if not any(part.is_a("IfcColumn") for part in ifc_names.parts(whole)):
-            yield whole.GlobalId
+            yield whole.id()
 
 
 def _inside(wall: Any, shapes: Shapes, points: Array) -> Array:

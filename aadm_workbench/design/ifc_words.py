@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from functools import lru_cache
 
 SLEEVE = re.compile(
@@ -47,6 +48,9 @@ NOT_COLUMN = re.compile(
 
 @lru_cache(maxsize=65536)
 def find(pattern: re.Pattern[str], text: str) -> str | None:
-    """The first match of a pattern in a text; a floor has thousands of elements of one name."""
-    found = pattern.search(text)
+    """The first match of a pattern in a text, full-width letters and half-width kana as their usual forms.
+
+    A floor has thousands of elements of one name.
+    """
+    found = pattern.search(text if text.isascii() else unicodedata.normalize("NFKC", text))
     return found.group() if found else None

@@ -41,7 +41,7 @@ def read_with_kernel(path: Path, check: Callable[[Path], None], rules: Rules, *,
     try:
         elements = from_json(answer["elements"])
         problems = tuple(dict.fromkeys(str(problem) for problem in answer["problems"]))
-    except (KeyError, TypeError, ValueError) as error:
+    except (LookupError, TypeError, ValueError) as error:
         raise DesignError(f"{path}: what FreeCAD answered about it makes no sense ({error}).") from error
     found = recognise(elements, Origin(str(path), sha256, schema, problems), rules)
     return replace(found, seconds=perf_counter() - began)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -13,6 +14,7 @@ from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
 _GLOBAL_ID_LENGTH = 22
+_DASHES = {ord(dash): "-" for dash in "\u2010\u2011\u2012\u2013\u2014\u2015\u2212"}
 _SHOWN = 8
 """Names in a message before it stops counting them up."""
 
@@ -91,8 +93,8 @@ class ModelDesign:
         wanted = key.strip()
         found = [column for column in self.columns if wanted in column.names]
         if not found:
-            folded = wanted.casefold()
-            found = [column for column in self.columns if folded in (name.casefold() for name in column.names)]
+            folded = _folded(wanted)
+            found = [column for column in self.columns if folded in map(_folded, column.names)]
         if not found and len(self.columns) == 1 and wanted == Path(self.source).stem:
             return self.columns[0]  # formats without names: a mesh, a STEP file of bare bodies
         if len(found) == 1:
@@ -103,7 +105,10 @@ class ModelDesign:
         raise DesignError(self._missing(wanted))
 
     def _missing(self, key: str) -> str:
-        without = next((left for left in self.not_taken if left.what == "column" and key in left.names), None)
+        without = next(
+            (left for left in self.not_taken if left.what == "column" and _folded(key) in map(_folded, left.names)),
+            None,
+        )
         if without is not None:
             return f"Column {key!r} of {self.source} {without.reason}. {self._help()}"
         if not self.columns:
@@ -120,6 +125,11 @@ class ModelDesign:
             'sleeves = "..." in [model], for instance sleeves = "IfcDiscreteAccessory, Name=/套筒/".'
         )
         return f"The model holds {self.holdings}. {how}"
+
+
+def _folded(name: str) -> str:
+    """A name as it is compared: full-width letters, upper case and the dashes of typographers make no difference."""
+    return unicodedata.normalize("NFKC", name).translate(_DASHES).strip().casefold()
 
 
 def _listed(names: Sequence[str]) -> str:

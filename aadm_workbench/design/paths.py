@@ -146,6 +146,8 @@ def cut(legs: Sequence[Leg], begin: float | None, stop: float | None) -> list[Le
     kept: list[Leg] = []
     passed = 0.0
     for leg in legs:
+        if leg.span <= 0.0:
+            continue
         first, last = (begin - passed) / leg.span, (stop - passed) / leg.span
         passed += leg.span
         # Exporters print a full range with fewer digits than its parts: a sliver of a leg is a rounded number.

@@ -11,7 +11,8 @@ from aadm_workbench.errors import DesignError
 
 _KERNEL = (".step", ".stp", ".brep", ".brp")
 _MESHES = (".stl", ".obj", ".ply")
-SUPPORTED = (".ifc", ".FCStd", *_KERNEL, *_MESHES, ".pcd")
+_IFC = (".ifc", ".ifczip")
+SUPPORTED = (".ifc", ".FCStd", *_KERNEL, *_MESHES, ".pcd", ".ifczip")
 
 
 def read_model(
@@ -27,7 +28,7 @@ def read_model(
     Parameters
     ----------
     path
-        The model: .ifc, .FCStd, .step, .brep, .stl, .obj, .ply.
+        The model: .ifc, .ifczip, .FCStd, .step, .brep, .stl, .obj, .ply.
     columns, sleeves, rebars
         Optional selectors in the syntax of ``ifcopenshell.util.selector``.
     units
@@ -41,7 +42,7 @@ def read_model(
         Where a program or package that the format needs is not installed.
     """
     suffix = Path(path).suffix
-    if suffix.lower() == ".ifc":
+    if suffix.lower() in _IFC:
         return read_ifc(path, columns=columns, sleeves=sleeves, rebars=rebars)
     rules = Rules(columns, sleeves, rebars)
     if suffix.lower() == ".fcstd":
@@ -56,8 +57,6 @@ def read_model(
         from aadm_workbench.design.mesh import read_mesh
 
         return read_mesh(path, rules, units=units)
-    if suffix.lower() == ".ifczip":
-        raise DesignError(f"{path}: this is an archive: unpack it (any ZIP program does) and name the .ifc in it.")
     called = f"models of the format {suffix}" if suffix else "models without an extension"
     raise DesignError(
         f"{path}: {called} are not supported. Supported: {', '.join(SUPPORTED)}. Export the model as IFC, or describe "

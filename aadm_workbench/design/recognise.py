@@ -22,6 +22,7 @@ from aadm_workbench.design.own_frame import own_frame
 from aadm_workbench.design.recognise_bars import drawn_bars, named_bars
 from aadm_workbench.design.recognise_sleeves import named_sleeves, own_holes, round_holes, unnamed_sleeves
 from aadm_workbench.design.selectors import called_by, select
+from aadm_workbench.design.sound_elements import sound_elements
 from aadm_workbench.design.which import is_column, is_thin, may_hold_sleeves, spoken
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
@@ -62,6 +63,7 @@ def recognise(
         Where a rule is not understood or finds nothing.
     """
     rules = rules or Rules()
+    elements, unsound = sound_elements(elements)
     elements = counted_once(elements)
     if rules.columns is not None:
         chosen = select(elements, origin.source, "columns", rules.columns)
@@ -87,7 +89,7 @@ def recognise(
         columns=with_ids([_with_objects(design, guids) for design in designs]),
         loose_sleeves=_objects(loose_sleeves, guids),
         loose_rebars=_objects(loose_rebars, guids),
-        warnings=(*origin.warnings, *notes, *bars.warnings),
+        warnings=(*origin.warnings, *unsound, *notes, *bars.warnings),
         not_taken=(*_bare(feet), *excluded, *refused, *bars.not_taken, *inside),
         holdings=holdings(elements),
     )
@@ -203,7 +205,8 @@ def _on(
     """An element as a column; of a lying one's two ends the one with more sleeves. None where it has no extent."""
     solids = [shape for solid in element.solids for shape in [solid.body] if len(shape.vertices)]
     T = own_frame(element.T_model_element, element.solids)
-    body = ColumnBody(element, (element,), feet_of(T, solids), ())
+    called = element.Tag or element.Name or element.GlobalId
+    body = ColumnBody(element, (element,), feet_of(T, solids), (), called)
     if not body.feet:
         return None
     own = [] if selected else own_holes(element)

@@ -121,6 +121,22 @@ class Cut:
 Shape = SweptDisk | Prism | Turned | Mesh | HalfSpace | Cut
 
 
+def pieces(shape: Shape) -> int:
+    """How many solids one is made of."""
+    left, found = [shape], 0
+    while left and found < _MOST_COUNTED:
+        piece = left.pop()
+        if isinstance(piece, Cut):
+            left += [piece.body, piece.tool]
+        else:
+            found += 1
+    return found
+
+
+_MOST_COUNTED = 10_000
+"""A solid cut by itself again and again has more pieces than can be counted."""
+
+
 def edges(shapes: Iterable[Shape]) -> Array:
     """(m, 2, 3) mm, edges of what shapes enclose: their ends span the extent of a column's concrete."""
     found = [_edges(shape) for shape in shapes]

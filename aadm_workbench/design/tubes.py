@@ -11,6 +11,7 @@ from aadm_workbench.design.circles import FEWEST_VERTICES, Circle
 from aadm_workbench.design.paths import Straight, joined
 from aadm_workbench.design.rims import Rim, rims
 from aadm_workbench.design.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned, scale_across
+from aadm_workbench.design.turned import as_turned, radius_at
 from aadm_workbench.model import Array
 
 _ON_AXIS_MM = 0.5
@@ -245,12 +246,13 @@ def _of_cut(cut: Cut, fewest: int) -> list[Tube]:
     found = tubes(cut.body, fewest)
     if isinstance(cut.tool, HalfSpace):
         return [_shortened(tube, cut.tool) for tube in found]
-    for hole in [_as_hole(tube) for tube in tubes(cut.tool, fewest)]:
+    cone = as_turned(cut.tool)
+    for hole in [_as_hole(tube) for tube in tubes(cut.tool, fewest)] if cone is None else [_turned_hole(cone)]:
         around = next((tube for tube in found if tube.outer_mm and _off_axis(tube, hole.start) < _ON_AXIS_MM), None)
         if around is None:
             found.append(hole)
         else:
-            found = [_bored(tube, hole) if tube is around else tube for tube in found]
+            found = [_bored(tube, hole, cone) if tube is around else tube for tube in found]
     return found
 
 
@@ -258,12 +260,26 @@ def _as_hole(tube: Tube) -> Tube:
     return replace(tube, outer_mm=None, bore_mm=(tube.outer_mm or tube.bore_mm[0], tube.outer_mm or tube.bore_mm[1]))
 
 
-def _bored(tube: Tube, hole: Tube) -> Tube:
-    """A tube with the bore that a hole on its axis makes, at the ends that the hole reaches."""
+def _turned_hole(cone: Turned) -> Tube:
+    """The hole that a turned solid leaves, with its diameters at both ends."""
+    low, high = float(cone.outline_rz[:, 1].min()), float(cone.outline_rz[:, 1].max())
+    bore_mm = [2.0 * (radius_at(cone, level) or 0.0) for level in (low, high)]
+    return Tube(cone.origin + low * cone.axis, cone.origin + high * cone.axis, None, (bore_mm[0], bore_mm[1]))
+
+
+def _bored(tube: Tube, hole: Tube, cone: Turned | None = None) -> Tube:
+    """A tube with the bore that a hole on its axis makes, at the ends that the hole reaches.
+
+    Of a cone the bore is that where the tube ends, which may be anywhere along it.
+    """
     along = (tube.end - tube.start) / tube.length_mm
     reach = sorted((float((hole.start - tube.start) @ along), float((hole.end - tube.start) @ along)))
     at_start = hole.bore_mm[0] if reach[0] < _ONE_LEVEL_MM else tube.bore_mm[0]
     at_end = hole.bore_mm[1] if reach[1] > tube.length_mm - _ONE_LEVEL_MM else tube.bore_mm[1]
+    if cone is not None:
+        widths = [radius_at(cone, float((end - cone.origin) @ cone.axis)) for end in (tube.start, tube.end)]
+        at_start = at_start if widths[0] is None else 2.0 * widths[0]
+        at_end = at_end if widths[1] is None else 2.0 * widths[1]
     return replace(tube, bore_mm=(at_start, at_end))
 
 

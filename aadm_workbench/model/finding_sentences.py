@@ -99,6 +99,12 @@ FINDING_SENTENCES: dict[str, Sentence] = {
         "the scan of the {group} does not show this column: its points fit the design of {column}",
         "{group} 的扫描不是这根柱:各点与 {column} 的设计吻合",
     ),
+    "duplicate_global_id": Sentence(
+        "the GlobalId of {about} is that of another element of the model too: results are not written where it is not "
+        "sure which one is meant; export the model with a GlobalId for each element",
+        "{about} 的 GlobalId 与模型中其他构件重复:无法确定是哪一个时不写入结果;请重新导出模型,使每个构件的 GlobalId "
+        "唯一",
+    ),
     "same_scan_twice.columns": Sentence(
         "the scan of the {group} ({source}) is the same file as that of {others}: at least one of them was not scanned",
         "{group} 的扫描({source})与 {others} 的是同一个文件:至少有一个没有扫描",

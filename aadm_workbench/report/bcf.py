@@ -73,7 +73,7 @@ def write_bcf(
     Raises
     ------
     ReportError
-        Where ``existing`` is no BCF file of version 2.
+        Where ``existing`` is no BCF file of version 2.1.
     AadmError
         Where the file cannot be written.
     """
@@ -157,8 +157,11 @@ def _files(path: Path) -> dict[str, bytes]:
         ) from error
     version = _parsed(files["bcf.version"], f"{path}: bcf.version") if "bcf.version" in files else None
     found = version.get("VersionId", "") if version is not None else "no"
-    if not found.startswith("2."):
-        raise ReportError(f"{path}: is of BCF version {found}, but topics of 2.1 are written; start a new file")
+    if found != "2.1":
+        raise ReportError(
+            f"{path}: is of BCF version {found}, but topics of 2.1 are written, and no file holds both; save it as BCF "
+            "2.1 in the program that it comes from, or start a new file"
+        )
     return files
 
 

@@ -114,7 +114,17 @@ def pair_of(column: Document, number: int) -> Document | None:
 def topic_guid(report: Report, column: Document, number: int | None = None) -> str:
     """The GUID of a topic: the same in every run, for the GlobalId of a column is, or its job's name and its id."""
     key = column["global_id"] or f"{report['job']['name']}/{column['id']}"
+    if column["global_id"] and _shares_its_id(report, column):
+        key = f"{column['global_id']}/{column['id']}"
     return str(uuid.uuid5(_TOPICS, key if number is None else f"{key}/{number}"))
+
+
+def _shares_its_id(report: Report, column: Document) -> bool:
+    """Whether another element of the model, or another column of the report, has the GlobalId of a column."""
+    found = (finding for finding in column.get("findings", ()) if finding["code"] == "duplicate_global_id")
+    if any("column" in finding["about"] for finding in found):
+        return True
+    return [other["global_id"] for other in report["columns"]].count(column["global_id"]) > 1
 
 
 def _of_column(report: Report, column: Document) -> Finding:

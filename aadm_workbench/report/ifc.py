@@ -9,6 +9,7 @@ from __future__ import annotations
 import hashlib
 import tempfile
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -18,15 +19,17 @@ import numpy as np
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.ifc import read_ifc
 from aadm_workbench.design.ifc_file import OpenedIfc, open_ifc
+from aadm_workbench.design.ifc_step import step_text
 from aadm_workbench.errors import ReportError
 from aadm_workbench.model import Array
 from aadm_workbench.report import ifc_sets
 from aadm_workbench.report.ifc_addition import Addition
 from aadm_workbench.report.ifc_assign import Assigner
+from aadm_workbench.report.ifc_elements import Elements, check_named_once
 from aadm_workbench.report.ifc_marks import Marks
+from aadm_workbench.report.ifc_points import write_points
 from aadm_workbench.report.ifc_records import add_records, add_report_link
 from aadm_workbench.report.ifc_removal import Stripped, keep_book, without_results
-from aadm_workbench.report.ifc_step import step_text
 from aadm_workbench.report.read import Report
 
 _SHORT_HASH = 12
@@ -89,30 +92,31 @@ def write_ifc(
     same = _is_same_model(report, model, stripped)
     if not same and not force:
         raise ReportError(_not_the_same(report, model, stripped))
-    frames = _frames(report) if same else _frames(report) | _frames_now(stripped.content)
+    elements = Elements(opened.file)
+    of_column = {
+        column["id"]: element for column in report["columns"] if (element := elements.column(column)) is not None
+    }
+    if not of_column:
+        raise ReportError(_no_column(report, model, elements))
+    check_named_once(of_column)
+    frames = _frames(report, of_column) if same else _frames_now(stripped.content, elements)
     text = step_text(stripped.content)
     addition = Addition(opened, text)
     assigner, marks = Assigner(addition), Marks(addition)
-    elements: dict[str, Any] = {}
-    missing: list[str] = []
-    for column in report["columns"]:
-        element = _element(opened.file, column["global_id"])
-        if element is None:
-            missing.append(f"column {column['id']}")
-            continue
-        elements[column["id"]] = element
+    missing = [f"column {column['id']}" for column in report["columns"] if column["id"] not in of_column]
+    checked = [column for column in report["columns"] if column["id"] in of_column]
+    for column in checked:
+        element = of_column[column["id"]]
         assigner.assign(element, ifc_sets.COLUMN_SET, ifc_sets.column_properties(report, column))
-        missing += _write_points(report, column, opened, assigner)
-        if column["global_id"] in frames:
-            marks.draw(column, element, frames[column["global_id"]])
+        if element.id() in frames:
+            marks.draw(column, element, frames[element.id()])
         add_records(addition, report, column, element)
-    if not elements:
-        raise ReportError(_no_column(report, model))
+    missing += write_points(report, checked, elements, assigner)
     marks.finish()
     if report_location:
-        add_report_link(addition, report_location, list(elements.values()))
-    checked = str((report["model"] or {}).get("sha256", ""))
-    keep_book(addition, text, checked, ifc_sets.write_back_properties(report))
+        add_report_link(addition, report_location, list(of_column.values()))
+    checked_sha256 = str((report["model"] or {}).get("sha256", ""))
+    keep_book(addition, text, checked_sha256, ifc_sets.write_back_properties(report))
     replaced = {number: _line(opened.file, number) for number in addition.altered}
     content = text.edited(replaced=replaced, appended=addition.lines())
     # A backup for each state of the model without results, not for each night.
@@ -121,11 +125,11 @@ def write_ifc(
         out=out,
         changed=changed,
         schema=str(opened.file.schema_identifier),
-        columns=tuple(elements),
+        columns=tuple(of_column),
         property_sets=assigner.assigned,
         annotations=len(marks.drawn),
         missing=tuple(missing),
-        notes=(*stripped.notes, *_notes(assigner)),
+        notes=(*stripped.notes, *_notes(assigner), *elements.notes(list(_entries(report)))),
         backup=backup,
     )
 
@@ -142,6 +146,7 @@ def remove_ifc(model: Path, out: Path) -> WriteBack:
     AadmError
         Where ``out`` cannot be written.
     """
+    _check_writable(model)
     opened = open_ifc(model)
     stripped = without_results(opened.file, step_text(model.read_bytes()))
     if not stripped.found:
@@ -158,6 +163,7 @@ def remove_ifc(model: Path, out: Path) -> WriteBack:
 
 def _original(model: Path) -> tuple[Stripped, OpenedIfc]:
     """The model without results of earlier runs, and open."""
+    _check_writable(model)
     opened = open_ifc(model)
     stripped = without_results(opened.file, step_text(model.read_bytes()))
     if not stripped.found:
@@ -166,6 +172,17 @@ def _original(model: Path) -> tuple[Stripped, OpenedIfc]:
         path = Path(folder) / "model.ifc"
         path.write_bytes(stripped.content)
         return stripped, open_ifc(path)
+
+
+def _check_writable(model: Path) -> None:
+    """Refuse forms of IFC in which no line can be put behind the others."""
+    if model.suffix.lower() == ".ifczip":
+        raise ReportError(
+            f"{model}: results are written into .ifc files; unpack it and name the .ifc, and check with it"
+        )
+    with suppress(OSError), model.open("rb") as stream:  # whoever opens it says what is wrong
+        if stream.read(2) in (b"\xff\xfe", b"\xfe\xff"):
+            raise ReportError(f"{model}: is written in UTF-16, into which no line of STEP fits; export it again")
 
 
 def _is_same_model(report: Report, model: Path, stripped: Stripped) -> bool:
@@ -191,74 +208,35 @@ def _not_the_same(report: Report, model: Path, stripped: Stripped) -> str:
     )
 
 
-def _frames(report: Report) -> dict[str, Array]:
-    """``T_model_column`` (4, 4), mm, by the column's GlobalId, as it was when the column was checked."""
+def _frames(report: Report, of_column: dict[str, Any]) -> dict[int, Array]:
+    """``T_model_column`` (4, 4), mm, by the number of the column's element, as it was when the column was checked."""
     return {
-        column["global_id"]: np.array(column["T_model_column"], dtype=float)
+        of_column[column["id"]].id(): np.array(column["T_model_column"], dtype=float)
         for column in report["columns"]
-        if column["T_model_column"] is not None
+        if column["T_model_column"] is not None and column["id"] in of_column
     }
 
 
-def _frames_now(content: bytes) -> dict[str, Array]:
+def _frames_now(content: bytes, elements: Elements) -> dict[int, Array]:
     """The same in a model that has changed: a column that was moved since takes its marks along."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "model.ifc"
         path.write_bytes(content)
         columns = read_ifc(path).columns
     return {
-        column.global_id: np.array(column.T_model_column, dtype=float)
+        element.id(): np.array(column.T_model_column, dtype=float)
         for column in columns
-        if column.global_id and column.T_model_column is not None
+        if column.T_model_column is not None
+        and (element := elements.column({"id": column.id, "global_id": column.global_id})) is not None
     }
 
 
-def _write_points(report: Report, column: dict[str, Any], opened: OpenedIfc, assigner: Assigner) -> Iterator[str]:
-    """Give sleeves and bars their sets; names what the model does not hold."""
-    for kind, name in ifc_sets.POINT_SETS.items():
-        of_element: dict[str, list[dict[str, Any]]] = {}
-        for point in (column[kind] or {"points": ()})["points"]:
-            if _element(opened.file, point["global_id"]) is None:
-                yield f"{point['label']} of column {column['id']}"
-            else:
-                of_element.setdefault(point["global_id"], []).append(point)
-        for global_id, points in of_element.items():
-            _write_element(report, column, kind, name, points, opened.file.by_guid(global_id), assigner)
-
-
-def _write_element(
-    report: Report,
-    column: dict[str, Any],
-    kind: str,
-    name: str,
-    points: list[dict[str, Any]],
-    element: Any,
-    assigner: Assigner,
-) -> None:
-    """One element; where several points are drawn as one, its set tells the worst, and each has a set of its own."""
-    worst = max(points, key=_badness)
-    assigner.assign(element, name, ifc_sets.point_properties(report, column, kind, worst))
-    if len(points) > 1:
-        for point in points:
-            own = ifc_sets.point_properties(report, column, kind, point)
-            assigner.assign(element, f"{name}_{point['label']}", own)
-    if assigner.addition.is_4x3:
-        assigner.assign(element, "Pset_Tolerance", ifc_sets.tolerance_properties(report, kind, worst))
-        assigner.assign(element, "Pset_Uncertainty", ifc_sets.uncertainty_properties(worst))
-
-
-def _badness(point: dict[str, Any]) -> tuple[int, float]:
-    rank = ("not_assessed", "pass", "inconclusive", "not_measured", "fail", "error").index(point["verdict"])
-    return rank, point["deviation_mm"] or 0.0
-
-
-def _element(file: Any, global_id: str | None) -> Any:
-    if not global_id:
-        return None
-    try:
-        return file.by_guid(global_id)
-    except RuntimeError:
-        return None
+def _entries(report: Report) -> Iterator[dict[str, Any]]:
+    """Columns and points of a report: whatever has a GlobalId."""
+    for column in report["columns"]:
+        yield column
+        for kind in ifc_sets.POINT_SETS:
+            yield from (column[kind] or {"points": ()})["points"]
 
 
 def _line(file: Any, number: int) -> bytes:
@@ -267,7 +245,9 @@ def _line(file: Any, number: int) -> bytes:
     return line_of(file.by_id(number))
 
 
-def _no_column(report: Report, model: Path) -> str:
+def _no_column(report: Report, model: Path, elements: Elements) -> str:
+    if notes := list(elements.notes(report["columns"])):
+        return f"{model}: {notes[0]}"
     ids = [str(column["id"]) for column in report["columns"]]
     shown = ", ".join(ids[:5]) + (", …" if len(ids) > 5 else "")
     return f"{model} holds none of the report's columns ({shown}): no element has their GlobalIds. Name another model"

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from aadm_workbench.design.ifc_file import OpenedIfc
+from aadm_workbench.design.ifc_step import StepText
 from aadm_workbench.model import Array
-from aadm_workbench.report.ifc_step import StepText
 
 Scalar: TypeAlias = str | float | int | bool
 

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from aadm_workbench.design.ifc_step import StepText
 from aadm_workbench.report.ifc_addition import (
     APPLICATION,
     GLOBAL_ID_PREFIX,
@@ -17,7 +18,6 @@ from aadm_workbench.report.ifc_addition import (
     key_of,
     line_of,
 )
-from aadm_workbench.report.ifc_step import StepText
 
 BOOK = "AADM_WriteBack"
 """The property set of the project that says what was added, and how altered entities read before."""

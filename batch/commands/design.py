@@ -36,7 +36,10 @@ _SELECTOR = re.compile(r"^\s*!?\s*Ifc[A-Z]|=")
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     parser.add_argument(
-        "model", type=Path, metavar="MODEL", help="the model: .ifc, .FCStd, .step, .brep, .stl, .obj, .ply or .pcd"
+        "model",
+        type=Path,
+        metavar="MODEL",
+        help="the model: .ifc, .ifczip, .FCStd, .step, .brep, .stl, .obj, .ply or .pcd",
     )
     parser.add_argument(
         "--column", metavar="SEL", help="a Name, Tag, PieceMark or GlobalId, or a selector in IfcOpenShell's syntax"
@@ -63,12 +66,14 @@ def run(options: argparse.Namespace) -> int:
 
     from ..published_table import published_tables
     from ..terminal import say, show
+    from ..unforeseen import unforeseen_in
 
     wanted: str | None = options.column
     selector = wanted if wanted and _SELECTOR.search(wanted) else None
-    model = read_design(
-        options.model, columns=selector, sleeves=options.sleeves, rebars=options.rebars, units=options.units
-    )
+    with unforeseen_in(str(options.model)):
+        model = read_design(
+            options.model, columns=selector, sleeves=options.sleeves, rebars=options.rebars, units=options.units
+        )
     columns = model.columns if wanted is None or selector else (model.column(wanted),)
     if options.json:
         _print_json(model, columns, why=options.why, published=options.method == "published")

@@ -182,12 +182,13 @@ def test_only(write_job: WriteJob) -> None:
 @pytest.mark.usefixtures("exact_extraction")
 def test_columns_of_a_model(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch) -> None:
     table = {"centres": CENTRES.tolist(), "sleeve_diameter": 36.0}
-    design = replace(inline_design("PCZ-1", table), names=("PCZ-1", "C-301"), global_id="0" * 22)
+    design = replace(inline_design("C-301", table), names=("C-301",), global_id="0" * 22)
+    other = replace(inline_design("PCZ-1", table), names=("PCZ-1",), global_id="1" * 22)
     asked: list[dict[str, object]] = []
 
     def read_design(path: Path, **selectors: str | None) -> ModelDesign:
         asked.append({"path": path, **selectors})
-        return ModelDesign(str(path), "f" * 64, "IFC4", columns=(design,))
+        return ModelDesign(str(path), "f" * 64, "IFC4", columns=(design, other))
 
     monkeypatch.setattr(run, "read_design", read_design)
     head = MODEL_HEAD + 'columns = "IfcColumn"\n'

@@ -113,11 +113,6 @@ def test_names_in_raw_bytes(model: Path, encoding: str) -> None:
     assert encoding in opened.warnings[0]
 
 
-def test_an_archive_of_ifc_says_what_to_do(tmp_path: Path) -> None:
-    with pytest.raises(DesignError, match=r"model\.ifczip.*unpack it"):
-        read_model(tmp_path / "model.ifczip")
-
-
 @pytest.mark.parametrize("name", ["model.dwg", "model.rvt", "column.3dm", "model"])
 def test_other_formats_are_not_supported(tmp_path: Path, name: str) -> None:
     with pytest.raises(DesignError, match=r"not supported.*\.ifc"):

@@ -279,4 +279,9 @@ def test_a_file_that_is_no_bcf_is_refused(report: Report, tmp_path: Path) -> Non
         write_bcf(report, tmp_path / "a.bcf", existing=broken)
     with pytest.raises(ReportError, match=r"is of BCF version 3\.0"):
         write_bcf(report, tmp_path / "a.bcf", existing=newer)
+    with zipfile.ZipFile(newer, "w") as archive:
+        archive.writestr("bcf.version", '<Version VersionId="2.0"><DetailedVersion>2.0 RC</DetailedVersion></Version>')
+        archive.writestr("5a0f/markup.bcf", "<Markup/>")
+    with pytest.raises(ReportError, match=r"is of BCF version 2\.0.*save it as BCF 2\.1"):
+        write_bcf(report, tmp_path / "a.bcf", existing=newer)
     assert not (tmp_path / "a.bcf").exists()

@@ -63,8 +63,24 @@ def step_text(content: bytes) -> StepText:
         begin = skipped.end() if skipped else found.start()
         number = _NUMBER.match(content, begin)
         if number:
-            places[int(number[1])] = begin, found.end()
+            places.setdefault(int(number[1]), (begin, found.end()))  # of two with one number the first counts
         elif content[begin : found.end() - 1].strip().upper() == b"ENDSEC":
             end_of_data = begin
     first_break = _LINE_BREAK.search(content)
     return StepText(content, places, end_of_data, first_break[0] if first_break else b"\n")
+
+
+def numbered_once(content: bytes) -> bytes:
+    """The file without entities whose number an earlier one has, their lines left empty."""
+    seen: set[bytes] = set()
+    pieces, done = [], 0
+    for found in _STATEMENT.finditer(content):
+        skipped = _SKIPPED.match(content, found.start())
+        begin = skipped.end() if skipped else found.start()
+        number = _NUMBER.match(content, begin)
+        if number and number[1] in seen:
+            pieces += [content[done:begin], b"\n" * content.count(b"\n", begin, found.end())]
+            done = found.end()
+        elif number:
+            seen.add(number[1])
+    return b"".join([*pieces, content[done:]])

@@ -1,0 +1,50 @@
+"""GlobalIds that several elements of a model have, as copying and careless exporters give them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+from aadm_workbench.model import ColumnDesign
+
+_SHOWN = 3
+_GLOBAL_ID = 0
+
+
+def elements_by_id(file: Any) -> dict[str, list[Any]]:
+    """The elements of a model by GlobalId; several where they share one."""
+    found: dict[str, list[Any]] = {}
+    for element in file.by_type("IfcElement"):
+        found.setdefault(element[_GLOBAL_ID], []).append(element)
+    return found
+
+
+def shared_ids(file: Any) -> dict[str, list[Any]]:
+    """GlobalIds that more than one element has, with those elements."""
+    return {global_id: elements for global_id, elements in elements_by_id(file).items() if len(elements) > 1}
+
+
+def shared_id_warning(shared: dict[str, list[Any]]) -> list[str]:
+    """One line on all of them; none where each element has its own."""
+    if not shared:
+        return []
+    shown = "; ".join(f"{global_id}: {_listed(elements)}" for global_id, elements in list(shared.items())[:_SHOWN])
+    more = f"; and {len(shared) - _SHOWN} more" if len(shared) > _SHOWN else ""
+    what = "1 GlobalId is" if len(shared) == 1 else f"{len(shared)} GlobalIds are"
+    advice = (
+        "they were told apart as entities, but results cannot be written to the right one of them; export the model "
+        "with a GlobalId for each element"
+    )
+    return [f"{what} given to several elements ({shown}{more}): {advice}"]
+
+
+def with_shared_ids(design: ColumnDesign, shared: dict[str, list[Any]]) -> ColumnDesign:
+    """A column that says which of its points, or whether it itself, has a GlobalId that another element has too."""
+    points = [point.label for point in (*design.sleeves, *design.rebars) if point.global_id in shared]
+    return replace(design, shared_ids=(*(["column"] if design.global_id in shared else []), *points))
+
+
+def _listed(elements: Sequence[Any]) -> str:
+    shown = ", ".join(f"#{element.id()} {element.is_a()}" for element in elements[:_SHOWN])
+    return f"{shown} and {len(elements) - _SHOWN} more" if len(elements) > _SHOWN else shown

@@ -1,0 +1,107 @@
+"""Whether a solid is one: exporters write sweeps without length, faces without corners, coordinates beyond all maps."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from aadm_workbench.design.paths import joined
+from aadm_workbench.design.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned
+from aadm_workbench.model import Array
+
+FARTHEST_MM = 1e12
+"""Twenty times around the earth: coordinates beyond are no places, and their squares still fit a float."""
+
+_NO_LENGTH_MM = 1e-6
+_FEWEST_CORNERS = 3
+
+
+class UnsoundError(ValueError):
+    """A solid that encloses nothing, or lies nowhere."""
+
+
+def sound(shape: Shape) -> Shape:
+    """The solid without what has no length or area in it.
+
+    Raises
+    ------
+    UnsoundError
+        Where nothing is left; says what is wrong with it.
+    """
+    match shape:
+        case SweptDisk():
+            return _swept(shape)
+        case Prism():
+            return _prism(shape)
+        case Turned():
+            return _turned(shape)
+        case Mesh():
+            return _mesh(shape)
+        case HalfSpace():
+            _check_places(shape.point, shape.towards)
+            return shape
+        case Cut():
+            return shape  # its body and its tool have been looked at before it was made
+
+
+def _swept(disk: SweptDisk) -> SweptDisk:
+    for leg in disk.legs:
+        _check_places(leg.points)
+    legs = tuple(joined(disk.legs))
+    if not legs:
+        raise UnsoundError("it is swept along a line without length")
+    _check_size(disk.radius_mm, "radius")
+    return replace(disk, legs=legs)
+
+
+def _prism(prism: Prism) -> Prism:
+    _check_places(prism.sweep, *(loop.points for loop in (prism.outer, *prism.holes)))
+    if float(np.linalg.norm(prism.sweep)) < _NO_LENGTH_MM:
+        raise UnsoundError("its extrusion has no depth")
+    if not _has_extent(prism.outer):
+        raise UnsoundError("its profile has no area")
+    return replace(prism, holes=tuple(hole for hole in prism.holes if _has_extent(hole)))
+
+
+def _has_extent(loop: Loop) -> bool:
+    if len(loop.points) < _FEWEST_CORNERS:
+        return False
+    spans = loop.points - loop.points[0]
+    farthest = spans[int(np.argmax((spans**2).sum(axis=1)))]
+    return bool(np.linalg.norm(np.cross(spans, farthest), axis=1).max() > _NO_LENGTH_MM)
+
+
+def _turned(turned: Turned) -> Turned:
+    _check_places(turned.origin, turned.axis, turned.outline_rz)
+    if np.ptp(turned.outline_rz[:, 1]) < _NO_LENGTH_MM or turned.outline_rz[:, 0].max() < _NO_LENGTH_MM:
+        raise UnsoundError("what it turns has no area")
+    return turned
+
+
+def _mesh(mesh: Mesh) -> Mesh:
+    """The faces of three corners and more; a corner that is not there makes the whole solid doubtful."""
+    _check_places(mesh.vertices)
+    for face in mesh.faces:
+        for loop in face:
+            if len(loop) and (loop.min() < 0 or loop.max() >= len(mesh.vertices)):
+                raise UnsoundError("a face of it names a corner that is not in its list of points")
+    faces = tuple(
+        (face[0], *(hole for hole in face[1:] if len(hole) >= _FEWEST_CORNERS))
+        for face in mesh.faces
+        if face and len(face[0]) >= _FEWEST_CORNERS
+    )
+    if not faces:
+        raise UnsoundError("it has no faces")
+    return replace(mesh, faces=faces)
+
+
+def _check_places(*places: Array) -> None:
+    for points in places:
+        if not (np.abs(points) < FARTHEST_MM).all():
+            raise UnsoundError("it lies beyond all maps")
+
+
+def _check_size(size_mm: float, what: str) -> None:
+    if not _NO_LENGTH_MM < size_mm < FARTHEST_MM:
+        raise UnsoundError(f"its {what} is {size_mm:g} mm")
