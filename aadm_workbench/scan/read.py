@@ -129,7 +129,12 @@ def _read_capture(path: Path, name: str, declared: Declared, image: Path | None)
     """Return the scan of a capture folder: its depth map or cloud, with the intrinsics and the picture beside it."""
     capture = find_capture(path, name, declared)
     texture = capture.texture if image is None else image
-    scan = _read_file(capture.scan, f"{name}/{capture.scan.name}", capture.declared, texture)
+    try:
+        scan = _read_file(capture.scan, f"{name}/{capture.scan.name}", capture.declared, texture)
+    except CameraError as error:
+        if capture.declared.camera is not None or not capture.notes:
+            raise
+        raise CameraError(f"{error}; {'; '.join(capture.notes)}") from error
     return replace(scan, source=name, sha256=capture.sha256(scan.sha256), notes=(*capture.notes, *scan.notes))
 
 
