@@ -49,7 +49,7 @@ def cloud_of_depth_map(file: ScanFile, depth: Pixels, declared: Declared) -> Clo
     height, width = depth.shape
     camera = _checked_camera(file, width, height, declared)
     depth_mm = _in_millimetres(file, depth, declared)
-    return Cloud(depth_to_points(depth_mm, camera), mm_per_unit=1.0, T_scan_file=np.eye(4))
+    return Cloud(depth_to_points(depth_mm, camera), mm_per_unit=1.0, T_scan_file=np.eye(4), is_depth_map=True)
 
 
 def _checked_camera(file: ScanFile, width: int, height: int, declared: Declared) -> Camera:
