@@ -16,6 +16,7 @@ from aadm_workbench.scan.camera import (
     read_camera,
     read_depth_scale_mm,
 )
+from aadm_workbench.scan.depth_picture import ColourPictureError, depth_picture
 from aadm_workbench.scan.file import Declared, load
 from aadm_workbench.scan.intrinsics import BentLensError
 from aadm_workbench.scan.picture_size import picture_size
@@ -116,7 +117,10 @@ def _scan(files: Sequence[Path], name: str) -> Path:
     unnamed = [path for path in maps if path.suffix.lower() != ".png" and path not in _with(maps, _PICTURE_WORDS)]
     clouds = _of(files, _CLOUDS)
     plain_clouds = [path for path in clouds if path not in _with(clouds, (*_PICTURE_WORDS, *_NO_MEASUREMENT_WORDS))]
-    for candidates in (named, unnamed, plain_clouds, clouds):
+    coloured = [path for path in (*named, *unnamed) if _is_in_colour(path)]
+    for candidates in (named, unnamed, plain_clouds, clouds, coloured):
+        if candidates is not coloured:
+            candidates = [path for path in candidates if path not in coloured]
         if len(candidates) > 1:
             # A coloured view of the depth map is called after it, too.
             plain = [path for path in candidates if path not in _with(candidates, _PICTURE_WORDS)]
@@ -166,7 +170,7 @@ def _intrinsics(
     found: list[tuple[Path, Camera]] = []
     bent: list[tuple[Path, BentLensError]] = []
     unread: list[str] = []
-    size = _size(scan) if scan.suffix.lower() in _PICTURES else None
+    size = _size_of_depths(scan) if scan.suffix.lower() in _PICTURES else None
     for path in _of(files, _INTRINSICS):
         if path == scan or path.stat().st_size > LARGEST_INTRINSICS_BYTES:
             continue
@@ -198,6 +202,28 @@ def _texture(files: Sequence[Path], scan: Path) -> Path | None:
     pictures = [path for path in pictures if path not in _with(pictures, _NO_MEASUREMENT_WORDS)]
     named = _with(pictures, _PICTURE_WORDS) or pictures
     return named[0] if len(named) == 1 else None
+
+
+def _is_in_colour(path: Path) -> bool:
+    """Whether a picture shows colours, such as a viewer's picture of a depth map."""
+    if path.suffix.lower() not in _PICTURES:
+        return False
+    try:
+        depth_picture(load(path, path.name))
+    except ColourPictureError:
+        return True
+    except ScanError:
+        return False
+    return False
+
+
+def _size_of_depths(path: Path) -> tuple[int, int] | None:
+    """Return width and height of a depth map, None where it is none."""
+    try:
+        picture = depth_picture(load(path, path.name))
+    except ScanError:
+        return None
+    return picture.width, picture.height
 
 
 def _size(path: Path) -> tuple[int, int] | None:

@@ -23,7 +23,7 @@ from aadm_workbench.scan.las import read_las
 from aadm_workbench.scan.npz import read_npz
 from aadm_workbench.scan.pcd import read_pcd
 from aadm_workbench.scan.picture import grey_of
-from aadm_workbench.scan.pixels import on_pixels
+from aadm_workbench.scan.pixels import is_picture, on_pixels
 from aadm_workbench.scan.ply import read_ply
 from aadm_workbench.scan.points import to_millimetres, without_return
 from aadm_workbench.scan.pts import read_pts
@@ -156,6 +156,8 @@ def _read_file(path: Path, name: str, declared: Declared, image: Path | None) ->
     picture = on_pixels(points) if points.ndim == 2 and (viewpoint is None or not viewpoint.any()) else None
     if picture is not None:
         points, viewpoint = picture, np.zeros(3)
+    elif viewpoint is None and points.ndim == 3 and is_picture(points):
+        viewpoint = np.zeros(3)
     grey = cloud.grey if image is None else _grey_picture(Path(image), points, camera)
     if grey is not None and points.ndim == 3 and grey.shape != points.shape[:2]:
         grey = None
