@@ -16,7 +16,7 @@ from aadm_workbench.scan.rows import LONGEST_LINE_BYTES, parse_rows
 from aadm_workbench.scan.text_names import named_columns, named_unit, names_some_axis
 
 _LONGEST_PREAMBLE_LINES = 200
-_SAMPLE_LINES = 200
+_SAMPLE_LINES, _PLACES = 200, 200
 _COMMENTS = ("#", "//", "%")
 _LINE = re.compile(rb"[^\r\n]*")
 _LINE_END = re.compile(rb"\r\n|\r|\n")
@@ -24,6 +24,7 @@ _WITH_NUMBER = re.compile(rb"^(?![^\r\n]{0,400}?(?:#|nan|inf))[^\r\n\d]{0,40}\d"
 _DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+(?:[eE][-+]?\d+)?")
 _WHOLE = re.compile(r"[-+]?\d+")
 _HALVES = re.compile(r"\d{2,}")
+_COUNTED = 20
 _INTENSITY_MAX, _LEAST_SPAN_RATIO = 1.0, 50.0
 
 
@@ -221,8 +222,15 @@ def _with_columns(file: ScanFile, layout: Layout, heading: _Heading, row: str) -
 
 
 def _sample(file: ScanFile, layout: Layout) -> list[list[str]]:
-    """Return the fields of the first rows."""
-    lines = (_decoded(line) for _, _, line in _lines(file, layout.start))
+    """Return the fields of the first rows, and of some all over the file."""
+    first = list(_lines(file, layout.start))
+    found = [line for _, _, line in first]
+    behind = first[-1][1] if len(first) >= _SAMPLE_LINES else len(file.content)
+    for at in np.linspace(behind, len(file.content), _PLACES)[1:-1].astype(int).tolist():
+        line_end = _LINE_END.search(file.content, at)
+        line = _LINE.match(file.content, line_end.end(), line_end.end() + LONGEST_LINE_BYTES) if line_end else None
+        found.append(line.group() if line else b"")
+    lines = (_decoded(line) for line in found)
     return [_fields(line.replace('"', " "), layout) for line in lines if line and not _is_comment(line)]
 
 
@@ -248,7 +256,7 @@ def _by_values(file: ScanFile, layout: Layout, sample: list[list[str]]) -> Layou
     first, others = values[:, 0], values[:, 1:]
     has_fractions = bool((others != np.rint(others)).any(axis=0).all())
     is_whole = bool((first == np.rint(first)).all() and first.min() >= 0.0 and np.ptp(first) > 0.0)
-    if is_whole and has_fractions and bool((np.diff(first) == 1).all()):
+    if is_whole and has_fractions and bool((np.diff(first[:_COUNTED]) == 1).all() and (np.diff(first) > 0).all()):
         return replace(layout, columns=(1, 2, 3), notes=("its first column counts its points and was left out",))
     if (is_whole and has_fractions) or _is_intensity(first, others):
         raise file.wrong(
@@ -271,9 +279,9 @@ def _are_halves(rows: list[list[str]]) -> bool:
 
 
 def _is_intensity(first: Array, others: Array) -> bool:
-    """Whether a column of values from 0 to 1 stands before three of lengths."""
+    """Whether a column of values from 0 to 1 stands before two of lengths: no component is so flat."""
     is_share = first.min() >= 0.0 and first.max() <= _INTENSITY_MAX and bool(np.ptp(first) > 0.0)
-    return is_share and bool((np.ptp(others, axis=0) > _LEAST_SPAN_RATIO * np.ptp(first)).all())
+    return is_share and int((np.ptp(others[:, :2], axis=0) > _LEAST_SPAN_RATIO * np.ptp(first)).sum()) == 2
 
 
 def _is_row(fields: list[str], columns: tuple[int, int, int]) -> bool:

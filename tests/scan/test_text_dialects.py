@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.errors import ScanError
-from aadm_workbench.model import Scan
+from aadm_workbench.model import FloatArray, Scan
 from aadm_workbench.scan.read import read_scan
 
 EXPECTED = [[1.5, -2.0, 1000.25], [4.0, 5.5, 900.0], [-7.25, 8.5, 950.125]]
@@ -98,6 +98,17 @@ def test_units_in_names(tmp_path: Path, unit: str, factor: float) -> None:
 def test_columns_that_do_not_tell_what_they_hold(tmp_path: Path, text: str, message: str) -> None:
     with pytest.raises(ScanError, match=message):
         read(tmp_path, text)
+
+
+def test_an_intensity_before_a_grid_of_points_is_seen_where_it_varies(tmp_path: Path, grid: FloatArray) -> None:
+    """In the first row of a picture the points hardly differ in y and z."""
+    flat = grid.reshape(-1, 3)[700:]
+    intensity = np.random.default_rng(1).uniform(0.0, 1.0, len(flat))
+    np.savetxt(tmp_path / "plain.xyz", np.column_stack([flat, intensity]), "%.4f")
+    np.testing.assert_allclose(read_scan(tmp_path / "plain.xyz").points.reshape(-1, 3)[-1], flat[-1], atol=1e-3)
+    np.savetxt(tmp_path / "first.xyz", np.column_stack([intensity, flat]), "%.4f")
+    with pytest.raises(ScanError, match="does not look like x"):
+        read_scan(tmp_path / "first.xyz")
 
 
 @pytest.mark.parametrize(
