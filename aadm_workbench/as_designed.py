@@ -107,7 +107,7 @@ def _points(path: Path) -> Array:
     from aadm_workbench.scan.read import read_scan
 
     try:
-        scan = read_scan(path)
+        scan = read_scan(path, axes="camera")
     except ScanError as error:
         raise DesignError(str(error)) from error
     points = scan.points.reshape(-1, 3).astype(np.float64)

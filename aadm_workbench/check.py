@@ -18,6 +18,7 @@ from aadm_workbench.assembly.control import ControlPose, fit_control_points, sho
 from aadm_workbench.assembly.datum import with_absolute
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.eopa import NoFit
+from aadm_workbench.assembly.file_axes import axes_not_told, in_coordinates_of_the_file, in_scan_frame
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.of_column import Seen, with_findings
 from aadm_workbench.assembly.group_notes import of_the_files, typical_u_mm, unsupported
@@ -199,13 +200,15 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             sha256=", ".join(view.sha256 for view in views),
         )
         u_mm = typical_u_mm(extraction)
-        notes = (*report.notes, *of_the_files(views), *notes, *unsupported(u_mm, settings.profile, kind))
+        notes = (*of_the_files(views), *axes_not_told(views, scans.up_deg(kind)), *notes)
+        notes = (*report.notes, *notes, *unsupported(u_mm, settings.profile, kind))
         dropped = sum(view.dropped for view in views)
         report = replace(report, notes=notes, quality={**report.quality, "u_mm": u_mm, "dropped_points": dropped})
         measured = Measured(extraction, match, _with_reasons(report, reasons))
-        if control is None or not match:
-            return measured
-        return _in_the_building(measured, points, scans.control_points, control, settings, scale_error)
+        if control is not None and match:
+            at = in_scan_frame(scans.control_points, scan)
+            measured = _in_the_building(measured, points, at, control, settings, scale_error)
+        return replace(measured, report=in_coordinates_of_the_file(measured.report, scan))
 
 
 def _scale_error(scan: Scan) -> float:
@@ -244,7 +247,8 @@ def _control(
     """The pose of the scan of the bars by the job's control points; None without any."""
     if kind is not Kind.REBAR or not scans.control_points:
         return None
-    return fit_control_points(scans.control_points, design.T_model_column, extraction.vertical)
+    at = in_scan_frame(scans.control_points, scans.rebars[0])
+    return fit_control_points(at, design.T_model_column, extraction.vertical)
 
 
 def _in_the_building(

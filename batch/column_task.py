@@ -148,6 +148,7 @@ def _group(
             depth_scale_mm=task.depth_scale_mm,
             source=name,
             image=task.path_of(image) if image is not None and number == 0 else None,
+            axes=task.column.axes,
         )
         scans.append(check_plausible(scan, longest_mm))
     return tuple(scans)

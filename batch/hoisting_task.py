@@ -56,7 +56,14 @@ def read_frame(task: ColumnTask, path: Path, name: str) -> Scan:
     """Read one hoisting frame as the column's job declares its scans; ``name`` is what reports call it."""
     from aadm_workbench.scan.read import read_scan
 
-    return read_scan(path, units=task.units, camera=task.camera, depth_scale_mm=task.depth_scale_mm, source=name)
+    return read_scan(
+        path,
+        units=task.units,
+        camera=task.camera,
+        depth_scale_mm=task.depth_scale_mm,
+        source=name,
+        axes=task.column.axes,
+    )
 
 
 def _measured(

@@ -25,8 +25,8 @@ class JobColumn:
     """One column of a job: its scans as the job names them, how they lie, and its design where the job gives it.
 
     ``..._up_deg``: column-frame direction at the top of the image, degrees from +x counter-clockwise from above.
-    ``near``: signs of x and y of the corner of the bars nearest to the hoisting camera. ``control_points`` are measured
-    in the scan of the rebars.
+    ``axes``: those of its clouds, None where they are to be found out. ``near``: signs of x and y of the corner of the
+    bars nearest to the hoisting camera. ``control_points`` are measured in the scan of the rebars.
     """
 
     id: str
@@ -37,6 +37,7 @@ class JobColumn:
     rebars_image: str | None = None
     sleeves_up_deg: float | None = None
     rebars_up_deg: float | None = None
+    axes: str | None = None
     near: tuple[int, int] | None = None
     design: ColumnDesign | None = None
     control_points: tuple[ControlPoint, ...] = ()

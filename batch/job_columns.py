@@ -7,6 +7,7 @@ from typing import Any
 from aadm_workbench.design.pattern import inline_design
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import ColumnDesign
+from aadm_workbench.scan.axes import AXES
 
 from .job import JobColumn
 from .job_control import read_control_points
@@ -14,7 +15,7 @@ from .job_direction import near_corner, up_deg
 from .job_table import JobTable
 
 _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
-_COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "near", "design", "control_points")
+_COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "axes", "near", "design", "control_points")
 _LENGTHS = ("embedded_length", "exposed_length")
 _SIZES = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter")
 """One length, or a list with one for each centre."""
@@ -62,6 +63,7 @@ def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
         rebars_image=table.path("rebars_image"),
         sleeves_up_deg=up if sleeves_up is None else sleeves_up,
         rebars_up_deg=up if rebars_up is None else rebars_up,
+        axes=table.one_of("axes", AXES, "") or None,
         near=near_corner(table),
         design=design,
         control_points=read_control_points(table, units=units, has_own_design=design is not None),

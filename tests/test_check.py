@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.check import CheckSettings, ColumnScans, check_column
-from aadm_workbench.model import ColumnDesign, Verdict
+from aadm_workbench.model import ColumnDesign, ControlPoint, GroupReport, Scan, Verdict
+from aadm_workbench.scan.read import read_scan
 from aadm_workbench.twin.parts import BarGroup
 from aadm_workbench.twin.scene import TrueScan
 from aadm_workbench.twin.scenes import LAB, random_bars, random_foot
@@ -87,3 +89,58 @@ def test_a_column_with_thicker_bars_at_its_corners_goes_on() -> None:
     assert report.goes_on in (Verdict.PASS, Verdict.INCONCLUSIVE)
     diameters = [point.diameter_mm for point in report.sleeves.points]
     assert diameters == pytest.approx([34.0 if k in CORNERS else 26.0 for k in range(12)], abs=0.5)
+
+
+def of_the_bars(scan: Scan, control_points: tuple[ControlPoint, ...] = ()) -> GroupReport:
+    design = replace(sample_design(LAB), exposed_length_mm=LAB.exposed)
+    settings = CheckSettings(load_profile("cn-gb50204-2015"), checks=("rebars",))
+    scans = ColumnScans(rebars=(scan,), rebars_up_deg=90.0, control_points=control_points)
+    report = check_column(design, scans, settings).rebars
+    assert report is not None
+    return report
+
+
+def test_a_cloud_in_the_axes_of_opengl_is_the_same_bars_with_the_same_labels(
+    long_bars: TrueScan, tmp_path: Path
+) -> None:
+    flat = long_bars.scan().points.reshape(-1, 3)
+    flat = flat[np.isfinite(flat).all(axis=1)]
+    known = [(name, float(x), float(y), 900.0) for name, x, y in (("A", -80, 60), ("B", 90, 70), ("C", 10, -95))]
+    reports = {}
+    for axes, signs in (("camera", (1.0, 1.0)), ("opengl", (-1.0, -1.0))):
+        turned = flat * np.array([1.0, *signs])
+        np.savez(tmp_path / f"{axes}.npz", points=turned)
+        scan = read_scan(tmp_path / f"{axes}.npz")
+        plain = of_the_bars(scan)
+        assert plain.fit is not None
+        T = plain.fit.T_design_scan
+        control = []
+        for name, x, y, z in known:
+            place = np.array([x, signs[0] * y, signs[1] * z])
+            in_column = (T[:3, :3] @ place + T[:3, 3]).tolist()
+            control.append(ControlPoint(name, tuple(in_column), tuple(place.tolist()), in_model=False))
+        reports[axes] = of_the_bars(scan, tuple(control))
+    camera, opengl = reports["camera"], reports["opengl"]
+    assert [rule.reason for rule in opengl.rules] == [rule.reason for rule in camera.rules]
+    assert any(rule.reason.startswith("R5 sticks out") for rule in opengl.rules)
+    assert any("OpenGL's axes" in note for note in opengl.notes)
+    assert opengl.fit is not None
+    for one, other in zip(camera.points, opengl.points, strict=True):
+        assert one.scan_mm is not None
+        assert other.scan_mm is not None
+        assert other.offset_mm == pytest.approx(one.offset_mm, abs=0.01)
+        x, y, z = one.scan_mm
+        assert other.scan_mm == pytest.approx((x, -y, -z), abs=0.01)
+        placed = opengl.fit.T_design_scan @ [*other.scan_mm, 1.0]
+        assert other.aligned_mm == pytest.approx(placed[:3].tolist(), abs=1e-6)
+    assert camera.absolute is not None
+    assert opengl.absolute is not None
+    assert camera.absolute.deviation_mm == pytest.approx(0.0, abs=0.2)
+    assert opengl.absolute.deviation_mm == pytest.approx(0.0, abs=0.2)
+    assert opengl.absolute.control_points[0].scan_mm == pytest.approx((-80.0, -60.0, -900.0))
+
+
+def test_axes_that_nobody_knows_are_noted_where_a_job_says_what_is_at_the_top(long_bars: TrueScan) -> None:
+    scan = replace(long_bars.scan(), axes="")
+    assert any('write axes = "opengl" where it is +y' in note for note in of_the_bars(scan).notes)
+    assert not any("axes" in note for note in of_the_bars(replace(scan, axes="camera")).notes)

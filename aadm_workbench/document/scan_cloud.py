@@ -145,9 +145,10 @@ def make_scan(column: Any, scan: Scan, file: Path, kind: Kind, declared: Mapping
     cloud.DepthScale = float(declared.get("depth_scale_mm") or 0.0)
     cloud.Sha256 = scan.sha256
     points, count = thinned(scan.points, most_points)
+    points = points @ scan.R_file_scan.T
     cloud.PointCount = count
     cloud.Points = [FreeCAD.Vector(*point) for point in points.tolist()]
-    cloud.InColumn = placement_of(_guessed_place(points, kind))
+    cloud.InColumn = placement_of(_guessed_place(points, kind, scan.R_file_scan))
     column.Scans = [*column.Scans, cloud]
     cloud.Proxy.follow(cloud, column.Placement)
     attach_view(cloud, "scan_view", "ScanView")
@@ -177,9 +178,10 @@ def lay_on_design(cloud: Any, T_design_scan: Array, distances_mm: Array, placeme
     cloud.Proxy.follow(cloud, placement)
 
 
-def _guessed_place(points: Array, kind: Kind) -> Array:
+def _guessed_place(points: Array, kind: Kind, R_file_scan: Array) -> Array:
     """(4, 4) mm: the camera looks up at a foot or down on bars, their middle under the column's."""
     T_column_scan = np.diag([1.0, -1.0, -1.0, 1.0] if kind is Kind.REBAR else [-1.0, -1.0, 1.0, 1.0])
+    T_column_scan[:3, :3] @= R_file_scan.T
     if len(points):
         T_column_scan[:3, 3] = -T_column_scan[:3, :3] @ np.median(points, axis=0)
     return T_column_scan

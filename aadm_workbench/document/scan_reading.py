@@ -61,13 +61,15 @@ def read_for(
 def _read(
     kind: str, file: Path, units: str, camera: Camera | str | Path | None, depth_scale_mm: float | None
 ) -> ReadScan:
-    from aadm_workbench.scan.camera import read_camera
+    from aadm_workbench.scan.camera import read_camera, read_depth_scale_mm
     from aadm_workbench.scan.read import read_scan
 
     named = {one.plural: one for one in Kind}
     if kind not in named:
         raise ScanError(f"a scan shows {' or '.join(named)}, not {kind!r}")
-    known = read_camera(Path(camera)) if isinstance(camera, str | Path) else camera
+    known = camera if camera is None or isinstance(camera, Camera) else read_camera(Path(camera))
+    if depth_scale_mm is None and isinstance(camera, str | Path):
+        depth_scale_mm = read_depth_scale_mm(Path(camera))
     scan = read_scan(file, units=units, camera=known, depth_scale_mm=depth_scale_mm, source=file.name)
     declared = {"units": units, "camera": known, "depth_scale_mm": depth_scale_mm}
     return ReadScan(scan, file.resolve(), named[kind], declared)

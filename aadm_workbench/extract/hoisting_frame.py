@@ -7,11 +7,11 @@ points; a cloud without rows and columns is laid on the image of a lens that wou
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.model import Array, BoolArray, FloatArray, Scan
+from aadm_workbench.model import OPENGL_AXES, Array, BoolArray, FloatArray, Scan
 
 _SAMPLE = 20_000
 _LENS_MISFIT_PIXELS = 2.0
@@ -99,7 +99,20 @@ def frame_of(scan: Scan) -> HoistingFrame | NoFrame:
     scan
         Points in mm, scan frame. Without camera and viewpoint a cloud counts as seen from the origin of its frame
         where it lies on one side of it, as the clouds of structured-light cameras do.
+
+    Returns
+    -------
+    HoistingFrame, whose ``T_scan_frame`` leads to the coordinates of the scan's file, or NoFrame with the reason.
     """
+    frame = _rays_of(scan)
+    if isinstance(frame, NoFrame) or scan.axes != OPENGL_AXES:
+        return frame
+    T_file_scan = np.eye(4)
+    T_file_scan[:3, :3] = scan.R_file_scan
+    return replace(frame, T_scan_frame=T_file_scan @ frame.T_scan_frame)
+
+
+def _rays_of(scan: Scan) -> HoistingFrame | NoFrame:
     if scan.camera is not None and scan.organised:
         camera = scan.camera
         return HoistingFrame(scan.points, (camera.fx, camera.fy, camera.cx, camera.cy), np.eye(4))

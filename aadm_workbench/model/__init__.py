@@ -40,6 +40,9 @@ from aadm_workbench.model.hoisting import (
     HoistingReport,
 )
 from aadm_workbench.model.measured import (
+    AXES_UNKNOWN,
+    CAMERA_AXES,
+    OPENGL_AXES,
     AssemblyPoint,
     Camera,
     ColumnDesign,
@@ -90,6 +93,9 @@ from aadm_workbench.model.verdicts import (
 )
 
 __all__ = [
+    "AXES_UNKNOWN",
+    "CAMERA_AXES",
+    "OPENGL_AXES",
     "AbsolutePoint",
     "AbsolutePosition",
     "Array",

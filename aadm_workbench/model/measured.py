@@ -108,6 +108,10 @@ class Camera:
     scale_error: float = 1e-4
 
 
+CAMERA_AXES, OPENGL_AXES, AXES_UNKNOWN = "camera", "opengl", ""
+"""x right, y down, z forward; x right, y up, z backward; nobody knows."""
+
+
 @dataclass(frozen=True, eq=False)
 class Scan:
     """One as-built scan.
@@ -133,6 +137,9 @@ class Scan:
     declared_scale
         Where the file itself gives its unit and the job another: what lengths become, by multiplication, if the job's
         word is to hold. 1 where there is no such conflict.
+    axes
+        Those of the file: ``CAMERA_AXES``, ``OPENGL_AXES`` or ``AXES_UNKNOWN``. ``points`` and ``viewpoint`` of a file
+        in OpenGL's axes are turned into a camera's; :attr:`R_file_scan` leads back.
     """
 
     points: FloatArray
@@ -144,6 +151,12 @@ class Scan:
     image: npt.NDArray[np.uint8] | None = None
     notes: tuple[str, ...] = ()
     declared_scale: float = 1.0
+    axes: str = CAMERA_AXES
+
+    @property
+    def R_file_scan(self) -> Array:
+        """Rotation (3, 3) from the scan frame to the file's own coordinates."""
+        return np.diag([1.0, -1.0, -1.0]) if self.axes == OPENGL_AXES else np.eye(3)
 
     @property
     def organised(self) -> bool:

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
-from aadm_workbench.model import AssemblyPoint, Camera, ColumnDesign
+from aadm_workbench.model import OPENGL_AXES, AssemblyPoint, Camera, ColumnDesign
 from aadm_workbench.report.directions import Compass, compass_of, side_labels
 from aadm_workbench.report.hoist import worst_first
 from aadm_workbench.report.read import Report
@@ -157,13 +157,14 @@ def _up_deg(group: dict[str, Any]) -> float:
     if group["fit"] is None or group["fit"]["orientation"] == "ambiguous":
         return DEFAULT_UP_DEG
     T = group["fit"]["T_design_scan"]
-    # The top of the picture is -y of the scan frame.
-    return (round(math.degrees(math.atan2(-T[1][1], -T[0][1])) / 90.0) * 90.0) % 360.0
+    # The top of the picture is -y of the file, and +y in OpenGL's axes.
+    sign = 1.0 if group["quality"].get("axes") == OPENGL_AXES else -1.0
+    return (round(math.degrees(math.atan2(sign * T[1][1], sign * T[0][1])) / 90.0) * 90.0) % 360.0
 
 
 def _last_distance_m(group: dict[str, Any]) -> float | None:
     """Median depth of the points of the last scan; None where its frame is no camera's."""
-    depths = sorted(point["scan_mm"][2] for point in group["points"] if point["scan_mm"] is not None)
+    depths = sorted(abs(point["scan_mm"][2]) for point in group["points"] if point["scan_mm"] is not None)
     middle = depths[len(depths) // 2] if depths else 0.0
     return middle / 1000.0 if 200.0 < middle < 20_000.0 else None
 

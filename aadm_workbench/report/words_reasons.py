@@ -10,6 +10,7 @@ import re
 
 from aadm_workbench.report.words import Phrase
 from aadm_workbench.report.words_findings import finding_in_chinese
+from aadm_workbench.report.words_scans import FRAGMENTS as FRAGMENTS_OF_SCANS
 
 _NUMBER = r"[-+±]?[\d.]+"
 _LABEL = r"[SR]\d+"
@@ -168,7 +169,7 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
     (rf"\(scatter ({_NUMBER}) mm per axis\)", r"(每轴离散 \1 mm)"),
     (r"not found in the scan", "扫描中未找到"),
 )
-_COMPILED = [(re.compile(pattern), chinese) for pattern, chinese in _FRAGMENTS]
+_COMPILED = [(re.compile(pattern), chinese) for pattern, chinese in (*FRAGMENTS_OF_SCANS, *_FRAGMENTS)]
 
 
 def in_both_languages(sentence: str) -> Phrase:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +17,12 @@ LARGEST_PIXEL_OFFSET = 2.0
 """Conventions differ by half a pixel; the intrinsics of another camera of the same model by ten and more."""
 
 LARGEST_INTRINSICS_BYTES = 2**20
+
+_DEPTH_SCALE = re.compile(
+    r"^(?!\s*(?:#|//|%|;))[^\n]{0,4000}?\bdepth_scale_mm\b[\"']?\s*[:=]\s*"
+    r"([0-9]{1,12}(?:\.[0-9]{0,12})?(?:[eE][-+]?[0-9]{1,3})?)",
+    re.MULTILINE,
+)
 
 LARGEST_DEPTH_MM = 1e9
 """A thousand kilometres: what is further off is a fault of the file."""
@@ -175,4 +182,18 @@ def read_camera(path: Path, size: tuple[int, int] | None = None) -> Camera:
             found = replace(found, width=size[0], height=size[1])
         return intrinsics.checked_camera(found)
     except CameraError as error:
-        raise CameraError(f"{path}: {error}") from error
+        raise type(error)(f"{path}: {error}") from error
+
+
+def read_depth_scale_mm(path: Path) -> float | None:
+    """Return the step of integer depth maps that a file of intrinsics names in mm; other names tell no unit.
+
+    Raises
+    ------
+    ScanError
+        For a file that cannot be read.
+    """
+    text = load(Path(path), str(path)).content[:LARGEST_INTRINSICS_BYTES].decode("utf-8-sig", errors="replace")
+    found = _DEPTH_SCALE.search(text)
+    scale_mm = float(found[1]) if found else 0.0
+    return scale_mm if 0.0 < scale_mm < np.inf else None

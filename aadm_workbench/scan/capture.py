@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import hashlib
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
-import numpy as np
-
 from aadm_workbench.errors import CameraError, ScanError
 from aadm_workbench.model import Camera
-from aadm_workbench.scan.camera import LARGEST_INTRINSICS_BYTES, LARGEST_PIXEL_OFFSET, read_camera
+from aadm_workbench.scan.camera import (
+    LARGEST_INTRINSICS_BYTES,
+    LARGEST_PIXEL_OFFSET,
+    read_camera,
+    read_depth_scale_mm,
+)
+from aadm_workbench.scan.depth_picture import ColourPictureError, depth_picture
 from aadm_workbench.scan.file import Declared, load
+from aadm_workbench.scan.intrinsics import BentLensError
 from aadm_workbench.scan.picture_size import picture_size
 
 MOST_FILES = 1000
@@ -22,8 +26,7 @@ MOST_FILES = 1000
 _PICTURES = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp")
 _DEPTH_MAPS = (".tif", ".tiff", ".png", ".npz")
 _CLOUDS = (".ply", ".pcd", ".ptx", ".pts", ".xyz", ".e57", ".las", ".laz")
-_INTRINSICS = (".toml", ".json", ".yaml", ".yml", ".xml", ".txt", ".ini")
-_DEPTH_SCALE = re.compile(r"depth_scale_mm\b[\"']?\s*[:=]\s*([0-9]{1,12}(?:\.[0-9]{0,12})?(?:[eE][-+]?[0-9]{1,3})?)")
+_INTRINSICS = (".toml", ".json", ".yaml", ".yml", ".xml", ".txt", ".ini", ".csv")
 _DEPTH_WORDS = ("depth", "range", "tiefe", "深度")
 _PICTURE_WORDS = ("texture", "color", "colour", "rgb", "gray", "grey", "image", "2d", "left", "mono")
 _NO_MEASUREMENT_WORDS = ("preview", "colormap", "heat", "normal", "mask", "snr", "confidence", "render")
@@ -64,17 +67,24 @@ def find_capture(folder: Path, name: str, declared: Declared) -> Capture:
     ScanError
         For a folder without a scan, or with several.
     CameraError
-        For intrinsics that contradict the job's.
+        For intrinsics that contradict the job's, and those of a lens that was not straightened beside a depth map.
     """
     files = _files(folder, name)
     scan = _scan(files, name)
-    intrinsics, camera, notes = _camera(files, scan, declared)
     clouds = _of(files, _CLOUDS)
+    try:
+        intrinsics, camera, notes = _camera(files, scan, declared)
+    except BentLensError as error:
+        if scan not in clouds and len(clouds) != 1:
+            raise
+        # The camera's program has straightened its cloud.
+        scan = scan if scan in clouds else clouds[0]
+        intrinsics, camera, notes = None, declared.camera, [f"{scan.name} was taken: {error}"]
     if camera is None and scan not in clouds and len(clouds) == 1:
         notes.append(f"{clouds[0].name} was taken: {scan.name} has no intrinsics beside it")
         scan = clouds[0]
     if intrinsics is not None and declared.depth_scale_mm is None:
-        declared = replace(declared, depth_scale_mm=_depth_scale_mm(intrinsics))
+        declared = replace(declared, depth_scale_mm=read_depth_scale_mm(intrinsics))
     texture = _texture(files, scan)
     if texture is not None and camera is not None and _size(texture) != (camera.width, camera.height):
         notes.append(f"{texture.name} is left out: it is not of the size of the depth map")
@@ -107,7 +117,10 @@ def _scan(files: Sequence[Path], name: str) -> Path:
     unnamed = [path for path in maps if path.suffix.lower() != ".png" and path not in _with(maps, _PICTURE_WORDS)]
     clouds = _of(files, _CLOUDS)
     plain_clouds = [path for path in clouds if path not in _with(clouds, (*_PICTURE_WORDS, *_NO_MEASUREMENT_WORDS))]
-    for candidates in (named, unnamed, plain_clouds, clouds):
+    coloured = [path for path in (*named, *unnamed) if _is_in_colour(path)]
+    for candidates in (named, unnamed, plain_clouds, clouds, coloured):
+        if candidates is not coloured:
+            candidates = [path for path in candidates if path not in coloured]
         if len(candidates) > 1:
             # A coloured view of the depth map is called after it, too.
             plain = [path for path in candidates if path not in _with(candidates, _PICTURE_WORDS)]
@@ -125,19 +138,13 @@ def _scan(files: Sequence[Path], name: str) -> Path:
 
 def _camera(files: Sequence[Path], scan: Path, declared: Declared) -> tuple[Path | None, Camera | None, list[str]]:
     """Return the file with the intrinsics, the camera that holds, and notes on it."""
-    found: list[tuple[Path, Camera]] = []
-    unread: list[str] = []
-    size = _size(scan) if scan.suffix.lower() in _PICTURES else None
-    for path in _of(files, _INTRINSICS):
-        if path == scan or path.stat().st_size > LARGEST_INTRINSICS_BYTES:
-            continue
-        try:
-            found.append((path, read_camera(path, size)))
-        except (CameraError, ScanError) as error:
-            # Most texts beside a scan hold something else; of what is meant for intrinsics it is said why not.
-            unread.append(f"{path.name} was not understood as intrinsics: it {_reason(error, path)}")
+    found, bent, unread = _intrinsics(files, scan)
     named = [item for item in found if _with([item[0]], _DEPTH_WORDS)]
     found = named or found
+    for bent_path, why in bent:
+        # Those of the texture camera beside straight ones of the depth map do not matter.
+        if not named and not (found and _with([bent_path], _PICTURE_WORDS)):
+            raise why
     if not found:
         return None, declared.camera, unread
     path, camera = found[0]
@@ -156,16 +163,29 @@ def _camera(files: Sequence[Path], scan: Path, declared: Declared) -> tuple[Path
     return path, declared.camera, []
 
 
+def _intrinsics(
+    files: Sequence[Path], scan: Path
+) -> tuple[list[tuple[Path, Camera]], list[tuple[Path, BentLensError]], list[str]]:
+    """Return the cameras that are described beside a scan, those whose lens is bent, and what was not understood."""
+    found: list[tuple[Path, Camera]] = []
+    bent: list[tuple[Path, BentLensError]] = []
+    unread: list[str] = []
+    size = _size_of_depths(scan) if scan.suffix.lower() in _PICTURES else None
+    for path in _of(files, _INTRINSICS):
+        if path == scan or path.stat().st_size > LARGEST_INTRINSICS_BYTES:
+            continue
+        try:
+            found.append((path, read_camera(path, size)))
+        except BentLensError as error:
+            bent.append((path, error))
+        except (CameraError, ScanError) as error:
+            # Most texts beside a scan hold something else; of what is meant for intrinsics it is said why not.
+            unread.append(f"{path.name} was not understood as intrinsics: it {_reason(error, path)}")
+    return found, bent, unread
+
+
 def _reason(error: Exception, path: Path) -> str:
     return str(error).removeprefix(f"{path}: ")
-
-
-def _depth_scale_mm(path: Path) -> float | None:
-    """Return the step of integer depth maps that a file of intrinsics names in mm; other names tell no unit."""
-    text = load(path, path.name).content.decode("utf-8", errors="replace")
-    found = _DEPTH_SCALE.search(text)
-    scale_mm = float(found[1]) if found else 0.0
-    return scale_mm if 0.0 < scale_mm < np.inf else None
 
 
 def _same(one: Camera, other: Camera) -> bool:
@@ -182,6 +202,28 @@ def _texture(files: Sequence[Path], scan: Path) -> Path | None:
     pictures = [path for path in pictures if path not in _with(pictures, _NO_MEASUREMENT_WORDS)]
     named = _with(pictures, _PICTURE_WORDS) or pictures
     return named[0] if len(named) == 1 else None
+
+
+def _is_in_colour(path: Path) -> bool:
+    """Whether a picture shows colours, such as a viewer's picture of a depth map."""
+    if path.suffix.lower() not in _PICTURES:
+        return False
+    try:
+        depth_picture(load(path, path.name))
+    except ColourPictureError:
+        return True
+    except ScanError:
+        return False
+    return False
+
+
+def _size_of_depths(path: Path) -> tuple[int, int] | None:
+    """Return width and height of a depth map, None where it is none."""
+    try:
+        picture = depth_picture(load(path, path.name))
+    except ScanError:
+        return None
+    return picture.width, picture.height
 
 
 def _size(path: Path) -> tuple[int, int] | None:

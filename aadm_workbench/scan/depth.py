@@ -1,19 +1,23 @@
-"""Depth maps (.tiff, .png): one depth a pixel, to points by the camera's intrinsics."""
+"""Depth maps (.tiff, .png): one depth a pixel, to points by the camera's intrinsics; and maps of X, Y and Z (.tiff)."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 
 from aadm_workbench.errors import CameraError
 from aadm_workbench.model import Camera, FloatArray
 from aadm_workbench.scan.camera import depth_to_points
+from aadm_workbench.scan.depth_picture import depth_picture
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
 from aadm_workbench.scan.picture import Pixels, pixels_of
-from aadm_workbench.scan.picture_size import depth_map_size
 
 
 def read_depth_map(file: ScanFile, declared: Declared) -> Cloud:
     """Read a depth map: uint16 in steps of ``depth_scale_mm``, or floating in the declared unit.
+
+    Three floating values a pixel are X, Y and Z in that unit: an organised cloud, which needs no camera.
 
     Raises
     ------
@@ -22,9 +26,11 @@ def read_depth_map(file: ScanFile, declared: Declared) -> Cloud:
     ScanError
         Where the picture cannot be decoded or is no depth map.
     """
-    width, height = depth_map_size(file)
-    _checked_camera(file, width, height, declared)
-    return cloud_of_depth_map(file, pixels_of(file), declared)
+    picture = depth_picture(file)
+    if picture.is_point_map:
+        return Cloud(pixels_of(file, picture), declared.mm_per_unit, notes=picture.notes)
+    _checked_camera(file, picture.width, picture.height, declared)
+    return replace(cloud_of_depth_map(file, pixels_of(file, picture), declared), notes=picture.notes)
 
 
 def cloud_of_depth_map(file: ScanFile, depth: Pixels, declared: Declared) -> Cloud:
@@ -49,7 +55,7 @@ def cloud_of_depth_map(file: ScanFile, depth: Pixels, declared: Declared) -> Clo
     height, width = depth.shape
     camera = _checked_camera(file, width, height, declared)
     depth_mm = _in_millimetres(file, depth, declared)
-    return Cloud(depth_to_points(depth_mm, camera), mm_per_unit=1.0, T_scan_file=np.eye(4))
+    return Cloud(depth_to_points(depth_mm, camera), mm_per_unit=1.0, T_scan_file=np.eye(4), is_depth_map=True)
 
 
 def _checked_camera(file: ScanFile, width: int, height: int, declared: Declared) -> Camera:

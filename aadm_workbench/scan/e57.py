@@ -88,17 +88,21 @@ def _scan(file: ScanFile, library: ModuleType, image: Any, number: int) -> Cloud
     points = np.column_stack([values[name] for name in system])
     if system is _SPHERICAL:
         points = _from_spherical(points)
-    pose = _pose(file, node)
+    pose, notes = _pose(file, node)
     invalid = values.get(_INVALID[system], np.zeros(len(points))) != 0
     if all(name in values for name in _GRID):
         grid = _grid(points, values, invalid)
         if grid is not None:
-            return Cloud(grid, _MM_PER_METRE, np.eye(4) if pose is None else pose, unit_from=_UNIT_FROM)
+            eye = np.eye(4) if pose is None else pose
+            return Cloud(grid, _MM_PER_METRE, eye, unit_from=_UNIT_FROM, notes=notes)
     dropped = int(np.count_nonzero(invalid))
-    return Cloud(points[~invalid], _MM_PER_METRE, pose, unit_from=_UNIT_FROM, dropped=dropped)
+    return Cloud(points[~invalid], _MM_PER_METRE, pose, unit_from=_UNIT_FROM, dropped=dropped, notes=notes)
 
 
 _UNIT_FROM = "an E57 file is in metres"
+
+NO_ROTATION = "the rotation in its pose is 0 0 0 0, which is none: the pose was taken not to turn"
+"""Note of a file whose writer left the quaternion empty."""
 
 
 def _values(file: ScanFile, library: ModuleType, image: Any, vector: Any, names: list[str]) -> dict[str, Array]:
@@ -127,11 +131,15 @@ def _from_spherical(points: Array) -> Array:
     return np.column_stack([flat * np.cos(azimuth), flat * np.sin(azimuth), distance * np.sin(elevation)])
 
 
-def _pose(file: ScanFile, node: Any) -> Array | None:
-    """Return the pose (4, 4), metres, of a scan: a unit quaternion w x y z and a translation; None without one."""
+def _pose(file: ScanFile, node: Any) -> tuple[Array | None, tuple[str, ...]]:
+    """Return the pose (4, 4), metres, of a scan: a quaternion w x y z and a translation, None without one; and notes.
+
+    Some writers leave a pose that they do not know at 0 0 0 0, which is no rotation.
+    """
     if not node.isDefined("pose"):
-        return None
+        return None, ()
     pose = np.eye(4)
+    notes: tuple[str, ...] = ()
     rotation, translation = (
         node["pose"][name] if node["pose"].isDefined(name) else None for name in ("rotation", "translation")
     )
@@ -139,14 +147,17 @@ def _pose(file: ScanFile, node: Any) -> Array | None:
         from scipy.spatial.transform import Rotation  # slow to import, and few files need it
 
         quaternion = np.array([float(rotation[axis].value()) for axis in "xyzw"])
-        if not np.isfinite(quaternion).all() or not quaternion.any():
+        if not np.isfinite(quaternion).all():
             raise file.wrong(f"the rotation of a scan is {quaternion.tolist()}, which is none; export it again")
-        pose[:3, :3] = Rotation.from_quat(quaternion).as_matrix()
+        if quaternion.any():
+            pose[:3, :3] = Rotation.from_quat(quaternion).as_matrix()
+        else:
+            notes = (NO_ROTATION,)
     if translation is not None:
         pose[:3, 3] = [float(translation[axis].value()) for axis in "xyz"]
     if not np.isfinite(pose).all():
         raise file.wrong("the translation of a scan is not finite; export it again")
-    return None if np.array_equal(pose, np.eye(4)) else pose
+    return None if np.array_equal(pose, np.eye(4)) else pose, notes
 
 
 def _grid(points: Array, values: dict[str, Array], invalid: BoolArray) -> FloatArray | None:

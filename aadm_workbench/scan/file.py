@@ -46,11 +46,12 @@ class ScanFile:
 
 @dataclass(frozen=True)
 class Declared:
-    """What the job says of a scan because most formats do not: unit, camera, step of an integer depth map."""
+    """What the job says of a scan because most formats do not: unit, camera, step of an integer depth map, axes."""
 
     mm_per_unit: float = 1.0
     camera: Camera | None = None
     depth_scale_mm: float | None = None
+    axes: str | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +74,8 @@ class Cloud:
         Points of the file that are left out of ``points`` because they are marked as no measurement.
     notes
         What the reader did that the file's owner should know.
+    is_depth_map
+        Whether the points were computed by the declared camera, in whose axes they are then.
     """
 
     points: FloatArray
@@ -82,6 +85,7 @@ class Cloud:
     grey: npt.NDArray[np.uint8] | None = None
     dropped: int = 0
     notes: tuple[str, ...] = ()
+    is_depth_map: bool = False
 
 
 def load(path: Path, name: str) -> ScanFile:

@@ -7,14 +7,15 @@ import math
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
 
 from aadm_workbench.errors import CameraError
 from aadm_workbench.model import Camera
+from aadm_workbench.scan.distortion import as_float, coefficients_in, is_coefficients, numbers_in
+from aadm_workbench.scan.printed import Entry, entries_of, kind_of
 from aadm_workbench.scan.xml_table import parse_xml
 
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _SHORTEST_FOCAL_LENGTH = 10.0
 """In pixels; a rotation matrix also has three rows, but its entries are at most 1."""
 
@@ -23,7 +24,25 @@ _UNLIKE_FOCAL_LENGTHS = 1.2
 
 _LARGEST_PIXEL_COUNT = 2**26
 _DEFAULT_SCALE_ERROR = Camera.scale_error
-_OTHER_NAMES = {"ppx": "cx", "ppy": "cy", "imagewidth": "width", "imageheight": "height"}
+_KEYS = frozenset({"fx", "fy", "cx", "cy", "width", "height"})
+_OTHER_NAMES = {
+    **{
+        f"{word}{axis}": f"c{axis}"
+        for word in ("pp", "principalpoint", "principal", "center", "centre")
+        for axis in "xy"
+    },
+    **{f"{word}{axis}": f"f{axis}" for word in ("focal", "focallength") for axis in "xy"},
+    **{f"{word}{name}": name for word in ("image", "img") for name in ("width", "height")},
+    **{f"{word}{axis}": name for word in ("resolution", "size") for axis, name in (("x", "width"), ("y", "height"))},
+    "imagesizex": "width",
+    "imagesizey": "height",
+}
+Matrix: TypeAlias = tuple[float, float, float, float]
+"""fx, fy, cx, cy in pixels."""
+
+
+class BentLensError(CameraError):
+    """Intrinsics of a lens whose distortion was not taken out: no depth map beside them can be believed."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +80,10 @@ def parse(text: str, suffix: str) -> Intrinsics:
     if read_table is None:
         return _from_text(text)
     try:
-        return _chosen(list(_from_table(read_table(text), "")))
+        table = read_table(text)
+        chosen = _chosen(list(_from_table(table, "")))
+        said = [(kind_of(path), numbers) for path, numbers in coefficients_in(table)]
+        return replace(chosen, distortion=_of_the_camera(said, chosen.camera))
     except RecursionError as error:
         raise CameraError("is nested deeper than any file of intrinsics") from error
     except ValueError as error:
@@ -94,7 +116,7 @@ def checked_camera(found: Intrinsics) -> Camera:
             "the size belongs to another camera or another resolution"
         )
     if any(value != 0 for value in found.distortion):
-        raise CameraError(
+        raise BentLensError(
             f"has distortion coefficients {list(found.distortion)}, but points are computed for an undistorted camera: "
             "export undistorted depth maps, or point clouds instead of depth maps"
         )
@@ -113,27 +135,36 @@ def _chosen(candidates: list[Intrinsics]) -> Intrinsics:
     return meant[0]
 
 
-def _kind(label: str) -> str:
-    return next((word for word in ("depth", "texture") if word in label.lower()), "")
-
-
 def _from_table(table: Any, label: str, outer: Mapping[str, Any] | None = None) -> Iterator[Intrinsics]:
     """Yield the intrinsics of a table and of the tables in it; what a table lacks, the one around it may say."""
+    if isinstance(table, list):
+        for item in table:
+            yield from _from_table(item, label, outer)
     if not isinstance(table, Mapping):
         return
     own = {_named(str(key)): _without_shape(value) for key, value in table.items()}
     known = {**(outer or {}), **own}
-    matrix = next((found for value in own.values() if (found := _matrix(_flat(value)))), None)
-    if {"fx", "fy", "cx", "cy"} <= own.keys():
-        fx, fy, cx, cy = (_plain_number(own[key], key) for key in ("fx", "fy", "cx", "cy"))
-        matrix = fx, fy, cx, cy
+    matrix = _matrix_of(own)
     if matrix is not None:
-        yield Intrinsics(
-            _kind(label), *matrix, _size(known, "width"), _size(known, "height"), _scale_error(known), _distortion(own)
-        )
+        size = _size(known, "width"), _size(known, "height")
+        if size == (None, None):
+            size = _listed_size(numbers_in(own.get("imagesize", [])), *matrix[2:])
+        yield Intrinsics(kind_of(label), *matrix, *size, _scale_error(known))
     passed_on = {key: value for key, value in known.items() if not isinstance(value, Mapping | list)}
     for key, value in table.items():
         yield from _from_table(value, f"{label} {key}", passed_on)
+
+
+def _matrix_of(own: Mapping[str, Any]) -> Matrix | None:
+    """Return fx, fy, cx, cy of a table, by name or as a matrix."""
+    if {"fx", "fy", "cx", "cy"} <= own.keys():
+        fx, fy, cx, cy = (_plain_number(own[key], key) for key in ("fx", "fy", "cx", "cy"))
+        return fx, fy, cx, cy
+    named = [numbers_in(own.get(key, [])) for key in ("focallength", "principalpoint")]
+    if [len(numbers) for numbers in named] == [2, 2]:
+        return _matrix(named[0] + named[1])
+    listed = (numbers_in(value) for value in own.values() if not isinstance(value, str))
+    return next((found for numbers in listed if (found := _matrix(numbers))), None)
 
 
 def _named(key: str) -> str:
@@ -152,14 +183,7 @@ def _without_shape(value: Any) -> Any:
 def _plain_number(value: Any, key: str) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise CameraError(f"has {key} = {value!r}, which is no number")
-    return _as_float(value)
-
-
-def _as_float(value: int | float) -> float:
-    try:
-        return float(value)
-    except OverflowError:
-        return math.inf
+    return as_float(value)
 
 
 def _size(known: Mapping[str, Any], key: str) -> int | None:
@@ -175,48 +199,41 @@ def _scale_error(known: Mapping[str, Any]) -> float:
     return _plain_number(known.get("scaleerror", _DEFAULT_SCALE_ERROR), "scale_error")
 
 
-def _distortion(table: Mapping[str, Any]) -> tuple[float, ...]:
-    is_coefficient = re.compile(r"k[1-6]|p[12]|d|dist.*|coeffs").fullmatch
-    return tuple(number for key, value in table.items() if is_coefficient(key) for number in _flat(value))
-
-
-def _flat(value: Any) -> list[float]:
-    """Return the numbers in nested lists and tables."""
-    if isinstance(value, Mapping):
-        value = list(value.values())
-    if isinstance(value, list):
-        return [number for item in value for number in _flat(item)]
-    return [_as_float(value)] if isinstance(value, int | float) and not isinstance(value, bool) else []
-
-
 def _from_text(text: str) -> Intrinsics:
-    candidates = [Intrinsics(_kind(label), *matrix) for label, matrix in _printed_matrices(text)]
-    candidates = candidates or [Intrinsics("", *values) for values in _printed_names(text)]
-    chosen = _chosen(candidates)
-    width, height = _printed_size(text)
-    return Intrinsics(
-        chosen.camera, chosen.fx, chosen.fy, chosen.cx, chosen.cy, width, height, distortion=_printed_distortion(text)
-    )
+    entries = entries_of(text)
+    chosen = _chosen(_printed_matrices(entries) or list(_printed_names(entries)))
+    width, height = _printed_size(text, entries)
+    if width is None and chosen.cx is not None and chosen.cy is not None:
+        listed = next((entry.numbers for entry in entries if entry.last == "imagesize"), ())
+        width, height = _listed_size(list(listed), chosen.cx, chosen.cy)
+    said = [(entry.camera, list(entry.numbers)) for entry in entries if _is_coefficients(entry)]
+    return replace(chosen, width=width, height=height, distortion=_of_the_camera(said, chosen.camera))
 
 
-def _printed_matrices(text: str) -> Iterator[tuple[str, tuple[float, float, float, float]]]:
-    """Yield the camera matrices in a text, each with the last words before it."""
-    blocks: list[tuple[str, list[float]]] = [("", [])]
-    for line in text.splitlines():
-        words, bracket, rest = line.partition("[")
-        if re.search("[A-Za-z]", words):
-            blocks.append((words, []))
-        else:
-            rest = words + bracket + rest
-        if not re.search("[A-DF-Za-df-z]", rest):
-            blocks[-1][1].extend(float(number) for number in re.findall(_NUMBER, rest))
-    for label, numbers in blocks:
-        matrix = _matrix(numbers)
-        if matrix is not None:
-            yield label, matrix
+def _printed_matrices(entries: list[Entry]) -> list[Intrinsics]:
+    """Return the cameras that are printed as matrices, each called as the words right before it call it, if any do."""
+    found = [(entry, matrix) for entry in entries if (matrix := _matrix(list(entry.numbers))) is not None]
+    is_called = any(entry.own_camera for entry, _ in found)
+    return [Intrinsics(entry.own_camera if is_called else entry.camera, *matrix) for entry, matrix in found]
 
 
-def _matrix(numbers: list[float]) -> tuple[float, float, float, float] | None:
+def _is_coefficients(entry: Entry) -> bool:
+    return any(is_coefficients(name, entry.numbers) for name in (entry.name, entry.last) if name)
+
+
+def _of_the_camera(said: list[tuple[str, list[float]]], camera: str) -> tuple[float, ...]:
+    """Return the coefficients of a camera: those that are called its own, else all but those of another one."""
+    kinds = {kind for kind, _ in said}
+    if camera == "depth":
+        said = (
+            [item for item in said if item[0] == "depth"]
+            if "depth" in kinds
+            else [item for item in said if item[0] != "texture"]
+        )
+    return tuple(number for _, numbers in said for number in numbers)
+
+
+def _matrix(numbers: list[float]) -> Matrix | None:
     """Return fx, fy, cx, cy of a camera matrix by rows or by columns, of these four numbers, or of fx, cx, fy, cy."""
     match numbers:
         case (
@@ -232,35 +249,64 @@ def _are_unlike(one: float, other: float) -> bool:
     return not 1.0 / _UNLIKE_FOCAL_LENGTHS < one / other < _UNLIKE_FOCAL_LENGTHS
 
 
-def _printed_names(text: str) -> Iterator[tuple[float, float, float, float]]:
-    """Yield the values of fx, fy, cx and cy where they are printed by name."""
-    pattern = rf"(?i)\b{{}}\b[\"']?\s*[:=]\s*({_NUMBER})"
-    columns = [re.findall(pattern.format(name), text) for name in ("fx", "fy", "cx", "cy")]
-    yield from (tuple(map(float, values)) for values in zip(*columns, strict=False))  # type: ignore[misc]
+def _printed_names(entries: list[Entry]) -> Iterator[Intrinsics]:
+    """Yield the cameras whose fx, fy, cx and cy are printed by name, in any order."""
+    known: dict[str, float] = {}
+    for entry in entries:
+        known.update(zip(_keys_of(entry), entry.numbers, strict=False))
+        if known.keys() >= {"fx", "fy", "cx", "cy"}:
+            yield Intrinsics(entry.camera, known["fx"], known["fy"], known["cx"], known["cy"])
+            known = {}
 
 
-def _printed_size(text: str) -> tuple[int | None, int | None]:
+def _keys_of(entry: Entry) -> tuple[str, ...]:
+    """Return what the numbers of an entry are, of fx, fy, cx, cy, width and height; none where they are something else.
+
+    The name is the last word, or, as in "principal point x", the last three.
+    """
+    ends = [_named("".join(entry.words[-count:])) for count in (1, 2, 3)]
+    if len(entry.numbers) == 1:
+        return tuple(key for key in ends if key in _KEYS)[:1]
+    pairs = {"focallength": ("fx", "fy"), "principalpoint": ("cx", "cy"), "f": ("fx", "fy"), "p": ("cx", "cy")}
+    return next((pairs[key] for key in ends if key in pairs), ()) if len(entry.numbers) == 2 else ()
+
+
+def _printed_size(text: str, entries: list[Entry]) -> tuple[int | None, int | None]:
     """Return the size of the depth map; of the only image where none is called depth."""
-    pairs = list(re.finditer(r"(?i)width\W{1,6}(\d{1,6})\W{1,40}(?:image_)?height\W{1,6}(\d{1,6})", text))
-    pairs = pairs or list(re.finditer(r"(?i)(?:resolution|size)\W{1,6}(\d{1,6})\W{1,6}(?:x\s)?(\d{1,6})", text))
-    if not pairs and (turned := re.search(r"(?i)height\W{1,6}(\d{1,6})\W{1,40}(?:image_)?width\W{1,6}(\d{1,6})", text)):
-        return int(turned.group(2)), int(turned.group(1))
-    by_camera = {_kind(text[text.rfind("\n", 0, pair.start()) + 1 : pair.start()]): pair for pair in pairs}
-    pair = by_camera.get("depth") or (pairs[0] if len({pair.groups() for pair in pairs}) == 1 else None)
-    return (int(pair.group(1)), int(pair.group(2))) if pair else (None, None)
+    sizes = list(_named_sizes(entries))
+    for pair in [] if sizes else re.finditer(_SIZE, text):
+        before = text[text.rfind("\n", 0, pair.start()) + 1 : pair.start()]
+        sizes.append((kind_of(before), (int(pair.group(1)), int(pair.group(2)))))
+    by_camera = dict(sizes)
+    size = by_camera.get("depth") or (sizes[0][1] if len({size for _, size in sizes}) == 1 else None)
+    return size or (None, None)
 
 
-def _printed_distortion(text: str) -> tuple[float, ...]:
-    """Return the depth camera's coefficients, or all that are printed where none are called depth."""
-    of_depth = re.search(r"(?i)depth[ \w]*dist[ \w]*:\s*(\S.*)", text)
-    printed = of_depth.group(1) if of_depth else text
-    coefficients = re.findall(rf"(?i)\b(?:k[1-6]|p[12])\b\s*[:=]\s*({_NUMBER})", printed)
-    for listed in _LISTED_DISTORTION.findall(text):
-        coefficients += re.findall(_NUMBER, listed)
-    return tuple(float(value) for value in coefficients)
-
-
-_LISTED_DISTORTION = re.compile(
-    r"(?i)\bdist\w{0,40}[ \w]{0,20}:\s{0,80}(?:!!opencv-matrix)?(?:\s{0,80}(?:rows|cols|dt)\s?:\s?\w{1,9}){0,3}"
-    r"\s{0,80}(?:data\s?:)?\s{0,80}\[([^\]]{0,2000})\]"
+_SIZE = re.compile(
+    r"(?i)(?:\b(?:resolution|size)\W{1,6}(?:x\s)?(?=\d{1,6}\W{1,6}(?:x\s)?\d)|(?<![\w.])(?=\d{1,6}\s?[x×]))"
+    r"(\d{1,6})\W{0,6}(?:[x×]\s?)?(\d{1,6})\b"
 )
+
+
+def _named_sizes(entries: list[Entry]) -> Iterator[tuple[str, tuple[int, int]]]:
+    """Yield width and height where they are printed by name, each pair with the camera it is of."""
+    known: dict[str, int] = {}
+    for entry in entries:
+        key = next(iter(_keys_of(entry)), "")
+        if key in ("width", "height") and entry.numbers[0].is_integer() and entry.numbers[0] > 0:
+            known[key] = int(entry.numbers[0])
+        if known.keys() >= {"width", "height"}:
+            yield entry.camera, (known["width"], known["height"])
+            known = {}
+
+
+def _listed_size(numbers: list[float], cx: float, cy: float) -> tuple[int | None, int | None]:
+    """Return width and height of two numbers in the order that has the optical axis nearer to the middle.
+
+    MATLAB writes rows before columns, most others the width first.
+    """
+    if len(numbers) != 2 or not all(number > 0 and number.is_integer() for number in numbers):
+        return None, None
+    orders = (numbers, numbers[::-1])
+    width, height = min(orders, key=lambda size: abs(cx / size[0] - 0.5) + abs(cy / size[1] - 0.5))
+    return int(width), int(height)

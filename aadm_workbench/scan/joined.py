@@ -46,7 +46,10 @@ def joined(clouds: Sequence[Cloud]) -> Cloud:
         first.T_scan_file if of_one_station else None,
         unit_from=first.unit_from,
         dropped=dropped,
-        notes=(f"holds {len(clouds)} scans, which were joined by the poses that they carry",),
+        notes=(
+            f"holds {len(clouds)} scans, which were joined by the poses that they carry",
+            *dict.fromkeys(note for cloud in clouds for note in cloud.notes),
+        ),
     )
 
 

@@ -33,8 +33,8 @@ _PLAIN_BYTES, _LAYERED_BYTES = 0, 14
 _OF_ANY_LENGTH = 2**32 - 1
 """Where each chunk has its own number of points."""
 
-_CHUNKED, _LAYERED = 2, 3
-_COORDINATES = {_CHUNKED: 6, _LAYERED: 10}
+_POINT_WISE, _CHUNKED, _LAYERED = 1, 2, 3
+_COORDINATES = {_POINT_WISE: 6, _CHUNKED: 6, _LAYERED: 10}
 """With which kind of item records begin."""
 
 
@@ -107,8 +107,11 @@ def _packing(file: ScanFile, header: LasHeader) -> bytes:
         and all(kind in (_PLAIN_BYTES, _LAYERED_BYTES) or _ITEM_BYTES.get(kind) == size for kind, size in items)
         and sum(size for _, size in items) == header.record_bytes
     )
-    if chunk_points == 0 or not fits:
+    if not fits or (chunk_points == 0 and compressor != _POINT_WISE):
         raise file.wrong("is packed in a way that does not fit its points; export it again, or as LAS")
+    if compressor == _POINT_WISE:
+        # The first kind of LAZ: one stream of points, without chunks.
+        return content
     table, chunks = _table_of_chunks(file, header)
     needed = chunks if chunk_points == _OF_ANY_LENGTH else math.ceil(header.count / chunk_points)
     if chunks < needed:

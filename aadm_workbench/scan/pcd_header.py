@@ -95,7 +95,7 @@ def parse_header(file: ScanFile) -> PcdHeader:
 
 def _entries(file: ScanFile) -> tuple[dict[str, list[str]], int]:
     entries: dict[str, list[str]] = dict(_DEFAULTS)
-    position = 0
+    position = 3 if file.content.startswith(b"\xef\xbb\xbf") else 0
     while "DATA" not in entries:
         end = file.content.find(b"\n", position, LONGEST_HEADER_BYTES)
         if end < 0:

@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.scan.depth_picture import DepthPicture
 from aadm_workbench.scan.file import ScanFile
+from aadm_workbench.scan.packed_tiff import is_beyond_opencv, unpacked
 from aadm_workbench.scan.picture_size import check_whole, picture_size
+from aadm_workbench.scan.tiff_pages import SIGNATURES as TIFF_SIGNATURES
+from aadm_workbench.scan.tiff_pages import Page, alone, pages_of
 
 Pixels = np.ndarray[Any, np.dtype[Any]]
 
 LARGEST_PIXEL_COUNT = 2**26
 """Bound on what a picture may unpack to; a frame of today's largest cameras has 2**23 pixels."""
 
+_STANDARD_ERROR = 2
 _TIFF_COMPRESSION, _TIFF_ROWS_PER_STRIP, _TIFF_PREDICTOR = 259, 278, 317
 _TIFF_DEFLATE, _TIFF_NO_PREDICTOR, _TIFF_HORIZONTAL = 8, 1, 2
 
@@ -29,16 +37,20 @@ def _opencv() -> Any:
     return cv2
 
 
-def pixels_of(file: ScanFile) -> Pixels:
+def pixels_of(file: ScanFile, picture: DepthPicture) -> Pixels:
     """Return the pixels of a picture as they are stored, (h, w) or (h, w, channels).
 
     Raises
     ------
     ScanError
         Where it cannot be decoded: no picture, too large, damaged, or cut off.
+    MissingDependencyError
+        Where it is packed in a way that needs a package which is not installed.
     """
-    cv2 = _opencv()
-    return _decoded(file, cv2.IMREAD_UNCHANGED)
+    _check_size(file, picture.width, picture.height)
+    if is_beyond_opencv(picture):
+        return unpacked(file, picture)
+    return _decoded(file, picture.page, _opencv().IMREAD_UNCHANGED)
 
 
 def grey_of(file: ScanFile) -> npt.NDArray[np.uint8]:
@@ -50,22 +62,45 @@ def grey_of(file: ScanFile) -> npt.NDArray[np.uint8]:
         Where it cannot be decoded: no picture, too large, damaged, or cut off.
     """
     cv2 = _opencv()
-    return _decoded(file, cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION)
+    _check_size(file, *picture_size(file))
+    page = pages_of(file.content)[0] if file.content.startswith(TIFF_SIGNATURES) else None
+    return _decoded(file, page, cv2.IMREAD_GRAYSCALE | cv2.IMREAD_IGNORE_ORIENTATION)
 
 
-def _decoded(file: ScanFile, flags: int) -> Pixels:
-    cv2 = _opencv()
-    width, height = picture_size(file)
+def _check_size(file: ScanFile, width: int, height: int) -> None:
     if width * height > LARGEST_PIXEL_COUNT:
         raise file.wrong(f"announces {width} x {height} pixels, more than any camera has; export it again")
+
+
+def _decoded(file: ScanFile, page: Page | None, flags: int) -> Pixels:
+    cv2 = _opencv()
     check_whole(file)
+    content = file.content if page is None else alone(file.content, page)
     try:
-        pixels: Pixels | None = cv2.imdecode(np.frombuffer(file.content, np.uint8), flags)
+        with _quiet():
+            pixels: Pixels | None = cv2.imdecode(np.frombuffer(content, np.uint8), flags)
     except cv2.error:
         pixels = None
     if pixels is None:
         raise file.wrong("cannot be decoded: it is no picture, damaged or cut off; copy or export it again")
     return pixels
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep what OpenCV, libtiff and libpng print by themselves off the screen: the error that follows says it."""
+    kept = None
+    with suppress(OSError):
+        kept = os.dup(_STANDARD_ERROR)
+        nowhere = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(nowhere, _STANDARD_ERROR)
+        os.close(nowhere)
+    try:
+        yield
+    finally:
+        if kept is not None:
+            os.dup2(kept, _STANDARD_ERROR)
+            os.close(kept)
 
 
 def encode_tiff(pixels: npt.NDArray[np.uint16]) -> bytes:

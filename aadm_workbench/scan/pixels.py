@@ -17,6 +17,7 @@ _STEP_RANGE = (1e-4, 1e-2)  # of x/z from pixel to pixel: focal lengths of 100 t
 _TANGENT_MAX = 10.0  # of the widest lens; farther out are faults
 _SAME_COLUMN = 1e-5  # of x/z: what precision of files leaves between points of one column
 _OFF_GRID, _ON_GRID_SHARE = 0.15, 0.98  # pixels; of the points
+_OFF_PICTURE = 1.0  # pixels, median: a lens that was not straightened bends lines by more
 _SIZE_MAX = 6_000
 _SHARED_SHARE = 0.01  # of the points may fall on a pixel that another one has
 _SOUGHT_STEPS = 5
@@ -63,6 +64,30 @@ def on_pixels(points: FloatArray) -> FloatArray | None:
     picture = np.full((height * width, 3), np.nan, points.dtype)
     picture[pixel] = points
     return picture.reshape(height, width, 3)
+
+
+def is_picture(points: FloatArray) -> bool:
+    """Whether an organised cloud is the picture of a camera at the origin that looks along +z.
+
+    Parameters
+    ----------
+    points
+        (h, w, 3) floating, mm; NaN where a pixel returned nothing.
+    """
+    stride = max(1, int(np.sqrt(points.shape[0] * points.shape[1] / _SAMPLE)))
+    some = points[::stride, ::stride].astype(np.float64)
+    seen = np.isfinite(some).all(axis=-1)
+    if np.count_nonzero(seen) < _FEWEST or not (some[seen][:, 2] > 0).all():
+        return False
+    tangents = some[seen][:, :2] / some[seen][:, 2:]
+    if not np.abs(tangents).max() < _TANGENT_MAX:
+        return False
+    for axis, place in enumerate(np.nonzero(seen)[::-1]):
+        step, first = np.polyfit(place * stride, tangents[:, axis], 1)
+        off = np.abs((tangents[:, axis] - first) / step - place * stride) if step else np.array([np.inf])
+        if not np.median(off) < _OFF_PICTURE:
+            return False
+    return True
 
 
 def _grid_places(tangents: Array) -> tuple[IntArray, float] | None:

@@ -8,6 +8,7 @@ import numpy as np
 
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array, Scan
+from aadm_workbench.scan.ray_distance import refuse_ray_distances
 
 FEWEST_POINTS = 500
 """Fewer than this cannot show a pattern of holes or bars."""
@@ -43,7 +44,8 @@ def check_plausible(scan: Scan, expected_extent_mm: float) -> Scan:
     Raises
     ------
     ScanError
-        Saying how many points there are, or what they span and what to write in the job.
+        Saying how many points there are, what they span and what to write in the job, or that depths are distances
+        along the rays.
     """
     name = scan.source or "the scan"
     measured = np.flatnonzero(np.isfinite(scan.points.reshape(-1, 3)[:, 2]))
@@ -55,6 +57,7 @@ def check_plausible(scan: Scan, expected_extent_mm: float) -> Scan:
     spans_mm = _robust_spans(sample)
     ratio = float(spans_mm.max()) / expected_extent_mm
     if _is_plausible(ratio):
+        refuse_ray_distances(scan, sample)
         return _without_strays(scan, np.median(sample, axis=0), LARGEST_EXTENT_RATIO * expected_extent_mm)
     if scan.declared_scale != 1.0 and _is_plausible(ratio * scan.declared_scale):
         return check_plausible(_in_declared_unit(scan), expected_extent_mm)

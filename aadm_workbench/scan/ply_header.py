@@ -13,6 +13,7 @@ from aadm_workbench.scan.file import ScanFile
 
 LONGEST_HEADER_BYTES = 2**20
 
+_FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?ply[ \t]{0,80}(\r\n|\n|\r)")
 _SHORT_TYPES = {"i1": "char", "u1": "uchar", "i2": "short", "u2": "ushort", "i4": "int", "u4": "uint"}
 _LONG_TYPES = {"i1": "int8", "u1": "uint8", "i2": "int16", "u2": "uint16", "i4": "int32", "u4": "uint32"}
 _TYPES = {name: dtype for names in (_SHORT_TYPES, _LONG_TYPES) for dtype, name in names.items()}
@@ -74,10 +75,10 @@ def parse_header(file: ScanFile) -> PlyHeader:
     byte_order: str | None = None
     has_format = False
     elements: list[Element] = []
-    for number, line in enumerate(lines, start=1):
+    for number, line in enumerate(lines[1:], start=2):
         words = line.split()
         match words:
-            case [] | ["ply" | "comment" | "obj_info" | "end_header", *_]:
+            case [] | ["comment" | "obj_info" | "end_header", *_]:
                 pass
             case ["format", name, _] if name in _BYTE_ORDERS:
                 byte_order, has_format = _BYTE_ORDERS[name], True
@@ -96,9 +97,10 @@ def parse_header(file: ScanFile) -> PlyHeader:
 
 def _header_lines(file: ScanFile) -> tuple[list[str], int]:
     content = file.content
-    if content[:3] != b"ply" or content[3:4] not in (b"\n", b"\r"):
+    begin = _FIRST_LINE.match(content)
+    if begin is None:
         raise file.wrong('does not begin with "ply": it is no PLY file; check its extension')
-    line_end = b"\r" if content[3:4] == b"\r" and content[4:5] != b"\n" else b"\n"
+    line_end = b"\r" if begin[1] == b"\r" else b"\n"
     lines: list[str] = []
     position = 0
     while not (lines and lines[-1] == "end_header"):

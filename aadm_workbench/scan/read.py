@@ -12,7 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from aadm_workbench.errors import CameraError, ScanError
-from aadm_workbench.model import Array, Camera, FloatArray, Scan
+from aadm_workbench.model import CAMERA_AXES, OPENGL_AXES, Array, Camera, FloatArray, Scan
+from aadm_workbench.scan.axes import AXES, TAKEN_FOR_OPENGL, axes_of, turned
 from aadm_workbench.scan.camera import seen_by
 from aadm_workbench.scan.capture import find_capture
 from aadm_workbench.scan.depth import read_depth_map
@@ -22,7 +23,7 @@ from aadm_workbench.scan.las import read_las
 from aadm_workbench.scan.npz import read_npz
 from aadm_workbench.scan.pcd import read_pcd
 from aadm_workbench.scan.picture import grey_of
-from aadm_workbench.scan.pixels import on_pixels
+from aadm_workbench.scan.pixels import is_picture, on_pixels
 from aadm_workbench.scan.ply import read_ply
 from aadm_workbench.scan.points import to_millimetres, without_return
 from aadm_workbench.scan.pts import read_pts
@@ -72,6 +73,7 @@ def read_scan(
     depth_scale_mm: float | None = None,
     source: str | None = None,
     image: Path | None = None,
+    axes: str | None = None,
 ) -> Scan:
     """Read one scan.
 
@@ -91,15 +93,17 @@ def read_scan(
         How the job names the file; ``path`` by default.
     image
         Grey picture of the same view, pixel for pixel.
+    axes
+        Of a cloud: one of :data:`~aadm_workbench.scan.axes.AXES`; None where they are to be found out.
 
     Returns
     -------
     Scan
         Points in the precision of the file (depth maps float32). The scan frame is that of the camera where one is
         given; else that of the file, after the pose that the file carries. ``viewpoint`` is None where neither tells
-        it. A cloud whose points lie on the pixels of a camera at its origin comes as that camera's picture. Points that
-        are not finite or exactly zero are no measurement: NaN in an organised scan, left out of another, and counted in
-        ``dropped``.
+        it. A cloud in OpenGL's axes is turned into a camera's. A cloud whose points lie on the pixels of a camera at
+        its origin comes as that camera's picture. Points that are not finite or exactly zero are no measurement: NaN
+        in an organised scan, left out of another, and counted in ``dropped``.
 
     Raises
     ------
@@ -111,7 +115,7 @@ def read_scan(
         Where the format needs a package that is not installed.
     """
     path, name = Path(path), source or str(path)
-    declared = _declared(units, camera, depth_scale_mm)
+    declared = _declared(units, camera, depth_scale_mm, axes)
     if _is_folder(path):
         return _read_capture(path, name, declared, image)
     return _read_file(path, name, declared, image)
@@ -129,7 +133,12 @@ def _read_capture(path: Path, name: str, declared: Declared, image: Path | None)
     """Return the scan of a capture folder: its depth map or cloud, with the intrinsics and the picture beside it."""
     capture = find_capture(path, name, declared)
     texture = capture.texture if image is None else image
-    scan = _read_file(capture.scan, f"{name}/{capture.scan.name}", capture.declared, texture)
+    try:
+        scan = _read_file(capture.scan, f"{name}/{capture.scan.name}", capture.declared, texture)
+    except CameraError as error:
+        if capture.declared.camera is not None or not capture.notes:
+            raise
+        raise CameraError(f"{error}; {'; '.join(capture.notes)}") from error
     return replace(scan, source=name, sha256=capture.sha256(scan.sha256), notes=(*capture.notes, *scan.notes))
 
 
@@ -141,11 +150,14 @@ def _read_file(path: Path, name: str, declared: Declared, image: Path | None) ->
         raise ScanError(f"{path}: files of type {path.suffix or '(none)'} are not read; export one of {known}")
     file = load(path, name)
     cloud = reader(file, declared)
-    points, dropped = _measured(file, cloud, camera)
-    viewpoint = _viewpoint(cloud, camera, points)
+    axes = _axes(file, cloud, declared)
+    points, dropped = _measured(file, cloud, camera, axes)
+    viewpoint = _viewpoint(cloud, camera, points, axes)
     picture = on_pixels(points) if points.ndim == 2 and (viewpoint is None or not viewpoint.any()) else None
     if picture is not None:
         points, viewpoint = picture, np.zeros(3)
+    elif viewpoint is None and points.ndim == 3 and is_picture(points):
+        viewpoint = np.zeros(3)
     grey = cloud.grey if image is None else _grey_picture(Path(image), points, camera)
     if grey is not None and points.ndim == 3 and grey.shape != points.shape[:2]:
         grey = None
@@ -157,9 +169,25 @@ def _read_file(path: Path, name: str, declared: Declared, image: Path | None) ->
         viewpoint,
         dropped,
         grey,
-        (*cloud.notes, *_unit_note(cloud, declared)),
+        (*cloud.notes, *_unit_note(cloud, declared), *_axes_note(axes, declared)),
         declared.mm_per_unit / cloud.mm_per_unit if cloud.unit_from else 1.0,
+        axes,
     )
+
+
+def _axes(file: ScanFile, cloud: Cloud, declared: Declared) -> str:
+    """Return the axes of the frame of a file, after its pose."""
+    if cloud.is_depth_map:
+        return CAMERA_AXES
+    pose = None if declared.camera is not None else cloud.T_scan_file
+    if pose is None or np.array_equal(pose, np.eye(4)):
+        return axes_of(file, cloud.points, None if pose is None else np.zeros(3), declared.axes)
+    sample = cloud.points.reshape(-1, 3)[:: max(1, cloud.points.size // (3 * _SAMPLE_SIZE))]
+    return axes_of(file, to_millimetres(sample, 1.0, pose), pose[:3, 3], declared.axes)
+
+
+def _axes_note(axes: str, declared: Declared) -> tuple[str, ...]:
+    return (TAKEN_FOR_OPENGL,) if axes == OPENGL_AXES and declared.axes is None else ()
 
 
 def _unit_note(cloud: Cloud, declared: Declared) -> tuple[str, ...]:
@@ -169,16 +197,18 @@ def _unit_note(cloud: Cloud, declared: Declared) -> tuple[str, ...]:
     return (f"the unit of the file was taken, {cloud.mm_per_unit:.7g} mm: {cloud.unit_from}",)
 
 
-def _declared(units: str, camera: Camera | None, depth_scale_mm: float | None) -> Declared:
+def _declared(units: str, camera: Camera | None, depth_scale_mm: float | None, axes: str | None) -> Declared:
     if units not in MM_PER_UNIT:
         raise ScanError(f"the unit of scans is {units!r}; it must be one of {', '.join(map(repr, MM_PER_UNIT))}")
     if depth_scale_mm is not None and not (math.isfinite(depth_scale_mm) and depth_scale_mm > 0):
         raise CameraError(f"depth_scale_mm is {depth_scale_mm}; it must be greater than 0, such as 0.02")
-    return Declared(MM_PER_UNIT[units], camera, depth_scale_mm)
+    if axes is not None and axes not in AXES:
+        raise ScanError(f"the axes of scans are {axes!r}; they must be one of {', '.join(map(repr, AXES))}")
+    return Declared(MM_PER_UNIT[units], camera, depth_scale_mm, axes)
 
 
-def _measured(file: ScanFile, cloud: Cloud, camera: Camera | None) -> tuple[FloatArray, int]:
-    """Return the points in mm in the scan frame, and how many of the file are no measurement."""
+def _measured(file: ScanFile, cloud: Cloud, camera: Camera | None, axes: str) -> tuple[FloatArray, int]:
+    """Return the points in mm in the scan frame, in a camera's axes, and how many of the file are no measurement."""
     missing = without_return(cloud.points)
     dropped = int(np.count_nonzero(missing))
     if dropped == missing.size:
@@ -189,18 +219,21 @@ def _measured(file: ScanFile, cloud: Cloud, camera: Camera | None) -> tuple[Floa
         cloud.points[missing] = np.nan
     points = cloud.points
     if camera is not None:
-        points = seen_by(file.name, points, camera)
+        points = seen_by(file.name, turned(points) if axes == OPENGL_AXES else points, camera)
     if dropped and points.ndim == 2:
         points = points[~missing]
-    return to_millimetres(points, cloud.mm_per_unit, T_scan_file), dropped + cloud.dropped
+    points = to_millimetres(points, cloud.mm_per_unit, T_scan_file)
+    return turned(points) if axes == OPENGL_AXES and camera is None else points, dropped + cloud.dropped
 
 
-def _viewpoint(cloud: Cloud, camera: Camera | None, points: FloatArray) -> Array | None:
+def _viewpoint(cloud: Cloud, camera: Camera | None, points: FloatArray, axes: str) -> Array | None:
     if camera is not None:
         return np.zeros(3)
     if cloud.T_scan_file is None:
         return None
     viewpoint: Array = cloud.T_scan_file[:3, 3] * cloud.mm_per_unit
+    if axes == OPENGL_AXES:
+        viewpoint = viewpoint * np.array([1.0, -1.0, -1.0])
     return viewpoint if _can_see(viewpoint, points) else None
 
 

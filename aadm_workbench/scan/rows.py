@@ -11,6 +11,7 @@ import numpy as np
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array
 from aadm_workbench.scan.file import ScanFile
+from aadm_workbench.scan.no_number import number_in, without_signs, without_words
 
 LONGEST_LINE_BYTES = 2**20
 
@@ -44,7 +45,7 @@ def parse_rows(
     Returns
     -------
     Array
-        (n, k) float64, unit of the file; "nan" and "inf" are read as such.
+        (n, k) float64, unit of the file; what programs print for no number is NaN.
 
     Raises
     ------
@@ -55,18 +56,12 @@ def parse_rows(
         body = body.replace(b"\r", b"\n")
     _check_lines(file, body, start)
     try:
-        with warnings.catch_warnings():
-            # numpy warns of blank lines and of a body without rows; both are judged by the count below.
-            warnings.simplefilter("ignore", UserWarning)
-            points = np.loadtxt(
-                io.TextIOWrapper(io.BytesIO(body), encoding="latin-1"),
-                usecols=tuple(columns),
-                max_rows=count,
-                delimiter=delimiter,
-                ndmin=2,
-            )
-    except ValueError as error:
-        raise _bad_row(file, body, start, columns, delimiter, str(error)) from error
+        points = _numbers(without_signs(body), columns, count, delimiter)
+    except ValueError:
+        try:
+            points = _numbers(without_words(body), columns, count, delimiter)
+        except ValueError as error:
+            raise _bad_row(file, body, start, columns, delimiter, str(error)) from error
     found = len(points)
     if count is not None and found < count:
         raise file.wrong(
@@ -74,6 +69,19 @@ def parse_rows(
             f"{len(file.content)}): it is cut off or its header is wrong; copy or export it again"
         )
     return points.reshape(-1, len(columns))
+
+
+def _numbers(body: bytes, columns: Sequence[int], count: int | None, delimiter: str | None) -> Array:
+    with warnings.catch_warnings():
+        # numpy warns of blank lines and of a body without rows; both are judged by their number.
+        warnings.simplefilter("ignore", UserWarning)
+        return np.loadtxt(
+            io.TextIOWrapper(io.BytesIO(body), encoding="latin-1"),
+            usecols=tuple(columns),
+            max_rows=count,
+            delimiter=delimiter,
+            ndmin=2,
+        )
 
 
 def _check_lines(file: ScanFile, body: bytes, start: int) -> None:
@@ -89,12 +97,10 @@ def _bad_row(
     file: ScanFile, body: bytes, start: int, columns: Sequence[int], delimiter: str | None, reason: str
 ) -> ScanError:
     first_line = file.content.count(b"\n", 0, start) + 1
-    for number, line in enumerate(body.splitlines(), start=first_line):
+    for number, line in enumerate(without_words(body).splitlines(), start=first_line):
         text = line.decode("latin-1").partition("#")[0].strip()
         fields = text.split(delimiter)
-        try:
-            _ = [float(fields[column]) for column in columns if text]
-        except (ValueError, IndexError):
+        if text and (len(fields) <= max(columns) or any(number_in(fields[column]) is None for column in columns)):
             shown = text if len(text) <= 80 else f"{text[:80]}..."
             needed = max(columns) + 1
             return file.wrong(f"line {number} should begin with {needed} numbers, but reads {shown!r}; export it again")

@@ -69,6 +69,8 @@ PACKAGES = (
     Package("lzf", "compressed PCD files", "aadm-workbench[formats]", ("python-neo-lzf",)),
     Package("lazrs", "LAZ files", "aadm-workbench[formats]", ("lazrs",)),
     Package("pye57", "E57 files", "aadm-workbench[formats]", ("pye57",)),
+    Package("tifffile", "TIFF of half floats and of X, Y, Z", "aadm-workbench[formats]", ("tifffile",)),
+    Package("imagecodecs", "TIFF packed with ZSTD, LZMA or LERC", "aadm-workbench[formats]", ("imagecodecs",)),
     Package("distributed", "check --jobs N", "aadm-workbench[batch]", ("distributed",)),
     Package("open3d", "virtual camera, methods of the literature", "aadm-workbench[twin]", ("open3d-cpu", "open3d")),
     Package("manifold3d", "virtual camera", "aadm-workbench[twin]", ("manifold3d",)),

@@ -42,10 +42,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="mm: inner (sleeve, at its mouth) or nominal (rebar)",
     )
     parser.add_argument(
-        "--camera", type=Path, metavar="FILE", help="intrinsics (TOML, JSON or text); depth maps need them"
+        "--camera", type=Path, metavar="FILE", help="intrinsics (TOML, JSON or text, a job's too); depth maps need them"
     )
-    parser.add_argument("--depth-scale-mm", type=length, metavar="S", help="step of an integer depth map")
+    parser.add_argument(
+        "--depth-scale-mm", type=length, metavar="S", help="step of an integer depth map (default: that of FILE)"
+    )
     parser.add_argument("--units", choices=("mm", "m"), default="mm", help="unit of the scan (default: mm)")
+    parser.add_argument(
+        "--axes",
+        choices=("camera", "opengl"),
+        help="of a cloud: x right, y down, z forward, or x right, y up, z backward (default: found out)",
+    )
     parser.add_argument("--expected", type=whole_number, metavar="N", help="exit with 11 where fewer are found")
     parser.add_argument("--method", choices=METHODS, default="refined", help="how (default: refined)")
     add_switches(parser, prints_json="the points")
@@ -57,6 +64,7 @@ def run(options: argparse.Namespace) -> int:
     calculate_in_one_thread()
     import numpy as np
 
+    from aadm_workbench.extract.file_axes import in_coordinates_of_the_file
     from aadm_workbench.extract.method import extract
     from aadm_workbench.model import Kind
     from aadm_workbench.report.json import encode
@@ -65,6 +73,7 @@ def run(options: argparse.Namespace) -> int:
 
     scan = _read(options)
     extraction = extract(scan, Kind(options.kind), options.diameter, options.method, np.random.default_rng(0))
+    extraction = in_coordinates_of_the_file(extraction, scan)
     if options.json:
         show_json(encode(_document(scan, extraction, options.expected)))
     elif not options.quiet:
@@ -78,12 +87,15 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _read(options: argparse.Namespace) -> Scan:
-    from aadm_workbench.scan.camera import read_camera
+    from aadm_workbench.scan.camera import read_camera, read_depth_scale_mm
     from aadm_workbench.scan.plausible import check_plausible
     from aadm_workbench.scan.read import read_scan
 
     camera = None if options.camera is None else read_camera(options.camera)
-    scan = read_scan(options.scan, units=options.units, camera=camera, depth_scale_mm=options.depth_scale_mm)
+    step_mm = options.depth_scale_mm
+    if step_mm is None and options.camera is not None:
+        step_mm = read_depth_scale_mm(options.camera)
+    scan = read_scan(options.scan, units=options.units, camera=camera, depth_scale_mm=step_mm, axes=options.axes)
     return check_plausible(scan, _PATTERN_DIAMETERS * options.diameter)
 
 

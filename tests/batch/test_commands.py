@@ -18,7 +18,7 @@ from aadm_workbench.design.pattern import inline_design
 from aadm_workbench.extract import method
 from aadm_workbench.model import AssemblyPoint, Extraction, Kind, Plane, Scan
 from aadm_workbench.report.json import report_schema
-from aadm_workbench.scan.write import write_ply
+from aadm_workbench.scan.write import write_depth_tiff, write_ply
 from batch.commands.doctor import PACKAGES
 from batch.main import main
 
@@ -162,6 +162,20 @@ def test_extract_from_no_scan(scan: str, tmp_path: Path, capsys: Output) -> None
     assert main(["extract", scan, *words, "--units", "m"]) == 2
     assert 'write units = "mm"' in capsys.readouterr().err
     assert main(["extract", scan, *words, "--camera", str(tmp_path / "nowhere.toml")]) == 2
+
+
+def test_extract_takes_the_step_of_a_depth_map_from_the_file_of_the_camera(
+    scan: str, tmp_path: Path, capsys: Output
+) -> None:
+    depth_mm = np.add.outer(np.arange(240.0), np.arange(320.0)) / 10 + 800
+    write_depth_tiff(tmp_path / "depth.tiff", depth_mm, 0.02)
+    camera = "fx = 600.0\nfy = 600.0\ncx = 160.0\ncy = 120.0\nwidth = 320\nheight = 240\n"
+    (tmp_path / "camera.toml").write_text(f"[camera]\n{camera}# depth_scale_mm = 5.0\n")
+    words = ["extract", str(tmp_path / "depth.tiff"), "--kind", "sleeve", "--diameter", "26", "--camera"]
+    assert main([*words, str(tmp_path / "camera.toml")]) == 2
+    assert "add depth_scale_mm" in capsys.readouterr().err
+    (tmp_path / "job.toml").write_text(f'units = "mm"\n[camera]\n{camera}depth_scale_mm = 0.02\n')
+    assert main([*words, str(tmp_path / "job.toml")]) == 0
 
 
 def test_profiles(capsys: Output) -> None:

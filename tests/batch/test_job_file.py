@@ -7,6 +7,7 @@ import pytest
 
 from aadm_workbench.errors import JobError
 from aadm_workbench.model import Camera
+from batch.column_files import files_of
 from batch.job import JobColumn, JobModel
 from batch.job_file import read_job
 
@@ -55,6 +56,7 @@ id = "C-302"
 sleeves = "scans/C-302-foot.ply"
 up = "-x"
 rebars_up = 12.5
+axes = "opengl"
 [columns.design]
 sleeve_diameter = 36
 rebar_diameter = 20.0
@@ -96,6 +98,8 @@ def test_every_key_is_understood(tmp_path: Path) -> None:
     assert (first.sleeves_image, first.rebars_image) == ("scans/C-301-foot.png", "scans/C-301-bars.png")
     assert (first.sleeves_up_deg, first.rebars_up_deg, first.near, first.design) == (90.0, 90.0, (-1, -1), None)
     assert (second.sleeves_up_deg, second.rebars_up_deg, second.near) == (180.0, 12.5, None)
+    assert (first.axes, second.axes) == (None, "opengl")
+    assert files_of(second) == ("scans/C-302-foot.ply",)
     assert second.design is not None
     assert [point.label for point in second.design.rebars] == ["R1", "R2", "R3"]
     assert second.design.embedded_length_mm == 160.0
@@ -185,14 +189,15 @@ WRONG = [
     ('near = "-x-y"', 'near = "-x"', 38, "near must be one of the corners"),
     ('id = "C-302"', 'id = "C-301"', 41, 'two columns have the id "C-301": the other stands in line 31'),
     ("rebars_up = 12.5", "rebars_up = true", 44, "rebars_up must be"),
-    ("sleeve_diameter = 36", "sleeve_diamter = 36", 46, 'did you mean "sleeve_diameter"?'),
-    ("sleeve_diameter = 36\n", "", 45, "has no sleeve_diameter"),
-    ("sleeve_diameter = 36", "sleeve_diameter = 0", 46, "sleeve_diameter must be above zero"),
-    ("rebar_diameter = 20.0", "rebar_diameter = 40.0", 45, "does not enter a sleeve"),
-    ("size = [600.0, 600.0]", "size = [600.0]", 50, "size must hold 2 numbers [x, y]"),
-    ("centres = [[0.0, 0.0], [160.0, 0.0],", "centres = [[0.0, 0.0],\n[160.0],", 52, "centres must hold 2 numbers"),
-    ("centres = [[0.0, 0.0],", 'centres = [[0.0, "0"],', 51, "centres must be a number"),
-    ("centres = [[0.0, 0.0], [160.0, 0.0],", "centres = [[160.0, 0.0], [160.0, 0.0],", 45, "are the same point"),
+    ('axes = "opengl"', 'axes = "y up"', 45, 'axes must be "camera" or "opengl"'),
+    ("sleeve_diameter = 36", "sleeve_diamter = 36", 47, 'did you mean "sleeve_diameter"?'),
+    ("sleeve_diameter = 36\n", "", 46, "has no sleeve_diameter"),
+    ("sleeve_diameter = 36", "sleeve_diameter = 0", 47, "sleeve_diameter must be above zero"),
+    ("rebar_diameter = 20.0", "rebar_diameter = 40.0", 46, "does not enter a sleeve"),
+    ("size = [600.0, 600.0]", "size = [600.0]", 51, "size must hold 2 numbers [x, y]"),
+    ("centres = [[0.0, 0.0], [160.0, 0.0],", "centres = [[0.0, 0.0],\n[160.0],", 53, "centres must hold 2 numbers"),
+    ("centres = [[0.0, 0.0],", 'centres = [[0.0, "0"],', 52, "centres must be a number"),
+    ("centres = [[0.0, 0.0], [160.0, 0.0],", "centres = [[160.0, 0.0], [160.0, 0.0],", 46, "are the same point"),
     ('[model]\npath = "floor3.ifc"', "[modell]\npath = 1", 9, 'unknown key "modell" in the job; did you mean "model"?'),
     ("[[columns]]", "[[colums]]", 30, 'unknown key "colums"'),
     ("[[columns]]", "[columns]", 40, "this is no TOML"),

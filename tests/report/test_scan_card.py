@@ -1,5 +1,6 @@
 """Scan cards: what they draw is what the camera of the samples sees, and they say where S1 is and how far away."""
 
+import copy
 import json
 import re
 from pathlib import Path
@@ -69,6 +70,21 @@ def test_card_from_a_report_keeps_the_way_of_the_last_scan(floor: dict[str, Any]
     assert cards["C-1"].parts[0].last_distance_m == pytest.approx(1.3, abs=0.2)
     assert [part.part for part in cards["C-6"].parts] == ["sleeves"]
     assert cards["C-5"].parts == ()
+
+
+def test_card_from_a_report_on_a_cloud_in_the_axes_of_opengl(floor: dict[str, Any]) -> None:
+    turned = copy.deepcopy(floor)
+    column = next(column for column in turned["columns"] if column["id"] == "C-1")
+    for group in (column["sleeves"], column["rebars"]):
+        group["quality"]["axes"] = "opengl"
+        for point in group["points"]:
+            x, y, z = point["scan_mm"]
+            point["scan_mm"] = [x, -y, -z]
+        for row in group["fit"]["T_design_scan"]:
+            row[1:3] = [-row[1], -row[2]]
+    parts = {card.id: card for card in scan_cards(turned)}["C-1"].parts
+    assert [part.up_deg for part in parts] == [90.0, 90.0]
+    assert parts[0].last_distance_m == pytest.approx(1.3, abs=0.2)
 
 
 def test_pages(floor: dict[str, Any], tmp_path: Path) -> None:

@@ -173,3 +173,34 @@ def test_a_coloured_view_of_the_depth_map_is_no_second_one(folder: Path, camera:
     cv2.imwrite(str(folder / "depth_color.png"), np.zeros((48, 64, 3), np.uint8))
     cv2.imwrite(str(folder / "depth_preview.png"), np.zeros((48, 64, 3), np.uint8))
     assert read_scan(folder, camera=camera, depth_scale_mm=0.02).organised
+
+
+CAMERA_INFO = (
+    "height: 48\nwidth: 64\nD: [-0.08, 0.12, 0.0, 0.0, 0.0]\nK: [80.0, 0.0, 30.5, 0.0, 81.0, 25.25, 0.0, 0.0, 1.0]\n"
+)
+
+
+def test_a_bent_lens_beside_a_depth_map_is_an_error_whatever_the_job_declares(
+    folder: Path, camera: Camera, grid: FloatArray
+) -> None:
+    (folder / "camera_info.yaml").write_text(CAMERA_INFO)
+    for declared in (None, camera):
+        with pytest.raises(CameraError, match=r"camera_info\.yaml: has distortion coefficients \[-0\.08"):
+            read_scan(folder, camera=declared, depth_scale_mm=0.02)
+    write_ply(folder / "PointCloud.ply", grid)
+    scan = read_scan(folder)
+    assert len(scan.points) == 48 * 64 - 40 or scan.organised
+    assert any("PointCloud.ply was taken" in note and "distortion" in note for note in scan.notes)
+
+
+def test_a_bent_lens_of_the_texture_camera_does_not_matter(folder: Path, camera: Camera) -> None:
+    (folder / "color_info.yaml").write_text(CAMERA_INFO)
+    name, text = json_of(camera)
+    (folder / name).write_text(text)
+    assert read_scan(folder, depth_scale_mm=0.02).camera == camera
+
+
+def test_why_intrinsics_beside_a_depth_map_were_not_understood_is_said(folder: Path) -> None:
+    (folder / "intrinsics.txt").write_text("fx = 80, fy = 81, cx = 30.5")
+    with pytest.raises(CameraError, match=r"needs its intrinsics.*intrinsics\.txt was not understood.*no fx, fy, cx"):
+        read_scan(folder, depth_scale_mm=0.02)

@@ -10,6 +10,7 @@ from pye57 import libe57
 
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array, FloatArray
+from aadm_workbench.scan.e57 import NO_ROTATION
 from aadm_workbench.scan.read import read_scan
 
 NAMESPACE = "http://www.astm.org/COMMIT/E57/2010-e57-v1.0"
@@ -160,3 +161,20 @@ def test_scaled_integers_of_another_program(reference_clouds: Path) -> None:
     assert scan.points.shape == (30_571, 3)
     np.testing.assert_allclose(scan.points.min(axis=0), [-94.689, 40.011, -61.873], rtol=0, atol=1e-6)
     np.testing.assert_allclose(scan.points.max(axis=0), [61.009, 187.321, 58.799], rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("organised", [False, True])
+def test_a_rotation_that_a_writer_left_empty_turns_nothing_and_is_noted(
+    tmp_path: Path, cloud: FloatArray, organised: bool
+) -> None:
+    path, points = tmp_path / "scan.e57", cloud[:600] / 1000.0
+    values = cartesian(points)
+    if organised:
+        values |= {"rowIndex": np.arange(600) // 30, "columnIndex": np.arange(600) % 30}
+    empty, shift = np.zeros(4), np.array([0.25, -0.5, 1.0])
+    write_e57(path, values, poses=((empty, shift),))
+    scan = read_scan(path)
+    np.testing.assert_allclose(scan.points.reshape(-1, 3), cloud[:600] + 1000.0 * shift, atol=1e-3)
+    assert [note for note in scan.notes if "0 0 0 0" in note] == [NO_ROTATION]
+    write_e57(path, values, values, poses=((empty, shift), (np.array([1.0, 0.0, 0.0, 0.0]), shift)))
+    assert NO_ROTATION in read_scan(path).notes

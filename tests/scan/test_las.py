@@ -156,3 +156,25 @@ def test_a_file_of_another_program(reference_clouds: Path) -> None:
     np.testing.assert_allclose(scan.points[0], feet * 1200.0 / 3937.0 * 1000.0, atol=0.02)
     assert scan.points.shape == (1000, 3)
     assert "US survey foot" in scan.notes[0]
+
+
+def point_wise(content: bytes) -> bytes:
+    """A packed file of one chunk as the first LAZ programs wrote it: the same stream without chunks and their table."""
+    start, records_at = struct.unpack_from("<I", content, 96)[0], struct.unpack_from("<H", content, 94)[0]
+    changed = bytearray(content[:start])
+    while changed[records_at + 2 : records_at + 18].rstrip(b"\0") != b"laszip encoded":
+        records_at += 54 + struct.unpack_from("<H", changed, records_at + 20)[0]
+    struct.pack_into("<H", changed, records_at + 54, 1)
+    table = struct.unpack_from("<q", content, start)[0]
+    return bytes(changed) + content[start + 8 : table]
+
+
+@pytest.mark.parametrize("point_format", [0, 1, 3])
+def test_packed_points_of_the_first_kind(tmp_path: Path, point_format: int) -> None:
+    points = coordinates()
+    content = point_wise(content_of(points, point_format, packed=True))
+    (tmp_path / "scan.laz").write_bytes(content)
+    np.testing.assert_allclose(read_scan(tmp_path / "scan.laz", units="m").points, points * 1000.0, rtol=0, atol=1e-5)
+    (tmp_path / "scan.laz").write_bytes(content[: len(content) // 2])
+    with pytest.raises(ScanError, match=r"scan\.laz: its points .* do not unpack"):
+        read_scan(tmp_path / "scan.laz", units="m")

@@ -181,3 +181,21 @@ def test_a_mesh_in_inches_of_another_program(reference_clouds: Path) -> None:
     scan = read_scan(reference_clouds / "mikedh_featuretype.ply")
     assert scan.points.shape == (5096, 3)
     np.testing.assert_allclose(np.ptp(scan.points, axis=0), [5.0, 2.5, 1.375], rtol=1e-6)
+
+
+@pytest.mark.parametrize("first", ["ply ", "ply\t", "\ufeffply", "\ufeffply  "])
+@pytest.mark.parametrize("line_end", ["\n", "\r\n", "\r"])
+def test_first_lines_as_careless_programs_write_them(tmp_path: Path, first: str, line_end: str) -> None:
+    lines = [first, "format ascii 1.0 ", "element vertex 3", *(f"property float {axis} " for axis in "xyz")]
+    rows = [f"{x} {y} {z}" for x, y, z in POINTS]
+    content = line_end.join([*lines, "end_header", *rows, ""]).encode()
+    np.testing.assert_array_equal(read_bytes(tmp_path, content), POINTS)
+    binary = content[: content.index(b"end_header")].replace(b"ascii", b"binary_little_endian")
+    body = b"".join(struct.pack("<3f", *point) for point in POINTS)
+    np.testing.assert_array_equal(read_bytes(tmp_path, binary + b"end_header" + line_end.encode() + body), POINTS)
+
+
+@pytest.mark.parametrize("first", ["ply2", "plyx y", "pl y", "PLy\0"])
+def test_first_lines_of_something_else(tmp_path: Path, first: str) -> None:
+    with pytest.raises(ScanError, match='does not begin with "ply"'):
+        read_bytes(tmp_path, f"{first}\nformat ascii 1.0\n".encode())
