@@ -14,6 +14,7 @@ import pytest
 from aadm_workbench.report.json import report_document, report_schema
 from batch.job_file import read_job
 from batch.run import RunOptions, run_job
+from tests.frozen import KEPT, frozen
 
 SAMPLES = Path(__file__).resolve().parents[1] / "samples"
 
@@ -51,12 +52,14 @@ def test_every_verdict_is_the_one_that_the_truth_implies(sample: str) -> None:
     assert found == {key: (true["verdict"], true["goes_on"]) for key, true in truth(sample).items()}
 
 
-@pytest.mark.parametrize("sample", ["floor", "lab"])
-@pytest.mark.parametrize("kind", ["sleeves", "rebars"])
-def test_refined_centres_are_within_a_fifth_of_a_millimetre(sample: str, kind: str) -> None:
+@pytest.mark.parametrize(
+    ("sample", "kind", "bound_mm"),
+    [("floor", "sleeves", 0.065), ("floor", "rebars", 0.09), ("lab", "sleeves", 0.04), ("lab", "rebars", 0.055)],
+)  # half as much again as was measured
+def test_refined_centres_stay_as_accurate_as_they_were(sample: str, kind: str, bound_mm: float) -> None:
     errors = in_plane_errors(report(sample), sample, kind)
     assert len(errors) > 20
-    assert errors.mean() < 0.2
+    assert errors.mean() < bound_mm
 
 
 def test_published_centres_are_within_one_and_a_half_millimetres() -> None:
@@ -73,6 +76,28 @@ def test_least_squares_and_minimax_say_what_the_truth_says() -> None:
         )
     assert any(pair["verdict"] == "fail" for pair in column["trial_assembly"]["least_squares"]["pairs"])
     assert all(pair["verdict"] == "pass" for pair in column["trial_assembly"]["minimax"]["pairs"])
+
+
+@pytest.mark.parametrize("sample", ["floor", "lab"])
+def test_nothing_has_changed_that_was_not_meant_to(sample: str) -> None:
+    kept = json.loads(KEPT.read_text(encoding="utf-8"))[sample]
+    assert_alike(frozen(report(sample)), kept)
+
+
+def assert_alike(found: Any, kept: Any, at: str = "") -> None:
+    """The same but for a few µm, which other processors and libraries add."""
+    if isinstance(kept, dict):
+        assert found.keys() == kept.keys(), at
+        for key, value in kept.items():
+            assert_alike(found[key], value, f"{at}/{key}")
+    elif isinstance(kept, list):
+        assert len(found) == len(kept), at
+        for number, value in enumerate(kept):
+            assert_alike(found[number], value, f"{at}/{number}")
+    elif isinstance(kept, float):
+        assert found == pytest.approx(kept, abs=0.005), at
+    else:
+        assert found == kept, at
 
 
 @pytest.mark.parametrize("sample", ["floor", "lab"])
