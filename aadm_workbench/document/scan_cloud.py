@@ -181,7 +181,7 @@ def lay_on_design(cloud: Any, T_design_scan: Array, distances_mm: Array, placeme
 def _guessed_place(points: Array, kind: Kind, R_file_scan: Array) -> Array:
     """(4, 4) mm: the camera looks up at a foot or down on bars, their middle under the column's."""
     T_column_scan = np.diag([1.0, -1.0, -1.0, 1.0] if kind is Kind.REBAR else [-1.0, -1.0, 1.0, 1.0])
-    T_column_scan[:3, :3] @= R_file_scan.T
+    T_column_scan[:3, :3] = T_column_scan[:3, :3] @ R_file_scan.T
     if len(points):
         T_column_scan[:3, 3] = -T_column_scan[:3, :3] @ np.median(points, axis=0)
     return T_column_scan
