@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -21,6 +22,9 @@ _TRIES = 5
 _FLAGS = ("O_NOFOLLOW", "O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT")
 _ALWAYS = sum(getattr(os, name, 0) for name in _FLAGS)
 _KNOWS_FOLDERS = os.open in os.supports_dir_fd and hasattr(os, "O_DIRECTORY")
+ASIDE_FOLDER = ".aadm-freecad-"
+"""So begin the names of folders in which another program writes what is put in its place afterwards."""
+
 _ASIDE = re.compile(r"\..+\.[0-9a-f]{32}\.part", re.DOTALL)
 _held: dict[Path, int] = {}
 
@@ -128,11 +132,16 @@ def is_there(path: Path) -> bool:
 
 
 def clear_asides(folder: Path) -> None:
-    """Remove what killed runs were writing aside; nobody else may be writing there."""
+    """Remove what killed runs were writing aside; nobody else may be writing there. No link is followed."""
+    names: list[str] = []
     with suppress(OSError), os.scandir(_held.get(folder, folder)) as entries:
-        for name in [entry.name for entry in entries if _ASIDE.fullmatch(entry.name)]:
+        names = [entry.name for entry in entries]
+    for name in names:
+        if _ASIDE.fullmatch(name):
             with suppress(OSError), looked_up(folder / name) as (place, opened):
                 os.unlink(place, dir_fd=opened)
+        elif name.startswith(ASIDE_FOLDER):
+            shutil.rmtree(folder / name, ignore_errors=True)
 
 
 def _status(path: Path, name: str | Path, folder: int | None, *, replace: bool) -> os.stat_result | None:

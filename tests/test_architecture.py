@@ -15,7 +15,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "aadm_workbench"
 STAGES = ("design", "scan", "extract", "assembly", "report")
-NOUNS = {"errors", "model", "atomic", "own_files"}
+NOUNS = {"errors", "model", "atomic", "bounded", "own_files"}
 
 Finding: TypeAlias = tuple[int, str]
 Rule: TypeAlias = Callable[[PurePosixPath, ast.Module], Iterator[Finding]]

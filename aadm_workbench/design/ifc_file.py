@@ -10,7 +10,9 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from aadm_workbench.bounded import BoundsError, read_bounded
 from aadm_workbench.design.ifc_names import Naming
+from aadm_workbench.design.model_file import LARGEST_MODEL_BYTES
 from aadm_workbench.errors import DesignError, MissingDependencyError
 
 _LOG_ERROR = re.compile(r"\[error\]\s*(?:\[[^\]]*\]\s*)*(?P<text>.+)")
@@ -101,14 +103,14 @@ def _ifcopenshell() -> Any:
 
 
 def _bytes(path: Path) -> bytes:
-    if path.is_dir():
-        raise DesignError(f"{path} is a folder: name the model's file.")
     try:
-        content = path.read_bytes()
+        content = read_bounded(path, LARGEST_MODEL_BYTES)
+    except BoundsError as error:
+        raise DesignError(f"{path} {error}: name the model's file.") from error
     except FileNotFoundError as error:
         raise DesignError(f"{path} does not exist. Paths in a job are relative to the job file.") from error
-    except OSError as error:
-        raise DesignError(f"{path} cannot be opened: {error.strerror}.") from error
+    except (OSError, ValueError) as error:
+        raise DesignError(f"{path} cannot be opened: {getattr(error, 'strerror', None) or error}.") from error
     if not content.strip():
         raise DesignError(f"{path} is empty: export the model again.")
     return content

@@ -92,6 +92,11 @@ def width_of(text: str, size: float) -> float:
     return float(reportlab("pdfbase.pdfmetrics").stringWidth(text, FONT, size))
 
 
+def shortened(text: str, most: int) -> str:
+    """A text of at most so many characters: names come from the files of others, and a row must fit on a page."""
+    return text if len(text) <= most else f"{text[: most - 1]}…"
+
+
 def lines_of(text: str, size: float, width: float) -> list[str]:
     """A text broken into lines of a width, pt: between words, between Chinese characters, in words too long."""
     lines: list[str] = []
