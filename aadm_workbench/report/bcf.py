@@ -36,6 +36,7 @@ _ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
 BCF_BOUNDS = ArchiveBounds("BCF file", entries=20_000, entry_bytes=2**26, all_bytes=2**28)
 """A thousand topics with pictures of 150 KB and five files each are half of this."""
 
+_SHOWN = 40
 _DEEPEST_XML = 64
 """Markup has six levels; what other programs add to it may have some more."""
 
@@ -106,7 +107,7 @@ def _apply(files: dict[str, bytes], report: Report, finding: Finding, date: str,
     was_there = place in files
     if not finding.is_open and not (was_there and finding.verdict == "pass"):
         return None
-    root = _parsed(files[place], place) if was_there else bcf_markup.new_markup(report, finding, date)
+    root = _markup(files[place], place) if was_there else bcf_markup.new_markup(report, finding, date)
     if not finding.is_open:
         closed = bcf_markup.close(root, finding, report, date)
         if closed:
@@ -171,6 +172,13 @@ def _files(path: Path) -> dict[str, bytes]:
     if not found.startswith("2."):
         raise ReportError(f"{path}: is of BCF version {found}, but topics of 2.1 are written; start a new file")
     return files
+
+
+def _markup(content: bytes, place: str) -> ElementTree.Element:
+    root = _parsed(content, place)
+    if root.tag != "Markup":
+        raise ReportError(f"{place} is no markup of a topic, but <{root.tag[:_SHOWN]}>; start a new BCF file")
+    return root
 
 
 def _parsed(content: bytes, place: str) -> ElementTree.Element:

@@ -92,9 +92,11 @@ def width_of(text: str, size: float) -> float:
     return float(reportlab("pdfbase.pdfmetrics").stringWidth(text, FONT, size))
 
 
-def shortened(text: str, most: int) -> str:
-    """A text of at most so many characters: names come from the files of others, and a row must fit on a page."""
-    return text if len(text) <= most else f"{text[: most - 1]}…"
+def shortened(text: str, most: int, most_lines: int) -> str:
+    """A text of at most so many characters and lines: it comes from the files of others, and must fit on a page."""
+    lines = text.split("\n", most_lines)
+    kept = "\n".join(lines[:most_lines])
+    return text if len(kept) == len(text) <= most else f"{kept[: most - 1]}…"
 
 
 def lines_of(text: str, size: float, width: float) -> list[str]:
