@@ -161,6 +161,8 @@ def _check_entries(entries: list[zipfile.ZipInfo], packed_bytes: int, bounds: Ar
 
 def _check_entry(entry: zipfile.ZipInfo, bounds: ArchiveBounds) -> None:
     name = entry.filename.replace("\\", "/")
+    if not name:
+        raise BoundsError("holds an entry without a name")
     if name.startswith("/") or ":" in name or ".." in name.split("/"):
         raise BoundsError(f"holds an entry called {entry.filename!r}, which leads out of it")
     if entry.flag_bits & _ENCRYPTED:

@@ -11,6 +11,8 @@ import pytest
 
 from aadm_workbench.bounded import ArchiveBounds, BoundsError, check_xml, entry_bytes, opened_archive, read_bounded
 
+from .fuzz.zips import Entry, written
+
 BOUNDS = ArchiveBounds("box", entries=20, entry_bytes=2**20, all_bytes=2**22)
 
 
@@ -75,6 +77,7 @@ REFUSED: dict[str, tuple[bytes | Callable[[], bytes], str]] = {
     "bzip2": (packed(zipfile.ZIP_BZIP2, a=b"x" * 99), "in a way that no box does"),
     "lzma": (packed(zipfile.ZIP_LZMA, a=b"x" * 99), "in a way that no box does"),
     "leads out": (packed(**{"a/../../b": b"x"}), "leads out of it"),
+    "has no name": (written([Entry("", b"x")], {}), "an entry without a name"),
     "leads to a drive": (packed(**{"C:b": b"x"}), "leads out of it"),
     "no archive": (b"ISO-10303-21;", "is no box, or is cut short or damaged"),
     "nothing": (b"", "is no box"),
