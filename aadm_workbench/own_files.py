@@ -90,7 +90,7 @@ def open_to_write(path: Path, flags: int = os.O_RDWR) -> int:
             with suppress(FileExistsError, FileNotFoundError):
                 if _status(path, name, folder, replace=True) is None:
                     return os.open(name, flags | os.O_CREAT | os.O_EXCL | _ALWAYS, 0o666, dir_fd=folder)
-                return _opened(path, name, folder, flags)
+                return _with_one_name(_opened(path, name, folder, flags))
     raise UnsafeFileError(0, "somebody else replaces it again and again", str(path))
 
 
@@ -168,6 +168,14 @@ def _opened(path: Path, name: str | Path, folder: int | None, flags: int) -> int
     except BaseException:
         os.close(descriptor)
         raise
+    return descriptor
+
+
+def _with_one_name(descriptor: int) -> int:
+    """The same descriptor; FileExistsError where its file got a second name while it was opened."""
+    if os.fstat(descriptor).st_nlink > 1:
+        os.close(descriptor)
+        raise FileExistsError
     return descriptor
 
 

@@ -130,7 +130,7 @@ def _check_frame(path: Path, content: bytes) -> None:
         statement = head[begin:].split(b";", 1)[0]
         if statement.strip().upper() != word:
             number = head.count(b"\n", 0, begin) + 1
-            shown = head[begin : begin + 40].splitlines()[0].decode("utf-8", "replace")
+            shown = head[begin : begin + 40].partition(b"\n")[0].decode("utf-8", "replace")
             raise DesignError(
                 f"{path} is no IFC model or a damaged one: line {number} reads {shown!r} where '{word.decode()};' is "
                 "due. Export it again, or repair that line."

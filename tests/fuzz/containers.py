@@ -32,7 +32,8 @@ SEED = 20261130
 
 MODEL = (
     b"ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');\n"
-    b"FILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n"
+    b"FILE_SCHEMA(('IFC4'));\nENDSEC;\nDATA;\n#1=IFCPROJECT('0YvctVUKr0kugbFTf53O9L',$,'P',$,$,$,$,$,#2);\n"
+    b"#2=IFCUNITASSIGNMENT((#3));\n#3=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);\nENDSEC;\nEND-ISO-10303-21;\n"
 )
 DOCUMENT = b"<?xml version='1.0' encoding='utf-8'?>\n<Document SchemaVersion='4'><Objects Count='0'/></Document>"
 
@@ -117,7 +118,7 @@ def fuzz(name: str, rng: np.random.Generator, go_on: Callable[[Tally], bool]) ->
         while go_on(tally) and not tally.failed:
             content = container.make(rng)
             path.write_bytes(content)
-            began = time.perf_counter()
+            began = time.process_time()
             try:
                 container.read(path)
             except AadmError:
@@ -125,7 +126,7 @@ def fuzz(name: str, rng: np.random.Generator, go_on: Callable[[Tally], bool]) ->
             except Exception as error:  # noqa: BLE001 - this is what is looked for
                 tally.failed = f"{type(error).__name__}: {error}"
             tally.inputs += 1
-            tally.slowest_s = max(tally.slowest_s, time.perf_counter() - began)
+            tally.slowest_s = max(tally.slowest_s, time.process_time() - began)
             tally.largest_mb = _largest_mb()
             if tally.slowest_s > LONGEST_S or tally.largest_mb > LARGEST_MB:
                 tally.failed = tally.failed or "took too long, or too much memory"
@@ -153,7 +154,7 @@ def main() -> int:
         until = time.monotonic() + options.seconds
         tally = fuzz(name, np.random.default_rng(options.seed), lambda _, until=until: time.monotonic() < until)
         print(
-            f"{name}: {tally.inputs} inputs, {tally.refused} refused, slowest {tally.slowest_s:.2f} s, "
+            f"{name}: {tally.inputs} inputs, {tally.refused} refused, slowest {tally.slowest_s:.2f} s of processor, "
             f"largest {tally.largest_mb:.0f} MB, seed {options.seed}: {tally.failed or 'sound'}",
             flush=True,
         )
