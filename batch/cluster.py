@@ -1,37 +1,25 @@
-"""Processes that check columns, by Dask: on this machine, or wherever a scheduler has its workers."""
+"""A scheduler of Dask that somebody has started, wherever its workers are; with certificates where it asks for them."""
 
 from __future__ import annotations
 
 import contextlib
 import logging
-import os
+import socket
+import ssl
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
+from urllib.parse import urlsplit
 
 from aadm_workbench.errors import JobError, MissingDependencyError
 
-from .local_workers import LocalWorkers
 from .remote_workers import RemoteWorkers
 
 _CONNECT_S = 10.0
 _LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")
-
-_SETTINGS: dict[str, Any] = {
-    # A column whose worker dies is tried again by the engine, which blames that column alone.
-    "distributed.scheduler.allowed-failures": 0,
-    "distributed.scheduler.worker-saturation": 1.0,
-    "distributed.scheduler.work-stealing": False,
-    "distributed.admin.tick.limit": "10s",
-    # Nobody is to look into it from outside.
-    "distributed.scheduler.http.routes": [],
-    # Dask remembers what it did, for its developers: a kilobyte or more for each column, for a thousand of them.
-    "distributed.admin.low-level-log-length": 20,
-    "distributed.diagnostics.computations.max-history": 1,
-}
 
 
 @dataclass(frozen=True)
@@ -39,20 +27,16 @@ class Cluster:
     """A synchronous client of Dask, and who looks after its workers."""
 
     client: Any
-    keeper: Keeper
+    keeper: RemoteWorkers
 
 
-class Keeper(Protocol):
-    """Looks after workers."""
+@dataclass(frozen=True)
+class Certificates:
+    """Files in PEM format: the authority that all of a cluster trust, this side's certificate, and its key."""
 
-    def tend(self) -> None:
-        """Replace those that died, where that is its task."""
-
-    def how_ended(self, address: str, pid: int) -> str | None:
-        """How a worker ended, in words; None where that is not known (yet)."""
-
-    def kill(self, address: str, pid: int) -> None:
-        """End a worker that does not end itself."""
+    authority: Path
+    certificate: Path
+    key: Path | None = None
 
 
 def load_distributed() -> Any:
@@ -67,71 +51,29 @@ def load_distributed() -> Any:
         return import_module("distributed")
     except ImportError as error:
         install = "pip install 'aadm-workbench[batch]'"
-        raise MissingDependencyError("distributed", "Checking columns in several processes", install) from error
-
-
-def cores() -> int:
-    """How many processes this one may keep busy: its share of the machine, as a container or a queue gives it."""
-    try:
-        return len(os.sched_getaffinity(0))
-    except AttributeError:
-        return os.cpu_count() or 1
-
-
-def memory_per_worker(processes: int) -> int:
-    """An even share of the memory that this machine or its container has, bytes."""
-    limit: int = import_module("distributed.system").MEMORY_LIMIT
-    return limit // (processes + 1)
+        raise MissingDependencyError("distributed", "Checking columns on a cluster", install) from error
 
 
 @contextmanager
-def local_cluster(processes: int, memory_bytes: int, log: Callable[[str], None], folder: Path) -> Iterator[Cluster]:
-    """Some processes of this machine; they end with it.
-
-    Parameters
-    ----------
-    memory_bytes
-        What each may hold.
-    log
-        Is given each line that Dask has to say.
-    folder
-        Where processes write what they need.
-    """
-    distributed = load_distributed()
-    dask = import_module("dask")
-    with ExitStack() as stack:
-        stack.enter_context(_messages_to(log))
-        stack.enter_context(dask.config.set(_SETTINGS))
-        # The scheduler alone: the nanny of a worker of its own is lost when that worker dies while it starts.
-        cluster = stack.enter_context(
-            distributed.LocalCluster(
-                n_workers=0,
-                host="127.0.0.1",
-                dashboard_address="127.0.0.1:0",
-                silence_logs=False,
-                local_directory=str(folder),
-            )
-        )
-        client = stack.enter_context(distributed.Client(cluster, set_as_default=False))
-        workers = LocalWorkers(cluster.scheduler_address, processes, folder, memory_bytes)
-        stack.callback(workers.close)
-        yield Cluster(client, workers)
-
-
-@contextmanager
-def remote_cluster(address: str, log: Callable[[str], None]) -> Iterator[Cluster]:
+def remote_cluster(
+    address: str, log: Callable[[str], None], certificates: Certificates | None = None
+) -> Iterator[Cluster]:
     """The workers of a scheduler.
 
     Raises
     ------
     JobError
-        Where no scheduler answers, or one of another version of Dask.
+        Where no scheduler answers, or one of another version of Dask, or one that does not take the certificate or
+        has none that the authority has signed.
     """
     distributed = load_distributed()
     dask = import_module("dask")
+    security = None if certificates is None else _security(distributed, address, certificates)
+    if security is None and address.startswith("tls://") and not dask.config.get("distributed.comm.tls.ca-file", None):
+        raise JobError(f"{address}: asks for certificates; name them with --tls-ca, --tls-cert and --tls-key")
     with _messages_to(log), dask.config.set({"distributed.comm.retry.count": 2}):
         try:
-            client = distributed.Client(address, timeout=_CONNECT_S, set_as_default=False)
+            client = distributed.Client(address, timeout=_CONNECT_S, set_as_default=False, security=security)
         except (OSError, TimeoutError, ValueError, TypeError, ImportError, AttributeError, RuntimeError) as error:
             reason = str(error).splitlines()[0] if str(error) else type(error).__name__
             message = (
@@ -144,6 +86,59 @@ def remote_cluster(address: str, log: Callable[[str], None]) -> Iterator[Cluster
         finally:
             with contextlib.suppress(OSError, TimeoutError):
                 client.close(timeout=5)
+
+
+def _security(distributed: Any, address: str, certificates: Certificates) -> Any:
+    """What Dask needs to know of certificates, once they were tried on the scheduler."""
+    parts = urlsplit(address if "://" in address else f"tls://{address}")
+    if parts.scheme != "tls":
+        raise JobError(f"{address}: certificates go with an address that begins with tls:// (--scheduler)")
+    for file in (certificates.authority, certificates.certificate, certificates.key):
+        if file is not None and not file.is_file():
+            raise JobError(f"{file}: there is no such file (--tls-ca, --tls-cert, --tls-key)")
+    security = distributed.Security(
+        require_encryption=True,
+        tls_ca_file=str(certificates.authority),
+        tls_client_cert=str(certificates.certificate),
+        tls_client_key=None if certificates.key is None else str(certificates.key),
+    )
+    try:
+        context = security.get_connection_args("client")["ssl_context"]
+    except (OSError, ValueError) as error:
+        names = ", ".join(str(file) for file in vars(certificates).values() if file is not None)
+        reason = getattr(error, "reason", None) or error
+        raise JobError(f"{names}: cannot be used as authority, certificate and key in PEM format ({reason})") from error
+    _try_certificates(parts.hostname or "", parts.port, address, context)
+    return security
+
+
+def _try_certificates(host: str, port: int | None, address: str, context: ssl.SSLContext) -> None:
+    """Shake hands once and wait for the first byte: a scheduler that refuses the certificate says so only then.
+
+    Dask itself takes a refusal for a line that is bad, and tries again until its time is over.
+    """
+    if port is None:
+        raise JobError(f"{address}: names no port; an address is like tls://HOST:8786 (--scheduler)")
+    try:
+        line = socket.create_connection((host, port), _CONNECT_S)
+    except OSError as error:
+        reason = error.strerror or type(error).__name__
+        raise JobError(
+            f"no scheduler of Dask answers at {address} ({reason}); start one with: dask scheduler"
+        ) from error
+    try:
+        with line, context.wrap_socket(line, server_hostname=host) as secured:
+            secured.recv(1)
+    except ssl.SSLCertVerificationError as error:
+        message = f"{address}: its certificate is not signed by the authority of --tls-ca ({error.verify_message})"
+        raise JobError(message) from error
+    except OSError as error:
+        reason = getattr(error, "reason", None) or type(error).__name__
+        message = (
+            f"{address}: does not take the certificate of --tls-cert, or does not speak TLS ({reason}); it must be "
+            "signed by the authority that the scheduler was started with"
+        )
+        raise JobError(message) from error
 
 
 class _Lines(logging.Handler):

@@ -21,9 +21,19 @@ from aadm_workbench.errors import AadmError, JobError
 from .cluster import Cluster
 from .engine import Death, Ended
 from .inputs import ShippedFile
-from .program import difference, program_versions
 from .remote_workers import GONE
-from .worker import TOO_LONG, Done, Introduction, Terms, introduce, last_words, read_log, remove_log, run_task
+from .worker import (
+    TOO_LONG,
+    Done,
+    Introduction,
+    Terms,
+    introduce,
+    last_words,
+    objection,
+    read_log,
+    remove_log,
+    run_task,
+)
 
 _LOOK_S, _LOOK_SOON_S = 0.5, 0.1
 """So often is looked which workers there are; more often while some are starting."""
@@ -197,14 +207,9 @@ class DaskPool:
         return []
 
     def _met(self, worker: _Worker, known: Introduction) -> None:
-        different = difference(program_versions(), known.versions)
-        if different:
-            self._refuse(worker, f"it has {different}; install the same version there and here")
-        elif not known.one_thread:
-            self._refuse(worker, "it calculates in several threads; start it with its nanny, as dask worker does")
-        elif not known.sees_job and self._ship is None:
-            folder = self._terms.folder
-            self._refuse(worker, f"it does not see {folder}; share that folder with it, or add --ship-inputs")
+        against = objection(known, self._terms, ships=self._ship is not None)
+        if against:
+            self._refuse(worker, against)
         else:
             worker.known = known
             self._log(f"{worker.address}: process {known.pid} on {known.host} is ready")
@@ -216,7 +221,6 @@ class DaskPool:
 
     def _look(self) -> list[Ended]:
         """See which workers have come and gone."""
-        self._keeper.tend()
         there = self._addresses()
         self._looked = monotonic()
         ended: list[Ended] = []

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
+from aadm_workbench.atomic import write_atomically
+from aadm_workbench.design.fcstd import check_archive
 from aadm_workbench.design.freecad_program import ask_freecad
 from aadm_workbench.design.model_file import sha256_of
 from aadm_workbench.errors import AadmError
+from aadm_workbench.own_files import ASIDE_FOLDER
 from aadm_workbench.report.json import encode
 
 _MODULE = "aadm_workbench.document.annotate"
@@ -27,14 +31,23 @@ def write_fcstd(report: dict[str, Any], path: Path) -> None:
         Where FreeCAD cannot write the document.
     """
     model = model_of(report, path)
-    question = {
-        "report": encode(report).decode(),
-        "out": str(path.resolve()),
-        "model": None if model is None else str(model.resolve()),
-    }
-    problem = ask_freecad(_MODULE, question, str(path))
-    if problem:
-        raise AadmError(str(problem))
+    if model is not None:
+        check_archive(model)
+    try:
+        # FreeCAD writes where nobody else can put a link; beside the file, for where else it may see is not known.
+        with TemporaryDirectory(prefix=ASIDE_FOLDER, dir=path.parent.resolve()) as folder:
+            made = Path(folder) / path.name
+            question = {
+                "report": encode(report).decode(),
+                "out": str(made),
+                "model": None if model is None else str(model.resolve()),
+            }
+            problem = ask_freecad(_MODULE, question, str(path))
+            if problem:
+                raise AadmError(str(problem).replace(str(made), str(path)))
+            write_atomically(path, made.read_bytes())
+    except OSError as error:
+        raise AadmError(f"{path}: cannot be written ({error.strerror}); check its folder") from error
 
 
 def model_of(report: dict[str, Any], path: Path) -> Path | None:

@@ -11,13 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.errors import AadmError, JobError
+from aadm_workbench.own_files import UnsafeFileError, clear_asides, held, open_to_write
 
 _NAME = ".aadm-lock"
 
 
 @contextlib.contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Hold a folder of results for this process alone.
+    """Hold a folder of results for this process alone; what a killed one left half written there is removed.
 
     Raises
     ------
@@ -26,14 +27,19 @@ def locked(folder: Path) -> Iterator[None]:
     AadmError
         Where nothing can be written into the folder.
     """
-    path = folder / _NAME
-    try:
-        descriptor = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_CLOEXEC", 0), 0o644)
-    except OSError as error:
-        reason = error.strerror or type(error).__name__
-        raise AadmError(f"{folder}: nothing can be written there ({reason}); name another folder with --out") from error
-    try:
-        if not _lock(descriptor):
+    with contextlib.ExitStack() as stack:
+        try:
+            stack.enter_context(held(folder))
+            descriptor = open_to_write(folder / _NAME)
+        except UnsafeFileError as error:
+            message = f"{folder / _NAME}: {error.strerror}, or name another folder with --out"
+            raise AadmError(message) from error
+        except OSError as error:
+            reason = error.strerror or type(error).__name__
+            message = f"{folder}: nothing can be written there ({reason}); name another folder with --out"
+            raise AadmError(message) from error
+        stack.callback(os.close, descriptor)
+        if not _lock(descriptor) or not _is_in_place(folder / _NAME, descriptor):
             holder = _read(descriptor) or "another process"
             message = f"{folder}: {holder} is writing its results there; wait for it, or name another folder with --out"
             raise JobError(message)
@@ -42,10 +48,17 @@ def locked(folder: Path) -> Iterator[None]:
             os.ftruncate(descriptor, 0)
             os.lseek(descriptor, 0, os.SEEK_SET)
             os.write(descriptor, f"process {os.getpid()} on {socket.gethostname()}".encode())
-        yield
-    finally:
+        clear_asides(folder)
         # The file stays: a lock that is removed can be held twice.
-        os.close(descriptor)
+        yield
+
+
+def _is_in_place(path: Path, descriptor: int) -> bool:
+    """Whether the lock is the one that others see: two that replace a link at once make two files."""
+    try:
+        return os.path.samestat(path.lstat(), os.fstat(descriptor))
+    except OSError:
+        return False
 
 
 def _read(descriptor: int) -> str:

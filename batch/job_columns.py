@@ -16,6 +16,12 @@ from .job_table import JobTable
 
 _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
 _COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "axes", "near", "design", "control_points")
+MOST_COLUMNS = 20_000
+"""Ten shipments of the largest kind."""
+
+LONGEST_ID = 255
+"""What IFC allows a label to have (IfcLabel)."""
+
 _LENGTHS = ("embedded_length", "exposed_length")
 _SIZES = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter")
 """One length, or a list with one for each centre."""
@@ -33,13 +39,16 @@ def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColu
     tables = top.tables("columns", "[[columns]]")
     if not tables:
         raise top.wrong("columns", 'the job has no columns; add [[columns]] with id = "..." and its scans')
+    if len(tables) > MOST_COLUMNS:
+        raise top.wrong("columns", f"the job has {len(tables)} columns, {MOST_COLUMNS} are the most; split it")
     columns: list[JobColumn] = []
+    known: dict[str, JobTable] = {}
     for table in tables:
         column = _column(table, units=units, has_model=has_model)
-        for other, earlier in zip(columns, tables, strict=False):
-            if other.id == column.id:
-                line = earlier.lines.get((*earlier.at, "id"), 1)
-                raise table.wrong("id", f'two columns have the id "{column.id}": the other stands in line {line}')
+        earlier = known.setdefault(column.id, table)
+        if earlier is not table:
+            line = earlier.lines.get((*earlier.at, "id"), 1)
+            raise table.wrong("id", f'two columns have the id "{column.id}": the other stands in line {line}')
         columns.append(column)
     return tuple(columns)
 
@@ -48,6 +57,10 @@ def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
     table.allow(_COLUMN)
     table.require("id", 'id = "...", its Name, Tag, PieceMark or GlobalId in the model')
     name = table.text("id") or ""
+    if len(name) > LONGEST_ID:
+        raise table.wrong(
+            "id", f"the id has {len(name)} characters, {LONGEST_ID} are the most; call the column shorter"
+        )
     up = up_deg(table, "up")
     sleeves_up, rebars_up = up_deg(table, "sleeves_up"), up_deg(table, "rebars_up")
     design = _design(table, name)

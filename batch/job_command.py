@@ -10,6 +10,7 @@ from .limits import memory_size, time_span
 from .switches import add_switches, whole_number
 
 if TYPE_CHECKING:
+    from .cluster import Certificates
     from .pools import PoolOptions
 
 METHODS = ("refined", "fusion", "pointcloud", "image")
@@ -25,7 +26,8 @@ def add_job_arguments(
     # Written out, because --only would take a job that follows it for one more id.
     parser.usage = (
         f"aadm {name} JOB.toml [--out DIR] [--only ID ...] [--method METHOD] {more + ' ' if more else ''}"
-        "[--jobs N | --scheduler ADDRESS [--ship-inputs]] [--memory-limit SIZE] [--time-limit TIME] "
+        "[--jobs N | --scheduler ADDRESS [--ship-inputs] [--tls-ca FILE --tls-cert FILE [--tls-key FILE]]] "
+        "[--memory-limit SIZE] [--time-limit TIME] "
         "[--json] [--quiet] [--debug] [-h]"
     )
     parser.add_argument("job", type=Path, metavar="JOB.toml", help="the job file")
@@ -53,7 +55,18 @@ def _add_pool_arguments(parser: argparse.ArgumentParser, verb: str) -> None:
         help=f"{verb} N columns at a time, each in a process (default: as many as there are cores; a few columns are "
         "done at once, one after the other)",
     )
-    where.add_argument("--scheduler", metavar="ADDRESS", help="use the workers of this Dask scheduler: tcp://HOST:8786")
+    where.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="use the workers of this Dask scheduler: tls://HOST:8786 or tcp://HOST:8786",
+    )
+    parser.add_argument(
+        "--tls-ca", type=Path, metavar="FILE", help="authority that the scheduler's certificate is signed by (PEM)"
+    )
+    parser.add_argument(
+        "--tls-cert", type=Path, metavar="FILE", help="certificate that is shown to the scheduler (PEM)"
+    )
+    parser.add_argument("--tls-key", type=Path, metavar="FILE", help="its key, where it is not in the same file (PEM)")
     parser.add_argument(
         "--ship-inputs", action="store_true", help="send the scans to the workers, which do not see this disk"
     )
@@ -69,10 +82,37 @@ def _add_pool_arguments(parser: argparse.ArgumentParser, verb: str) -> None:
 
 
 def pool_options(options: argparse.Namespace) -> PoolOptions:
-    """Where the columns of a job are to be worked on."""
+    """Where the columns of a job are to be worked on.
+
+    Raises
+    ------
+    JobError
+        Where certificates are named without a scheduler, or one of them without the other.
+    """
     from .pools import PoolOptions
 
-    return PoolOptions(options.jobs, options.scheduler, options.ship_inputs, options.memory_limit, options.time_limit)
+    return PoolOptions(
+        options.jobs,
+        options.scheduler,
+        options.ship_inputs,
+        options.memory_limit,
+        options.time_limit,
+        certificates=_certificates(options),
+    )
+
+
+def _certificates(options: argparse.Namespace) -> Certificates | None:
+    from aadm_workbench.errors import JobError
+
+    if options.tls_ca is None and options.tls_cert is None and options.tls_key is None:
+        return None
+    if options.scheduler is None:
+        raise JobError("--tls-ca, --tls-cert and --tls-key go with --scheduler; workers of this machine need none")
+    if options.tls_ca is None or options.tls_cert is None:
+        raise JobError("--tls-ca and --tls-cert go together: whom to trust, and what to be trusted by")
+    from .cluster import Certificates
+
+    return Certificates(options.tls_ca, options.tls_cert, options.tls_key)
 
 
 def report_folder(options: argparse.Namespace) -> Path:

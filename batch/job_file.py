@@ -23,8 +23,8 @@ from .job_lines import lines_of
 from .job_table import WINDOWS_PATHS, JobTable
 from .printable import steering_character
 
-LARGEST_JOB_BYTES = 64 * 2**20
-"""A job of a thousand columns with designs of their own takes about one."""
+LARGEST_JOB_BYTES = 16 * 2**20
+"""A job of a thousand columns with designs of their own takes a megabyte."""
 
 _MOST_PARTS_OF_A_KEY = 64
 _DOTTED = re.compile(r"[\w\"'-][ \t]*\.")

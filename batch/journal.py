@@ -12,11 +12,14 @@ import json
 import os
 from collections.abc import Mapping
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from time import monotonic
 from types import MappingProxyType
 
+from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError
+from aadm_workbench.own_files import UnsafeFileError, looked_up, open_to_read, open_to_write
 
 from .record import Record, read_record
 
@@ -26,6 +29,13 @@ _FIRST_LINE = b'{"aadm_journal":1}\n'
 _LAST_LINE = b'{"finished":true}\n'
 _STOPPED_LINE = b'{"stopped":true}\n'
 _SECONDS_BETWEEN_FLUSHES = 1.0
+_PIECE_BYTES = 2**20
+
+LONGEST_LINE_BYTES = 2**26
+"""A column takes 50 KB, one with a hundred hoisting frames 2 MB; a longer line is none of this program."""
+
+MOST_LINES = 2_000_000
+"""Two thousand columns, begun and finished in five hundred runs."""
 
 
 class Journal:
@@ -52,10 +62,12 @@ class Journal:
         self._begun: set[str] = set()
         self.put_aside = False
         try:
-            if not resume:
+            if resume:
+                self._separate()
+            else:
                 self._put_aside()
+            self._file = open_to_write(self.path)
             self._end = self._sound_end() if resume else 0
-            self._file = os.open(self.path, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o644)
             os.ftruncate(self._file, self._end)
         except OSError as error:
             raise self._wrong(error) from error
@@ -151,27 +163,35 @@ class Journal:
         self._end += len(line)
 
     def _put_aside(self) -> None:
-        with suppress(FileNotFoundError):
-            size = self.path.stat().st_size
-            with self.path.open("rb") as stream:
-                stream.seek(max(0, size - len(_LAST_LINE)))
-                if stream.read() != _LAST_LINE and size > len(_FIRST_LINE):
-                    self.path.replace(self.path.with_name(PREVIOUS_NAME))
-                    self.put_aside = True
+        # A link is no journal of ours: it is replaced.
+        with suppress(FileNotFoundError, UnsafeFileError), open(open_to_read(self.path), "rb") as stream:  # noqa: PTH123
+            size = os.fstat(stream.fileno()).st_size
+            stream.seek(max(0, size - len(_LAST_LINE)))
+            if stream.read(len(_LAST_LINE)) != _LAST_LINE and size > len(_FIRST_LINE):
+                with looked_up(self.path) as (name, folder):
+                    previous = Path(name).with_name(PREVIOUS_NAME)
+                    os.replace(name, previous, src_dir_fd=folder, dst_dir_fd=folder)
+                self.put_aside = True
+
+    def _separate(self) -> None:
+        """Give a journal that has a second name elsewhere (a hard link) a file of its own, as it is."""
+        with suppress(FileNotFoundError), open(open_to_read(self.path), "rb") as stream:  # noqa: PTH123
+            if os.fstat(stream.fileno()).st_nlink > 1:
+                write_atomically(self.path, iter(partial(stream.read, _PIECE_BYTES), b""))
 
     def _sound_end(self) -> int:
         """Read what is there; returns where the last whole line ends."""
-        end = 0
-        with suppress(FileNotFoundError), self.path.open("rb") as stream:
-            if stream.readline() != _FIRST_LINE:
+        with open(self._file, "rb", closefd=False) as stream:
+            if stream.readline(len(_FIRST_LINE)) != _FIRST_LINE:
                 return 0
             end = len(_FIRST_LINE)
-            for line in stream:
+            for _ in range(MOST_LINES):
+                line = stream.readline(LONGEST_LINE_BYTES)
                 if not line.endswith(b"\n"):
-                    break
+                    return end
                 self._read_line(line, end)
                 end += len(line)
-        return end
+        raise AadmError(f"{self.path}: has more than {MOST_LINES} lines, which no check writes; check without --resume")
 
     def _read_line(self, line: bytes, place: int) -> None:
         record = read_record(line)
@@ -182,7 +202,7 @@ class Journal:
             self._begun.clear()
             return
         # A line in the middle that is damaged costs its own column only: it is checked again.
-        with suppress(ValueError):
+        with suppress(ValueError, RecursionError):
             began = json.loads(line)
             if isinstance(began, dict) and isinstance(began.get("began"), str):
                 self._begun.add(began["began"])
@@ -192,6 +212,8 @@ class Journal:
         self._keys[record.id] = record.key
 
     def _wrong(self, error: OSError) -> AadmError:
+        if isinstance(error, UnsafeFileError):
+            return AadmError(f"{self.path}: results cannot be kept there: {error.strerror}")
         reason = error.strerror or type(error).__name__
         return AadmError(f"{self.path}: the results so far cannot be kept ({reason}); make room or let it be written")
 

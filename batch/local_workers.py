@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import signal
 import subprocess
 import sys
-from importlib import import_module
+from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
-from typing import Any
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.own_files import create
 
+from .machine import load_psutil
 from .worker import last_words, read_log
 
 MOST_FALSE_STARTS = 10
@@ -21,22 +22,24 @@ MOST_FALSE_STARTS = 10
 
 _START_S = 3.0
 _CLOSE_S = 5.0
-_ENVIRONMENT = {
-    "DASK_LOGGING__DISTRIBUTED": "error",
-    "DASK_LOGGING__TORNADO": "critical",
-    "DASK_DISTRIBUTED__ADMIN__LOW_LEVEL_LOG_LENGTH": "20",
-    "DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED": "False",
-    "OMP_NUM_THREADS": "1",
-}
+_ENVIRONMENT = {"OMP_NUM_THREADS": "1"}
+
+
+@dataclass(frozen=True, eq=False)
+class LocalProcess:
+    """A worker process: its number among those of this check, and the file into which it writes until it works."""
+
+    number: int
+    process: subprocess.Popen[bytes]
+    log: Path
+    began: float
 
 
 class LocalWorkers:
-    """Some processes of this machine that work for a scheduler.
+    """Some processes of this machine that wait for questions at the other end of a pipe.
 
     Parameters
     ----------
-    address
-        Of the scheduler.
     processes
         How many.
     folder
@@ -46,16 +49,15 @@ class LocalWorkers:
         more.
     """
 
-    def __init__(self, address: str, processes: int, folder: Path, memory_bytes: int) -> None:
-        self._address = address
+    def __init__(self, processes: int, folder: Path, memory_bytes: int) -> None:
+        self.running: dict[int, LocalProcess] = {}
         self._folder = folder
         self._most_bytes = memory_bytes + memory_bytes // 4
-        self._started: dict[int, tuple[subprocess.Popen[bytes], float]] = {}
-        self._logs: dict[int, Path] = {}
-        self._last_words = ""
+        self._psutil = load_psutil()
         self._ended: dict[int, str] = {}
         self._too_large: set[int] = set()
         self._false_starts = 0
+        self._last_words = ""
         self._number = 0
         self._processes = processes
         self.tend()
@@ -68,69 +70,67 @@ class LocalWorkers:
         AadmError
             Where workers die as soon as they are started.
         """
-        for pid, (process, began) in list(self._started.items()):
-            code = process.poll()
+        for number, worker in list(self.running.items()):
+            code = worker.process.poll()
             if code is None:
-                self._end_if_too_large(pid)
+                self._end_if_too_large(worker)
                 continue
-            del self._started[pid]
-            self._ended[pid] = _in_words(code) + self._why(pid)
-            is_false_start = monotonic() - began < _START_S and code != -getattr(signal, "SIGKILL", 0)
+            del self.running[number]
+            self._ended[number] = _in_words(code) + self._why(number)
+            is_false_start = monotonic() - worker.began < _START_S and code != -getattr(signal, "SIGKILL", 0)
             self._false_starts = self._false_starts + 1 if is_false_start else 0
-            self._last_words = last_words(read_log(str(self._logs[pid]))) or self._last_words
+            self._last_words = last_words(read_log(str(worker.log))) or self._last_words
         if self._false_starts > MOST_FALSE_STARTS:
             why = self._last_words or "each ended at once"
             raise AadmError(f"no worker process can be started on this machine: {why}")
-        while len(self._started) < self._processes:
+        while len(self.running) < self._processes:
             self._start()
 
-    def how_ended(self, address: str, pid: int) -> str | None:
+    def how_ended(self, number: int) -> str | None:
         """How a worker ended, in words; None while it runs."""
         self.tend()
-        return self._ended.get(pid)
+        return self._ended.get(number)
 
-    def kill(self, address: str, pid: int) -> None:
+    def kill(self, number: int) -> None:
         """End a worker; another takes its place."""
-        if pid in self._started:
-            self._started[pid][0].kill()
+        if number in self.running:
+            self.running[number].process.kill()
 
     def close(self) -> None:
         """End all."""
-        for process, _ in self._started.values():
-            process.kill()
-        for process, _ in self._started.values():
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(_CLOSE_S)
-        self._started.clear()
+        for worker in self.running.values():
+            worker.process.kill()
+        for worker in self.running.values():
+            with suppress(subprocess.TimeoutExpired):
+                worker.process.wait(_CLOSE_S)
+        self.running.clear()
 
     def _start(self) -> None:
         self._number += 1
         # -P: what lies in the working folder by chance is not to be imported.
-        command = [sys.executable, "-P", "-m", f"{__package__}.local_worker"]
+        command = [sys.executable, "-P", "-m", f"{__package__}.local_worker", str(os.getpid())]
         environment = {**os.environ, **_ENVIRONMENT, "PYTHONPATH": os.pathsep.join(path for path in sys.path if path)}
         log_file = self._folder / f"worker-{self._number}.log"
-        with log_file.open("wb") as log:
+        with open(create(log_file), "wb") as log:  # noqa: PTH123 - of a descriptor
             process = subprocess.Popen(
-                [*command, self._address, str(self._folder), str(os.getpid())],
-                stdin=subprocess.DEVNULL,
-                stdout=log,
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
                 stderr=log,
                 env=environment,
                 # Ctrl-C is for the check alone, which ends its workers.
                 start_new_session=True,
             )
-        self._started[process.pid] = (process, monotonic())
-        self._logs[process.pid] = log_file
+        self.running[self._number] = LocalProcess(self._number, process, log_file, monotonic())
 
-    def _end_if_too_large(self, pid: int) -> None:
-        psutil: Any = import_module("psutil")
-        with contextlib.suppress(psutil.Error):
-            if psutil.Process(pid).memory_info().rss > self._most_bytes:
-                self._too_large.add(pid)
-                self.kill(self._address, pid)
+    def _end_if_too_large(self, worker: LocalProcess) -> None:
+        with suppress(self._psutil.Error):
+            if self._psutil.Process(worker.process.pid).memory_info().rss > self._most_bytes:
+                self._too_large.add(worker.number)
+                worker.process.kill()
 
-    def _why(self, pid: int) -> str:
-        return ", because it held more memory than it may (--memory-limit)" if pid in self._too_large else ""
+    def _why(self, number: int) -> str:
+        return ", because it held more memory than it may (--memory-limit)" if number in self._too_large else ""
 
 
 def _in_words(code: int) -> str:

@@ -8,9 +8,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .engine import Here, Pool
+
+if TYPE_CHECKING:
+    from .cluster import Certificates
 
 MOST_COLUMNS_HERE = 8
 """Up to so many columns are done in this process before a second one has started and loaded its packages."""
@@ -29,6 +32,8 @@ class PoolOptions:
         How many on this machine; None for as many as it has cores, where there are columns enough.
     scheduler
         Address of a scheduler of Dask, whose workers are used instead.
+    certificates
+        With which it is spoken to, where it asks for them.
     ship_inputs
         Whether files travel to the workers by content.
     memory_bytes
@@ -45,6 +50,7 @@ class PoolOptions:
     memory_bytes: int | None = None
     seconds: float | None = None
     apart: bool = False
+    certificates: Certificates | None = None
 
     @property
     def is_limited(self) -> bool:
@@ -79,32 +85,35 @@ def open_pool(
     Raises
     ------
     MissingDependencyError
-        Where several processes, a limit or a scheduler are asked for without Dask.
+        Where several processes or a limit are asked for without psutil, or a scheduler without Dask.
     JobError
         Where no scheduler answers.
     """
     if options.scheduler is None and _is_for_here(options, columns, say):
         yield Here()
         return
-    from .cluster import load_distributed, local_cluster, memory_per_worker, remote_cluster
-    from .dask_pool import DaskPool
     from .worker import Terms
 
-    load_distributed()
-    processes = min(_processes(options), columns)
-    memory_bytes = options.memory_bytes
-    if options.scheduler is None and memory_bytes is None:
-        memory_bytes = memory_per_worker(processes)
-    terms = Terms(folder, log_folder, memory_bytes, options.seconds or SECONDS_PER_COLUMN)
-    with contextlib.ExitStack() as stack:
-        if options.scheduler is not None:
-            cluster = stack.enter_context(remote_cluster(options.scheduler, log))
-        else:
-            assert memory_bytes is not None
-            cluster = stack.enter_context(local_cluster(processes, memory_bytes, log, log_folder))
-        pool = DaskPool(cluster, terms, ship=ship if options.ship_inputs else None, say=say, log=log)
-        stack.callback(pool.close)
-        yield pool
+    seconds = options.seconds or SECONDS_PER_COLUMN
+    chosen_ship = ship if options.ship_inputs else None
+    if options.scheduler is None:
+        from .local_pool import local_pool
+        from .machine import cores, memory_per_worker
+
+        processes = min(options.processes or cores(), columns)
+        memory_bytes = options.memory_bytes or memory_per_worker(processes)
+        terms = Terms(folder, log_folder, memory_bytes, seconds)
+        with local_pool(processes, terms, memory_bytes, log_folder, ship=chosen_ship, log=log) as here:
+            yield here
+        return
+    from .cluster import remote_cluster
+    from .dask_pool import DaskPool
+
+    terms = Terms(folder, log_folder, options.memory_bytes, seconds)
+    with remote_cluster(options.scheduler, log, options.certificates) as cluster:
+        there = DaskPool(cluster, terms, ship=chosen_ship, say=say, log=log)
+        with contextlib.closing(there):
+            yield there
 
 
 def _is_for_here(options: PoolOptions, columns: int, say: Callable[[str], None]) -> bool:
@@ -114,14 +123,8 @@ def _is_for_here(options: PoolOptions, columns: int, say: Callable[[str], None])
         return False
     if columns <= MOST_COLUMNS_HERE and not options.apart:
         return True
-    if find_spec("distributed") is None:
+    if find_spec("psutil") is None:
         if options.processes is None and columns > MOST_COLUMNS_HERE:
             say("one column at a time, all in one process: pip install 'aadm-workbench[batch]' to use every core")
         return True
     return False
-
-
-def _processes(options: PoolOptions) -> int:
-    from .cluster import cores
-
-    return options.processes or cores()

@@ -82,6 +82,16 @@ def read_record(line: bytes) -> Record | None:
         text = content.decode(errors="surrogatepass")
         head, mark_of_report, report = text.partition(_REPORT)
         values = json.loads(head + "}")
-        return Record(report=report, **values) if mark_of_report else None
-    except (ValueError, TypeError):
+        record = Record(report=report, **values) if mark_of_report else None
+    except (ValueError, TypeError, RecursionError):
         return None
+    return record if record is not None and _is_sound(record) else None
+
+
+def _is_sound(record: Record) -> bool:
+    """Whether each value is of its kind: a checksum can be calculated by anybody."""
+    texts = (record.id, record.key, record.verdict, record.goes_on, record.where)
+    seconds: object = record.seconds
+    return all(isinstance(text, str) for text in texts) and (
+        isinstance(seconds, dict) and all(isinstance(value, int | float) for value in seconds.values())
+    )

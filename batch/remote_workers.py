@@ -22,9 +22,6 @@ class RemoteWorkers:
     def __init__(self, client: Any) -> None:
         self._client = client
 
-    def tend(self) -> None:
-        """Nothing: that is for whoever started them."""
-
     def how_ended(self, address: str, pid: int) -> str | None:
         """How a worker ended, as a nanny on its machine says; None where none has said it (yet)."""
         return next((words for line in self._nannies_say(address) if (words := exit_in_words(line, pid))), None)

@@ -110,10 +110,11 @@ def _write(name: str, report: Report, path: Path, language: Literal["en", "zh"] 
 
         write_fcstd(report, path)
     elif name in ("bcf", "bcf_pairs"):
+        from aadm_workbench.own_files import is_there
         from aadm_workbench.report.bcf import write_bcf
 
         per: Literal["column", "pair"] = "pair" if name == "bcf_pairs" else "column"
-        write_bcf(report, path, existing=path if path.exists() else None, per=per)
+        write_bcf(report, path, existing=path if is_there(path) else None, per=per)
     else:
         _write_pages(name, report, path, language)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -20,7 +20,7 @@ from aadm_workbench.assembly.findings.shape import design_shape
 from aadm_workbench.assembly.mould import assess_moulds
 from aadm_workbench.check import CheckSettings
 from aadm_workbench.design.model_design import ModelDesign
-from aadm_workbench.errors import DesignError, JobError
+from aadm_workbench.errors import AadmError, DesignError, JobError
 from aadm_workbench.model import ColumnDesign, ColumnReport, JobReport
 
 from .engine import Death, Pool, work_through
@@ -166,10 +166,22 @@ def _scratch(stack: ExitStack, folder: Path | None) -> Path:
     if folder is None:
         return Path(stack.enter_context(TemporaryDirectory(prefix="aadm-workers-", ignore_cleanup_errors=True)))
     scratch = folder / SCRATCH_NAME
-    stack.callback(shutil.rmtree, scratch, ignore_errors=True)
-    shutil.rmtree(scratch, ignore_errors=True)
-    scratch.mkdir(exist_ok=True)
+    stack.callback(_removed, scratch)
+    _removed(scratch)
+    try:
+        # Nobody else may write into it, whoever may write beside it.
+        scratch.mkdir(mode=0o700)
+    except OSError as error:
+        reason = f"cannot be made ({error.strerror}); remove what is there, or name another folder with --out"
+        raise AadmError(f"{scratch}: the folder of the workers {reason}") from error
     return scratch
+
+
+def _removed(scratch: Path) -> None:
+    """Remove a folder and what is in it, or whatever stands for it; no link is followed."""
+    shutil.rmtree(scratch, ignore_errors=True)
+    with suppress(OSError):
+        scratch.unlink()
 
 
 class _Watcher:
@@ -195,11 +207,19 @@ def _collected(
     traces: dict[str, str] = {}
     # One after the other: the texts of all of them would take as much memory as the reports.
     for record in records:
-        columns.append(record.column())
+        columns.append(_column(record))
         seconds[record.id] = record.seconds
         if record.where:
             traces[record.id] = record.where
     return _report(job, model, settings, with_same_scans(columns)), seconds, traces
+
+
+def _column(record: Record) -> ColumnReport:
+    try:
+        return record.column()
+    except ValueError as error:
+        message = f"{record.id}: its kept result cannot be used ({error}); check again without --resume"
+        raise AadmError(message) from error
 
 
 def plan_tasks(

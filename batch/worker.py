@@ -17,7 +17,7 @@ from typing import IO, Any
 
 from .inputs import ShippedFile, unpack
 from .one_thread import is_in_one_thread
-from .program import program_versions
+from .program import difference, program_versions
 
 _LOG_BYTES = 16_384
 """So much of what a column writes is kept."""
@@ -70,16 +70,17 @@ class Done:
 
 
 _log: IO[bytes] | None = None
+_log_path = ""
 
 
 def introduce(terms: Terms) -> Introduction:
     """Make this process ready to check columns: log, memory limit, heavy packages."""
-    global _log  # noqa: PLW0603 - there is one such process, with one stderr
-    if _log is None or not Path(_log.name).exists():
+    global _log, _log_path
+    if _log is None or not Path(_log_path).exists():
         folder = terms.log_folder if terms.log_folder.is_dir() else Path(tempfile.gettempdir())
-        path = folder / f"column-{socket.gethostname()}-{os.getpid()}.log"
-        _log = path.open("wb+", buffering=0)
-        os.set_inheritable(_log.fileno(), False)
+        # A name that nobody can know before, and a file that nobody else can open: the folder may be a shared one.
+        descriptor, path = tempfile.mkstemp(".log", f"column-{socket.gethostname()}-{os.getpid()}-", folder)
+        _log, _log_path = open(descriptor, "wb+", buffering=0), path  # noqa: PTH123, SIM115
         _write_into(_log)
         faulthandler.enable(_log)
     _limit_memory(terms.memory_bytes)
@@ -87,11 +88,23 @@ def introduce(terms: Terms) -> Introduction:
     return Introduction(
         pid=os.getpid(),
         host=socket.gethostname(),
-        log=_log.name,
+        log=_log_path,
         versions=program_versions(),
         sees_job=terms.folder.is_dir(),
         one_thread=is_in_one_thread(),
     )
+
+
+def objection(known: Introduction, terms: Terms, *, ships: bool) -> str:
+    """Why a worker may get no work, and what to do about it; empty where it may."""
+    different = difference(program_versions(), known.versions)
+    if different:
+        return f"it has {different}; install the same version there and here"
+    if not known.one_thread:
+        return "it calculates in several threads; start it with its nanny, as dask worker does"
+    if not known.sees_job and not ships:
+        return f"it does not see {terms.folder}; share that folder with it, or add --ship-inputs"
+    return ""
 
 
 def run_task(
@@ -112,7 +125,7 @@ def run_task(
     finally:
         faulthandler.cancel_dump_traceback_later()
         _flush()
-    return Done(outcome, "" if _log is None else read_log(_log.name))
+    return Done(outcome, "" if _log is None else read_log(_log_path))
 
 
 def read_log(path: str) -> str:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
 
+from aadm_workbench.own_files import open_to_write
+
 NAME = "workers.log"
+_APPEND = os.O_WRONLY | os.O_APPEND
 
 
 class WorkersLog:
@@ -22,5 +26,6 @@ class WorkersLog:
         # What a scan's name or a native library says is not to steer the terminal that shows the log.
         line = "".join(sign if sign.isprintable() else "\N{REPLACEMENT CHARACTER}" for sign in line)
         now = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
-        with self._lock, suppress(OSError), self._path.open("a", encoding="utf-8", errors="replace") as stream:
-            stream.write(f"{now} {line}\n")
+        said = f"{now} {line}\n".encode(errors="replace")
+        with self._lock, suppress(OSError), open(open_to_write(self._path, _APPEND), "ab") as stream:  # noqa: PTH123
+            stream.write(said)

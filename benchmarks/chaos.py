@@ -3,8 +3,9 @@
     python -m benchmarks.chaos [--columns 300] [--full-size] [--seed 1] [--kill-every 2.0] [--folder DIR]
 
 The calm check comes first. Then inputs are corrupted, some before and some during the second check, whose workers are
-killed one by one and whose own process is killed twice, each time to be resumed. Every column whose inputs were sound
-must come to the same report, bit by bit; every other must be an error of its own. Ends with 1 where one does not.
+killed one by one and whose own process is killed twice, each time to be resumed; strangers put links and pipes into its
+folder, and reach for its ports, pipes and files. Every column whose inputs were sound must come to the same report, bit
+by bit; every other must be an error of its own; no stranger may get anywhere. Ends with 1 where it is not so.
 """
 
 from __future__ import annotations
@@ -23,10 +24,13 @@ import numpy as np
 import psutil
 
 from benchmarks.floors import SMALL, write_floor
+from benchmarks.strangers import Strangers
 
 _SHARE_CORRUPT = 0.1
 _PROCESS_DEATHS = 2
 _POLL_S = 0.05
+_PLANTED = 6
+"""So many links and pipes lie in the folder before each run."""
 
 
 @dataclass
@@ -35,6 +39,7 @@ class Chaos:
 
     columns: int
     calm_s: float
+    strangers: Strangers
     chaos_s: float = 0.0
     corrupt: list[str] = field(default_factory=list)
     workers_killed: int = 0
@@ -46,8 +51,9 @@ class Chaos:
 
     @property
     def ended_well(self) -> bool:
-        """Whether sound columns are as in the calm check, and the others are errors."""
-        return not self.differ and not self.not_noticed and self.processes_killed == _PROCESS_DEATHS
+        """Whether sound columns are as in the calm check, the others are errors, and no stranger got anywhere."""
+        sound = not self.differ and not self.not_noticed and not self.strangers.harm
+        return sound and self.processes_killed == _PROCESS_DEATHS
 
 
 def run_chaos(
@@ -57,7 +63,8 @@ def run_chaos(
     calm, harmed = write_floor(folder / "calm", columns, shrink=shrink, linked=False), folder / "chaos"
     began = time.perf_counter()
     subprocess.run(_command(calm), check=False, capture_output=True)
-    chaos = Chaos(columns, time.perf_counter() - began)
+    strangers = Strangers(harmed / "job-report", folder / "precious")
+    chaos = Chaos(columns, time.perf_counter() - began, strangers)
     job = write_floor(harmed, columns, shrink=shrink, linked=False)
     doomed = [f"K-{number:04d}" for number in rng.permutation(columns)[: max(2, round(_SHARE_CORRUPT * columns))]]
     before, during = doomed[::2], doomed[1::2]
@@ -65,6 +72,8 @@ def run_chaos(
         chaos.corrupt.append(_corrupt(harmed / "scans", name, rng))
     began = time.perf_counter()
     for number in range(_PROCESS_DEATHS + 1):
+        for _ in range(_PLANTED):
+            strangers.plant(rng)
         dies_at = (number + 1) * columns // (_PROCESS_DEATHS + 1) if number < _PROCESS_DEATHS else None
         chaos.exit_codes.append(_run(job, chaos, rng, during, kill_every_s, dies_at, resume=number > 0))
     while during:
@@ -105,6 +114,8 @@ def _run(
             break
         if time.perf_counter() > next_kill:
             next_kill = time.perf_counter() + kill_every_s * rng.uniform(0.5, 1.5)
+            chaos.strangers.come_near(process.pid)
+            chaos.strangers.plant(rng)
             chaos.workers_killed += _kill_one(process.pid, rng)
             if during:
                 chaos.corrupt.append(_corrupt(job.parent / "scans", during.pop(), rng))
@@ -179,6 +190,9 @@ def main() -> int:
         chaos = run_chaos(Path(folder), options.columns, rng, shrink=shrink, kill_every_s=options.kill_every)
     print(f"{chaos.columns} columns, seed {options.seed}: calm in {chaos.calm_s:.1f} s, in chaos {chaos.chaos_s:.1f} s")
     print(f"workers killed: {chaos.workers_killed}, the check itself: {chaos.processes_killed}")
+    them = chaos.strangers
+    print(f"strangers: {them.links} links, {them.pipes} pipes, {them.users} attempts as another user: ", end="")
+    print("; ".join(them.harm) or "nothing written, opened or found listening")
     print(f"columns with spoilt inputs: {len(chaos.corrupt)}, not noticed: {chaos.not_noticed or 'none'}")
     if not chaos.ended_well:
         print(*chaos.said, sep="\n---\n")

@@ -15,7 +15,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "aadm_workbench"
 STAGES = ("design", "scan", "extract", "assembly", "report")
-NOUNS = {"errors", "model", "atomic"}
+NOUNS = {"errors", "model", "atomic", "bounded", "own_files"}
 
 Finding: TypeAlias = tuple[int, str]
 Rule: TypeAlias = Callable[[PurePosixPath, ast.Module], Iterator[Finding]]
@@ -176,6 +176,31 @@ def core_starts_without_extras(path: PurePosixPath, tree: ast.Module) -> Iterato
             yield line, f"imports {top} at its start, which not everybody has: import it where it is used"
 
 
+LISTENS = {
+    "LocalCluster",
+    "distributed.LocalCluster",
+    "distributed.Nanny",
+    "distributed.Scheduler",
+    "distributed.Worker",
+}
+LISTENING_MODULES = {"http.server", "multiprocessing", "socketserver", "wsgiref", "xmlrpc.server"}
+LISTENING_CALLS = {"bind", "create_server", "listen", "serve_forever", "start_server", "start_unix_server"}
+
+
+def nothing_listens(path: PurePosixPath, tree: ast.Module) -> Iterator[Finding]:
+    """Rule: whoever reaches a port could use it, so a check has none; links to machines are there for that."""
+    if path.parts[0] not in {PACKAGE, "batch"} or {"camera", "link"} & set(path.parts):
+        return
+    for line, name in imports(path, tree):
+        if any(name == module or name.startswith(f"{module}.") for module in LISTENING_MODULES):
+            yield line, f"imports {name}, which listens on a port"
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            what = called(node)
+            if what in LISTENS or what.split(".")[-1] in LISTENING_CALLS:
+                yield node.lineno, f"calls {what}(): other users of the machine could reach it"
+
+
 def no_long_files(path: PurePosixPath, tree: ast.Module) -> Iterator[Finding]:
     """Rule: a file is a room of at most 400 lines (up to its last statement)."""
     last = max((node.end_lineno or 0 for node in tree.body), default=0)
@@ -194,6 +219,7 @@ RULES: dict[str, Rule] = {
     "extract and assembly are pure": extract_and_assembly_are_pure,
     "core starts without extras": core_starts_without_extras,
     "no grab-bags": no_grab_bags,
+    "nothing listens": nothing_listens,
     "no long files": no_long_files,
 }
 
@@ -269,6 +295,11 @@ BREAKS = [
     (no_grab_bags, "batch/Manager.py", ""),
     (core_starts_without_extras, "aadm_workbench/report/xlsx.py", "import openpyxl"),
     (core_starts_without_extras, "aadm_workbench/design/mesh.py", "from trimesh.proximity import signed_distance"),
+    (nothing_listens, "batch/cluster.py", "import distributed\ndistributed.LocalCluster(host='127.0.0.1')"),
+    (nothing_listens, "batch/local_worker.py", "distributed.Worker('tcp://127.0.0.1:1')"),
+    (nothing_listens, "batch/run.py", "import socket\nsocket.socket().bind(('127.0.0.1', 0))"),
+    (nothing_listens, "aadm_workbench/gui/jobs.py", "from http.server import HTTPServer"),
+    (nothing_listens, "batch/run.py", "from multiprocessing.connection import Listener"),
     (no_long_files, "aadm_workbench/scan/ply.py", "x = 1\n" * 401),
 ]
 KEEPS = [
@@ -316,6 +347,9 @@ KEEPS = [
     (core_starts_without_extras, "aadm_workbench/design/mesh.py", "import json\ndef read():\n    import trimesh"),
     (core_starts_without_extras, "aadm_workbench/design/mesh.py", "import numpy as np\nfrom .paths import kind"),
     (core_starts_without_extras, "aadm_workbench/twin/meshes.py", "import manifold3d"),
+    (nothing_listens, "batch/cluster.py", "import distributed\ndistributed.Client('tls://h:1')"),
+    (nothing_listens, "batch/link/opcua.py", "server.start_server()"),
+    (nothing_listens, "tests/batch/test_tls.py", "socket.create_server(('127.0.0.1', 0))"),
     (no_long_files, "aadm_workbench/scan/ply.py", "x = 1\n" * 400),
 ]
 

@@ -11,10 +11,12 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
+from aadm_workbench.bounded import BoundsError, read_bounded
 from aadm_workbench.design.ifc_archive import model_in_archive
 from aadm_workbench.design.ifc_names import Naming
 from aadm_workbench.design.ifc_step import numbered_once
 from aadm_workbench.design.ifc_text import prepared
+from aadm_workbench.design.model_file import LARGEST_MODEL_BYTES
 from aadm_workbench.errors import DesignError, MissingDependencyError
 
 _LOG_ERROR = re.compile(r"\[error\]\s*(?:\[[^\]]*\]\s*)*(?P<text>.+)")
@@ -144,14 +146,14 @@ def _ifcopenshell() -> Any:
 
 
 def _bytes(path: Path) -> bytes:
-    if path.is_dir():
-        raise DesignError(f"{path} is a folder: name the model's file.")
     try:
-        content = path.read_bytes()
+        content = read_bounded(path, LARGEST_MODEL_BYTES)
+    except BoundsError as error:
+        raise DesignError(f"{path} {error}: name the model's file.") from error
     except FileNotFoundError as error:
         raise DesignError(f"{path} does not exist. Paths in a job are relative to the job file.") from error
-    except OSError as error:
-        raise DesignError(f"{path} cannot be opened: {error.strerror}.") from error
+    except (OSError, ValueError) as error:
+        raise DesignError(f"{path} cannot be opened: {getattr(error, 'strerror', None) or error}.") from error
     if not content.strip():
         raise DesignError(f"{path} is empty: export the model again.")
     return content
@@ -171,7 +173,7 @@ def _check_frame(path: Path, content: bytes) -> None:
         statement = head[begin:].split(b";", 1)[0]
         if statement.strip().upper() != word:
             number = head.count(b"\n", 0, begin) + 1
-            shown = head[begin : begin + 40].splitlines()[0].decode("utf-8", "replace")
+            shown = head[begin : begin + 40].partition(b"\n")[0].decode("utf-8", "replace")
             raise DesignError(
                 f"{path} is no IFC model or a damaged one: line {number} reads {shown!r} where '{word.decode()};' is "
                 "due. Export it again, or repair that line."

@@ -5,7 +5,11 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
+from aadm_workbench.bounded import BoundsError, open_bounded
 from aadm_workbench.errors import DesignError
+
+LARGEST_MODEL_BYTES = 2**31
+"""The largest models that people exchange have one or two gigabytes."""
 
 _PIECE_BYTES = 2**20
 
@@ -18,10 +22,8 @@ def sha256_of(path: Path) -> str:
     DesignError
         Where it is not there, is a folder, is empty or cannot be opened.
     """
-    if path.is_dir():
-        raise DesignError(f"{path} is a folder: name the model's file.")
     try:
-        with path.open("rb") as stream:
+        with open_bounded(path, LARGEST_MODEL_BYTES) as stream:
             found = hashlib.sha256()
             size = 0
             while piece := stream.read(_PIECE_BYTES):
@@ -29,8 +31,10 @@ def sha256_of(path: Path) -> str:
                 size += len(piece)
     except FileNotFoundError as error:
         raise DesignError(f"{path} does not exist. Paths in a job are relative to the job file.") from error
-    except OSError as error:
-        raise DesignError(f"{path} cannot be opened: {error.strerror}.") from error
+    except BoundsError as error:
+        raise DesignError(f"{path} {error}: name the model's file.") from error
+    except (OSError, ValueError) as error:
+        raise DesignError(f"{path} cannot be opened: {getattr(error, 'strerror', None) or error}.") from error
     if not size:
         raise DesignError(f"{path} is empty: export the model again.")
     return found.hexdigest()

@@ -9,9 +9,12 @@ import json
 from pathlib import Path
 from typing import Any
 
+from aadm_workbench.bounded import BoundsError, read_bounded
 from aadm_workbench.errors import ReportError
 
 SCHEMA = 1
+LARGEST_REPORT_BYTES = 2**28
+"""As :mod:`aadm_workbench.report.read` has it, which FreeCAD's own Python may not be able to import."""
 
 
 def load_report(path: Path) -> dict[str, Any]:
@@ -23,7 +26,9 @@ def load_report(path: Path) -> dict[str, Any]:
         Where the file is missing, cut off, or no report of a check.
     """
     try:
-        document = json.loads(path.read_text(encoding="utf-8-sig"))
+        document = json.loads(read_bounded(path, LARGEST_REPORT_BYTES).decode("utf-8-sig"))
+    except BoundsError as error:
+        raise ReportError(f"{path}: {error}; name the report.json of a check") from error
     except OSError as error:
         raise ReportError(f"{path}: cannot be read ({error.strerror}); name the report.json of a check") from error
     except (ValueError, RecursionError) as error:

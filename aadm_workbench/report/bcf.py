@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Literal
 
 from aadm_workbench.atomic import write_atomically
+from aadm_workbench.bounded import ArchiveBounds, BoundsError, check_xml, entry_bytes, opened_archive
 from aadm_workbench.errors import ReportError
 from aadm_workbench.report import bcf_markup
 from aadm_workbench.report.bcf_findings import Finding, findings
@@ -31,6 +32,16 @@ _VERSION = (
 _PROJECTS = uuid.UUID("0f6f7f3c-1f7e-5d8d-9f43-6a1d3a6f2b57")
 _MARKUP = "markup.bcf"
 _ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
+
+BCF_BOUNDS = ArchiveBounds("BCF file", entries=20_000, entry_bytes=2**26, all_bytes=2**28)
+"""A thousand topics with pictures of 150 KB and five files each are half of this."""
+
+_SHOWN = 40
+_DEEPEST_XML = 64
+"""Markup has six levels; what other programs add to it may have some more."""
+
+_MOST_ELEMENTS = 200_000
+"""A topic with ten thousand comments has half as many."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +107,7 @@ def _apply(files: dict[str, bytes], report: Report, finding: Finding, date: str,
     was_there = place in files
     if not finding.is_open and not (was_there and finding.verdict == "pass"):
         return None
-    root = _parsed(files[place], place) if was_there else bcf_markup.new_markup(report, finding, date)
+    root = _markup(files[place], place) if was_there else bcf_markup.new_markup(report, finding, date)
     if not finding.is_open:
         closed = bcf_markup.close(root, finding, report, date)
         if closed:
@@ -149,11 +160,12 @@ def _capture_date(report: Report) -> datetime:
 def _files(path: Path) -> dict[str, bytes]:
     """The content of an earlier file, in its order."""
     try:
-        with zipfile.ZipFile(path) as archive:
-            files = {entry.filename: archive.read(entry) for entry in archive.infolist() if not entry.is_dir()}
-    except (OSError, zipfile.BadZipFile, RuntimeError, NotImplementedError, EOFError) as error:
+        with opened_archive(path, BCF_BOUNDS) as archive:
+            files = {entry.filename: entry_bytes(archive, entry) for entry in archive.infolist() if not entry.is_dir()}
+    except (OSError, BoundsError) as error:
+        reason = getattr(error, "strerror", None) or error
         raise ReportError(
-            f"{path}: cannot be read as a BCF file ({error}); name another, or start without it"
+            f"{path}: cannot be read as a BCF file ({reason}); name another, or start without it"
         ) from error
     version = _parsed(files["bcf.version"], f"{path}: bcf.version") if "bcf.version" in files else None
     found = version.get("VersionId", "") if version is not None else "no"
@@ -165,11 +177,20 @@ def _files(path: Path) -> dict[str, bytes]:
     return files
 
 
+def _markup(content: bytes, place: str) -> ElementTree.Element:
+    root = _parsed(content, place)
+    if root.tag != "Markup":
+        raise ReportError(f"{place} is no markup of a topic, but <{root.tag[:_SHOWN]}>; start a new BCF file")
+    return root
+
+
 def _parsed(content: bytes, place: str) -> ElementTree.Element:
     try:
+        check_xml(content, deepest=_DEEPEST_XML, most_elements=_MOST_ELEMENTS)
         return ElementTree.fromstring(content)
-    except ElementTree.ParseError as error:
-        raise ReportError(f"{place} is no XML ({error}); start a new BCF file") from error
+    except (BoundsError, ElementTree.ParseError) as error:
+        reason = str(error) if isinstance(error, BoundsError) else f"is no XML ({error})"
+        raise ReportError(f"{place} {reason}; start a new BCF file") from error
 
 
 def _zip(files: Mapping[str, bytes]) -> bytes:

@@ -22,6 +22,7 @@ from aadm_workbench.design.ifc_file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc_step import step_text
 from aadm_workbench.errors import ReportError
 from aadm_workbench.model import Array
+from aadm_workbench.own_files import is_there
 from aadm_workbench.report import ifc_sets
 from aadm_workbench.report.ifc_addition import Addition
 from aadm_workbench.report.ifc_assign import Assigner
@@ -266,14 +267,16 @@ def _notes(assigner: Assigner) -> Iterator[str]:
 
 def _put(content: bytes, out: Path, model: Path, keep_as: str) -> tuple[bool, Path | None]:
     """Write the file unless it is there already; a model that is replaced is kept, once for each ``keep_as``."""
-    if out.exists() and out.read_bytes() == content:
+    in_place = out.exists() and out.samefile(model)
+    # The model may be named by a link, and that stays one: what it leads to is replaced. Any other link is replaced.
+    place = out.resolve() if in_place else out
+    if is_there(place) and place.read_bytes() == content:
         return False, None
     backup = None
-    if keep_as and out.exists() and out.samefile(model):
+    if keep_as and in_place:
         kept = model.with_name(f"{model.name}.{keep_as[:_SHORT_HASH]}.bak")
-        if not kept.exists():
+        if not is_there(kept):
             write_atomically(kept, model.read_bytes())
             backup = kept
-    # A link stays a link: what it leads to is replaced.
-    write_atomically(out.resolve(), content)
+    write_atomically(place, content)
     return True, backup

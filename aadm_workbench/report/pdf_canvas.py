@@ -92,6 +92,13 @@ def width_of(text: str, size: float) -> float:
     return float(reportlab("pdfbase.pdfmetrics").stringWidth(text, FONT, size))
 
 
+def shortened(text: str, most: int, most_lines: int) -> str:
+    """A text of at most so many characters and lines: it comes from the files of others, and must fit on a page."""
+    lines = text.split("\n", most_lines)
+    kept = "\n".join(lines[:most_lines])
+    return text if len(kept) == len(text) <= most else f"{kept[: most - 1]}…"
+
+
 def lines_of(text: str, size: float, width: float) -> list[str]:
     """A text broken into lines of a width, pt: between words, between Chinese characters, in words too long."""
     lines: list[str] = []

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from aadm_workbench.report.pdf_canvas import draw_sketch, lines_of, reportlab, write
+from aadm_workbench.report.pdf_canvas import draw_sketch, lines_of, reportlab, shortened, write
 from aadm_workbench.report.sketch import Sketch
 from aadm_workbench.report.words import COLOUR
+
+_LONGEST_PARAGRAPH, _LONGEST_KEPT, _LONGEST_BAND = (4000, 100), (600, 10), (250, 3)
+"""Characters and lines: what fills a page or two, what may be held together with what follows, what a band holds."""
 
 
 def _flowable() -> Any:
@@ -30,6 +33,7 @@ def paragraph(
 
     ``keep`` holds it together with what follows, as headings are.
     """
+    text = shortened(text, *(_LONGEST_KEPT if keep or outline is not None else _LONGEST_PARAGRAPH))
 
     class Paragraph(_flowable()):  # type: ignore[misc]  # reportlab brings no types
         def wrap(self, width: float, height: float) -> tuple[float, float]:
@@ -78,6 +82,7 @@ def drawing(sketch: Sketch, width: float) -> Any:
 
 def band(text: str, verdict: str, width: float) -> Any:
     """A heading across the page on the colour of a verdict."""
+    text = shortened(text, *_LONGEST_BAND)
 
     class Band(_flowable()):  # type: ignore[misc]
         def wrap(self, *_: float) -> tuple[float, float]:

@@ -7,7 +7,7 @@ from functools import lru_cache
 from typing import Any
 
 from aadm_workbench.report.numbers import is_number, number_text
-from aadm_workbench.report.pdf_canvas import lines_of, prepare_font, printable, reportlab, width_of
+from aadm_workbench.report.pdf_canvas import lines_of, prepare_font, printable, reportlab, shortened, width_of
 from aadm_workbench.report.tables import Cell, Heading, Row
 from aadm_workbench.report.words import COLOUR, Language, phrase, verdict_words
 from aadm_workbench.report.words_reasons import in_both_languages
@@ -15,6 +15,9 @@ from aadm_workbench.report.words_reasons import in_both_languages
 SIZE = 7.0
 _PADDING = 2.6
 _NARROWEST = 30.0
+_LONGEST_CELL = (500, 20)
+"""Characters and lines: in the narrowest column they fill less than a page."""
+
 _HEAD_FILL, _STRIPE, _LINE, _FAIL_FILL = "#1f3a4d", "#f6f8f9", "#d5dbe0", "#fbe3d7"
 
 
@@ -39,7 +42,7 @@ def _text(cell: Cell, heading: Heading, language: Language) -> str:
         return verdict_words(str(cell), language)
     if heading.kind == "source" or cell in ("sleeves", "rebars", "hoisting"):
         return phrase(f"ui.{cell}").in_language(language)
-    return in_both_languages(str(cell)).in_language(language)
+    return shortened(in_both_languages(str(cell)).in_language(language), *_LONGEST_CELL)
 
 
 @lru_cache(maxsize=20_000)

@@ -4,20 +4,23 @@ from __future__ import annotations
 
 import json
 import re
-import stat
 from collections.abc import Iterable, Iterator
 from importlib import import_module
 from pathlib import Path
 from typing import Any, TypeAlias
 
+from aadm_workbench.bounded import BoundsError, read_bounded
 from aadm_workbench.errors import MissingDependencyError, ReportError
 from aadm_workbench.report.json import SCHEMA, report_schema
 
 Report: TypeAlias = dict[str, Any]
 """A job's report as report.json holds it: mm, degrees, column frame; ``resources/report.schema.json`` describes it."""
 
-LARGEST_REPORT_BYTES = 2**30
-"""A column takes 50 KB: this is twenty thousand of them."""
+LARGEST_REPORT_BYTES = 2**28
+"""A column takes 50 KB: this is five thousand of them."""
+
+MOST_VALUES = 2**25
+"""Texts of this length that are nothing but brackets and commas would take many gigabytes in memory."""
 
 _SHOWN_CHARACTERS = 80
 _HALF_CHARACTER = re.compile(r"\\u[dD][89a-fA-F]")
@@ -34,14 +37,15 @@ def read_report(path: Path) -> Report:
         Without the package jsonschema.
     """
     try:
-        status = path.stat()
-        if not stat.S_ISREG(status.st_mode) or status.st_size > LARGEST_REPORT_BYTES:
-            raise ReportError(f"{path}: is no file, or too large for one; name the report.json of a check")
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_bounded(path, LARGEST_REPORT_BYTES).decode("utf-8-sig")
+    except BoundsError as error:
+        raise ReportError(f"{path}: {error}; name the report.json of a check") from error
     except OSError as error:
         raise ReportError(f"{path}: cannot be read ({error.strerror}); name the report.json of a check") from error
     except UnicodeDecodeError as error:
         raise ReportError(f"{path}: is no text, but report.json is; name the report.json of a check") from error
+    if sum(map(text.count, "[{,")) > MOST_VALUES:
+        raise ReportError(f"{path}: holds more than {MOST_VALUES} values, which no check writes")
     try:
         document = json.loads(text)
     except json.JSONDecodeError as error:
@@ -52,10 +56,16 @@ def read_report(path: Path) -> Report:
     except ValueError as error:
         raise ReportError(f"{path}: holds a number that is none ({error}); repeat the check") from error
     except RecursionError as error:
-        raise ReportError(f"{path}: is nested too deeply to be a report.json") from error
-    if _HALF_CHARACTER.search(text):
-        document = _mended(document)
-    return checked_report(document, str(path))
+        raise _too_deep(path) from error
+    try:
+        # Python from 3.12 on reads deeper than it can walk.
+        return checked_report(_mended(document) if _HALF_CHARACTER.search(text) else document, str(path))
+    except RecursionError as error:
+        raise _too_deep(path) from error
+
+
+def _too_deep(path: Path) -> ReportError:
+    return ReportError(f"{path}: is nested too deeply to be a report.json")
 
 
 def checked_report(document: Any, source: str) -> Report:

@@ -169,11 +169,16 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
     (rf"\(scatter ({_NUMBER}) mm per axis\)", r"(每轴离散 \1 mm)"),
     (r"not found in the scan", "扫描中未找到"),
 )
+_LONGEST_SENTENCE = 1000
+"""Characters: ours have at most some hundred, and patterns take a time that grows with their square."""
+
 _COMPILED = [(re.compile(pattern), chinese) for pattern, chinese in (*FRAGMENTS_OF_SCANS, *_FRAGMENTS)]
 
 
 def in_both_languages(sentence: str) -> Phrase:
     """A sentence of report.json, and its Chinese as far as its fragments are known."""
+    if len(sentence) > _LONGEST_SENTENCE:
+        return Phrase(sentence, sentence)
     chinese = finding_in_chinese(sentence)
     for pattern, replacement in _COMPILED:
         chinese = pattern.sub(replacement, chinese)

@@ -8,7 +8,6 @@ report and marks at the measured centres are put behind them. Written twice it i
 from __future__ import annotations
 
 import argparse
-import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -58,9 +57,10 @@ def run(options: argparse.Namespace) -> int:
     """Write the results into a model, or take them out."""
     done = _remove(options) if options.remove else _write(options)
     if options.ids is not None:
+        from aadm_workbench.atomic import write_atomically
         from aadm_workbench.report.ifc import ids_path
 
-        shutil.copyfile(ids_path(), options.ids)
+        write_atomically(options.ids, ids_path().read_bytes())
     _show(done, options)
     return ALL_PASS
 

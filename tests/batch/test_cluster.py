@@ -3,7 +3,6 @@
 import os
 import sys
 import time
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,8 +11,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.errors import AadmError, JobError, MissingDependencyError
-from batch import dask_pool, local_workers
-from batch.cluster import local_cluster
+from batch import local_workers, worker
 from batch.engine import Death, Here, Unwatched, work_through
 from batch.pools import MOST_COLUMNS_HERE, PoolOptions, open_pool
 from batch.remote_workers import exit_in_words
@@ -53,7 +51,6 @@ def tries(folder: Path, name: str) -> int:
 
 
 def test_deaths_and_limits(tmp_path: Path) -> None:
-    pytest.importorskip("distributed")
     heard = Heard()
     plain = {f"plain{number}": "work" for number in range(8)}
     deadly = {"killer": "die", "unlucky": "die once", "crash": "crash", "slow": "hang", "large": "memory"}
@@ -84,36 +81,19 @@ def test_deaths_and_limits(tmp_path: Path) -> None:
 
 
 def test_workers_that_cannot_start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("distributed")
     monkeypatch.setattr(local_workers, "MOST_FALSE_STARTS", 2)
-    monkeypatch.setitem(local_workers._ENVIRONMENT, "DASK_DISTRIBUTED__WORKER__PRELOAD", "no_such_module")
-    with pytest.raises(AadmError, match=r"no worker process can be started on this machine: .+no_such_module"):
+    monkeypatch.setitem(local_workers._ENVIRONMENT, "PYTHONMALLOC", "no_such_allocator")
+    with pytest.raises(
+        AadmError, match=r"no worker process can be started on this machine: Fatal Python error: .+allocator"
+    ):
         done({"one": "work", "two": "work"}, tmp_path, Unwatched())
 
 
 def test_workers_of_another_version(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("distributed")
-    other = {**dask_pool.program_versions(), "numpy": "0.9"}
-    monkeypatch.setattr(dask_pool, "program_versions", lambda: other)
+    other = {**worker.program_versions(), "numpy": "0.9"}
+    monkeypatch.setattr(worker, "program_versions", lambda: other)
     with pytest.raises(JobError, match=rf"no worker can be used: .+it has numpy {np.__version__} instead of 0\.9"):
         done({"one": "work", "two": "work"}, tmp_path, Unwatched())
-
-
-def test_nothing_is_open_to_other_machines(tmp_path: Path) -> None:
-    """Whoever reaches a port of Dask can run programs; and another cluster on this machine is no reason to complain."""
-    pytest.importorskip("distributed")
-    psutil = pytest.importorskip("psutil")
-    with warnings.catch_warnings(), local_cluster(2, 10**9, lambda line: None, tmp_path) as cluster:
-        warnings.simplefilter("error")
-        until = time.monotonic() + 30.0
-        while len(cluster.client.scheduler_info(n_workers=-1)["workers"]) < 2 and time.monotonic() < until:
-            time.sleep(0.1)
-        workers = [child for child in psutil.Process().children() if "local_worker" in " ".join(child.cmdline())]
-        assert len(workers) == 2
-        for process in (psutil.Process(), *workers):
-            ports = [one for one in process.net_connections() if one.status == psutil.CONN_LISTEN]
-            assert ports
-            assert {one.laddr.ip for one in ports} == {"127.0.0.1"}
 
 
 def pool_for(columns: int, tmp_path: Path, say: Callable[[str], None] = lambda text: None, **options: Any) -> Any:
@@ -131,7 +111,8 @@ def test_a_few_columns_are_done_here(tmp_path: Path) -> None:
         assert isinstance(pool, Here)
 
 
-def test_without_dask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_the_packages_for_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "psutil", None)
     monkeypatch.setitem(sys.modules, "distributed", None)
     said: list[str] = []
     with pool_for(500, tmp_path, said.append) as pool:
@@ -141,6 +122,11 @@ def test_without_dask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         asked = pytest.raises(MissingDependencyError, match=r"pip install 'aadm-workbench\[batch\]'")
         with asked, pool_for(500, tmp_path, **options):
             pass
+
+
+def test_processes_of_this_machine_need_no_dask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    assert done({"one": "work", "two": "work"}, tmp_path, Unwatched()) == {"one": "one done", "two": "two done"}
 
 
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nonsense://x", "127.0.0.1:9"])

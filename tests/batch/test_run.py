@@ -255,8 +255,8 @@ def test_processes_come_to_the_same_report(write_job: WriteJob) -> None:
     assert list(seconds) == ["C-1", "C-2", "C-3"]
 
 
-def test_several_processes_without_dask(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "distributed", None)
+def test_several_processes_without_psutil(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "psutil", None)
     path = write_job(column_text("C-1"), column_text("C-2"))
     with pytest.raises(MissingDependencyError, match=r"pip install 'aadm-workbench\[batch\]'"):
         finished(path, processes=2)

@@ -1,5 +1,6 @@
 """Files that are no complete IFC model are refused with the place and the reason."""
 
+import os
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -69,6 +70,28 @@ def test_xml(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
 
 def test_something_else(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     assert "line 3" in refused(tmp_path / "x.ifc", b"/* first\n second */\nsolid column\nfacet", capfd)
+
+
+def test_nothing_behind_the_first_line(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert "line 3 reads ''" in refused(tmp_path / "x.ifc", b"ISO-10303-21;\n\n", capfd)
+
+
+@pytest.mark.parametrize("name", ["a.ifc", "a.FCStd", "a.step", "a.stl"])
+def test_what_is_no_file_is_not_waited_for(tmp_path: Path, name: str) -> None:
+    """A pipe that nobody writes into, a device without an end, a file of more bytes than models have."""
+    path = tmp_path / name
+    os.mkfifo(path)
+    with pytest.raises(DesignError, match="is a device or a pipe: name the model's file"):
+        read_model(path)
+    path.unlink()
+    path.symlink_to("/dev/zero")
+    with pytest.raises(DesignError, match="is a device or a pipe"):
+        read_model(path)
+    path.unlink()
+    path.touch()
+    os.truncate(path, 2**31 + 1)
+    with pytest.raises(DesignError, match="has 2147483649 bytes, more than 2147483648"):
+        read_model(path)
 
 
 def test_binary(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

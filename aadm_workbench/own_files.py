@@ -1,0 +1,196 @@
+"""Files in a folder that others may have prepared: opened only where they are files, and never through a link.
+
+A folder of results may have come with the job, or be shared. A link in it is replaced, never followed; so is a file
+that has a second name elsewhere (a hard link); a pipe, a device or a folder under the name of a file is refused without
+being opened. Where the system can (Linux, macOS), names are looked up in the folder that was opened first, so that
+nobody can put another in its place meanwhile.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+_TRIES = 5
+"""So often is looked again where somebody else creates or replaces the file at the same moment."""
+
+_FLAGS = ("O_NOFOLLOW", "O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT")
+_ALWAYS = sum(getattr(os, name, 0) for name in _FLAGS)
+_KNOWS_FOLDERS = os.open in os.supports_dir_fd and hasattr(os, "O_DIRECTORY")
+ASIDE_FOLDER = ".aadm-freecad-"
+"""So begin the names of folders in which another program writes what is put in its place afterwards."""
+
+_ASIDE = re.compile(r"\..+\.[0-9a-f]{32}\.part", re.DOTALL)
+_held: dict[Path, int] = {}
+
+
+class UnsafeFileError(OSError):
+    """What stands under the name of a file is none; ``strerror`` says what it is and what to do."""
+
+
+@contextmanager
+def held(folder: Path) -> Iterator[None]:
+    """Keep a folder open: while this lasts, its files are those of this very folder, whatever its name leads to.
+
+    Raises
+    ------
+    OSError
+        Where there is no such folder.
+    """
+    if not _KNOWS_FOLDERS or folder in _held:
+        yield
+        return
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+    _held[folder] = descriptor
+    try:
+        yield
+    finally:
+        del _held[folder]
+        os.close(descriptor)
+
+
+@contextmanager
+def looked_up(path: Path) -> Iterator[tuple[str | Path, int | None]]:
+    """A file's name and the open folder that it is to be looked up in; the whole path and None on Windows.
+
+    Raises
+    ------
+    OSError
+        Where there is no such folder.
+    """
+    if not _KNOWS_FOLDERS:
+        yield path, None
+    elif path.parent in _held:
+        yield path.name, _held[path.parent]
+    else:
+        descriptor = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+        try:
+            yield path.name, descriptor
+        finally:
+            os.close(descriptor)
+
+
+def open_to_write(path: Path, flags: int = os.O_RDWR) -> int:
+    """Descriptor of a file to be written, made where it is not there; nothing of what it holds is cut off.
+
+    Raises
+    ------
+    UnsafeFileError
+        For what is no file.
+    OSError
+        Where it cannot be opened.
+    """
+    with looked_up(path) as (name, folder):
+        for _ in range(_TRIES):
+            with suppress(FileExistsError, FileNotFoundError):
+                if _status(path, name, folder, replace=True) is None:
+                    return os.open(name, flags | os.O_CREAT | os.O_EXCL | _ALWAYS, 0o666, dir_fd=folder)
+                return _with_one_name(_opened(path, name, folder, flags))
+    raise UnsafeFileError(0, "somebody else replaces it again and again", str(path))
+
+
+def open_to_read(path: Path) -> int:
+    """Descriptor of a file in such a folder, to be read.
+
+    Raises
+    ------
+    UnsafeFileError
+        For what is no file.
+    OSError
+        Where it is not there, or cannot be opened.
+    """
+    with looked_up(path) as (name, folder):
+        if _status(path, name, folder, replace=False) is None:
+            raise FileNotFoundError(2, "No such file or directory", str(path))
+        return _opened(path, name, folder, os.O_RDONLY)
+
+
+def create(path: Path) -> int:
+    """Descriptor of a file that nothing had the name of, to be read and written by this user alone.
+
+    Raises
+    ------
+    OSError
+        Where something is there already, or it cannot be made.
+    """
+    with looked_up(path) as (name, folder):
+        return os.open(name, os.O_RDWR | os.O_CREAT | os.O_EXCL | _ALWAYS, 0o600, dir_fd=folder)
+
+
+def is_there(path: Path) -> bool:
+    """Whether there is a file that can be read; a link, a pipe, a device or a folder is none."""
+    try:
+        status = os.lstat(path)
+    except (OSError, ValueError):
+        return False
+    return stat.S_ISREG(status.st_mode)
+
+
+def clear_asides(folder: Path) -> None:
+    """Remove what killed runs were writing aside; nobody else may be writing there. No link is followed."""
+    names: list[str] = []
+    with suppress(OSError), os.scandir(_held.get(folder, folder)) as entries:
+        names = [entry.name for entry in entries]
+    for name in names:
+        if _ASIDE.fullmatch(name):
+            with suppress(OSError), looked_up(folder / name) as (place, opened):
+                os.unlink(place, dir_fd=opened)
+        elif name.startswith(ASIDE_FOLDER):
+            shutil.rmtree(folder / name, ignore_errors=True)
+
+
+def _status(path: Path, name: str | Path, folder: int | None, *, replace: bool) -> os.stat_result | None:
+    """What stands there, a file; None where nothing does, or what is not to be written through was removed."""
+    try:
+        status = os.stat(name, dir_fd=folder, follow_symlinks=False)
+    except FileNotFoundError:
+        return None
+    if replace and (_is_link(status) or (stat.S_ISREG(status.st_mode) and status.st_nlink > 1)):
+        os.unlink(name, dir_fd=folder)
+        return None
+    _check(path, status)
+    return status
+
+
+def _opened(path: Path, name: str | Path, folder: int | None, flags: int) -> int:
+    """Open what was looked at; what was put there since is closed again, unread and unwritten."""
+    descriptor = os.open(name, flags | _ALWAYS, dir_fd=folder)
+    try:
+        opened, now = os.fstat(descriptor), os.stat(name, dir_fd=folder, follow_symlinks=False)
+        _check(path, opened)
+        if not os.path.samestat(opened, now):
+            raise UnsafeFileError(0, "it was replaced while it was opened", str(path))
+    except BaseException:
+        os.close(descriptor)
+        raise
+    return descriptor
+
+
+def _with_one_name(descriptor: int) -> int:
+    """The same descriptor; FileExistsError where its file got a second name while it was opened."""
+    if os.fstat(descriptor).st_nlink > 1:
+        os.close(descriptor)
+        raise FileExistsError
+    return descriptor
+
+
+def _is_link(status: os.stat_result) -> bool:
+    # Windows has other things than symbolic links that lead elsewhere (junctions).
+    return stat.S_ISLNK(status.st_mode) or bool(getattr(status, "st_reparse_tag", 0))
+
+
+def _check(path: Path, status: os.stat_result) -> None:
+    if _is_link(status):
+        raise UnsafeFileError(0, "it is a link, which is not followed; remove it, or put the file there", str(path))
+    if not stat.S_ISREG(status.st_mode):
+        raise UnsafeFileError(0, f"it is {_named(status.st_mode)}, not a file; remove it", str(path))
+
+
+def _named(mode: int) -> str:
+    kinds = {stat.S_ISDIR: "a folder", stat.S_ISFIFO: "a pipe", stat.S_ISSOCK: "a socket"}
+    return next((name for is_kind, name in kinds.items() if is_kind(mode)), "a device")
