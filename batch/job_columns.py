@@ -55,7 +55,7 @@ def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColu
 
 def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
     table.allow(_COLUMN)
-    table.require("id", 'id = "...", its Name, Tag, PieceMark or GlobalId in the model')
+    table.require("id", 'id = "...", its Name, Tag, Mark, PieceMark or GlobalId in the model')
     name = table.text("id") or ""
     if len(name) > LONGEST_ID:
         raise table.wrong(

@@ -74,7 +74,9 @@ def prepared(content: bytes, schemas: Sequence[str]) -> PreparedText:
     if "\\" in text:
         text = _with_plain_backslashes(text, notes)
     text, schema = _with_header(text, schemas, notes)
-    return PreparedText(_NOT_ASCII.sub(escaped, text).encode("ascii"), tuple(notes), schema)
+    if not text.isascii():
+        text = _NOT_ASCII.sub(escaped, text)
+    return PreparedText(text.encode("ascii"), tuple(notes), schema)
 
 
 def escaped(found: re.Match[str]) -> str:

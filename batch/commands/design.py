@@ -42,7 +42,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="the model: .ifc, .ifczip, .FCStd, .step, .brep, .stl, .obj, .ply or .pcd",
     )
     parser.add_argument(
-        "--column", metavar="SEL", help="a Name, Tag, PieceMark or GlobalId, or a selector in IfcOpenShell's syntax"
+        "--column", metavar="SEL", help="a Name, Tag, Mark, PieceMark, GlobalId, or a selector in IfcOpenShell's syntax"
     )
     parser.add_argument("--sleeves", metavar="SEL", help="which elements are sleeves, as in [model] of a job")
     parser.add_argument("--rebars", metavar="SEL", help="which elements are rebars, as in [model] of a job")

@@ -124,6 +124,7 @@ def _document(scan: Scan, extraction: Extraction, expected: int | None) -> dict[
 def _entry(point: AssemblyPoint, vertical: Array | None) -> dict[str, Any]:
     return {
         "centre_mm": point.centre,
+        "scan_mm": point.centre,
         "axis": point.axis,
         "diameter_mm": point.diameter_mm,
         "u_mm": _uncertainty_mm(point, vertical),
