@@ -75,6 +75,7 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
         rf": rescan closer, above all ({_LABEL}) \(u = ({_NUMBER}) mm\)",
         r":请靠近重新扫描,首先是 \1(u = \2 mm)",
     ),
+    (r", but what was hardly seen does not pass", ",但未看清的点不能判为合格"),
     (r", too close to the limit for the uncertainty", ",不确定度下过于接近限值"),
     (
         r"\. Still beyond (?:its|their) own limit of position then: ((?:R\d+(?:, )?)+)",
