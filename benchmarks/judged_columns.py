@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
@@ -11,7 +11,7 @@ from aadm_workbench.assembly.repair import advise_repair
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.assembly.trial import try_assembly
 from aadm_workbench.model import Array, RepairAction, Verdict
-from benchmarks.columns import Scene, build_column
+from benchmarks.columns import Scene, build_columns
 
 BINS = (0.0, 0.001, 0.05, 0.2, 0.4, 0.6, 0.8, 0.95, 0.999, 1.0)
 _CN = load_profile("cn")
@@ -35,26 +35,33 @@ class Bin:
 class Judged:
     """Columns of one scene: shares of infeasible ones that pass, of feasible ones that fail, of undecided ones.
 
-    ``undecided_far_off`` is of those whose margin is more than 3 u from zero.
+    ``undecided_far_off`` is of those whose margin is more than 3 u from zero. ``stated`` and ``true`` (k,) are the
+    probabilities and whether the pairs that were measured are feasible.
     """
 
     scene: str
     cases: int
     feasible: int
+    passes: int
     false_passes: float
     false_fails: float
     undecided: float
     undecided_far_off: float
-    bins: tuple[Bin, ...]
+    bins: tuple[Bin, ...] = field(repr=False)
+    stated: Array = field(repr=False)
+    true: Array = field(repr=False)
 
 
-def judged_columns(scene: Scene, centres: Array, cases: int, rng: np.random.Generator) -> Judged:
-    """Trials of columns whose true margins are spread evenly over ±1.5 mm."""
-    margins, probabilities, verdicts = [], [], []
-    for _ in range(cases):
-        built = build_column(scene, centres, rng)
+def judged_columns(scene: Scene, cases: int, rng: np.random.Generator) -> Judged:
+    """Trials of columns whose true margins are spread evenly over ±1.5 mm.
+
+    With pairs missing a trial may only fail; then its probability is that of the pairs that were measured.
+    """
+    margins, seen_margins, probabilities, verdicts = [], [], [], []
+    for built in build_columns(scene, cases, rng):
         report = try_assembly(built.design, built.sleeves, built.rebars, _CN, rng)
         margins.append(built.margin_mm)
+        seen_margins.append(built.seen_margin_mm)
         probabilities.append(report.probability or 0.0)
         verdicts.append(report.verdict)
     feasible = np.array(margins) >= 0.0
@@ -64,15 +71,19 @@ def judged_columns(scene: Scene, centres: Array, cases: int, rng: np.random.Gene
         scene=scene.name,
         cases=cases,
         feasible=int(feasible.sum()),
+        passes=int(passes.sum()),
         false_passes=_share(passes & ~feasible, ~feasible),
         false_fails=_share(fails & feasible, feasible),
         undecided=float(undecided.mean()),
         undecided_far_off=_share(undecided & far, far),
-        bins=_calibration(np.array(probabilities), feasible),
+        bins=calibration(np.array(probabilities), np.array(seen_margins) >= 0.0),
+        stated=np.array(probabilities),
+        true=np.array(seen_margins) >= 0.0,
     )
 
 
-def _calibration(probabilities: Array, feasible: Array) -> tuple[Bin, ...]:
+def calibration(probabilities: Array, feasible: Array) -> tuple[Bin, ...]:
+    """Stated probabilities (k,) against what is feasible (k,), in bins."""
     bins = []
     for low, high in pairwise(BINS):
         inside = (probabilities >= low) & ((probabilities < high) | (high == BINS[-1]))
@@ -100,18 +111,17 @@ class Repaired:
     good_ones_bent: int
 
 
-def repaired_columns(scene: Scene, centres: Array, cases: int, rng: np.random.Generator) -> Repaired:
+def repaired_columns(scene: Scene, cases: int, rng: np.random.Generator) -> Repaired:
     """One bar 4 to 7 mm off, all others good; what is advised is done to the true bars."""
     failing, blamed, kept, needless = 0, 0, [], 0
-    for _ in range(cases):
-        built = build_column(scene, centres, rng, outlier_mm=float(rng.uniform(4.0, 7.0)))
+    for built in build_columns(scene, cases, rng, outlier_mm=(4.0, 7.0)):
         trial = try_assembly(built.design, built.sleeves, built.rebars, _CN, rng)
         if trial.verdict is not Verdict.FAIL:
             continue
         repair = advise_repair(built.design, built.sleeves, built.rebars, trial, _CN, rng)
         assert repair is not None
         failing += 1
-        wrong = built.design.rebars[int(np.argmax(np.hypot(*(built.tops - built.mouths).T)))].label
+        wrong = built.design.rebars[int(np.argmax(np.hypot(*(built.truth.tops[0] - built.truth.mouths[0]).T)))].label
         steps = [step.rebar for step in repair.steps]
         blamed += wrong in steps
         needless += len(steps) == 1 and steps[0] != wrong

@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -261,6 +262,29 @@ def _offsets_like(largest_mm: float, mean_mm: float, sd_mm: float, pattern: Arra
     return np.column_stack([lengths * np.cos(angle), lengths * np.sin(angle)])
 
 
+def _print_columns(cases: int, rng: Callable[[int], np.random.Generator]) -> None:
+    """So many whole columns, spread over all scenes; half as many assignments, repairs and parts of rows."""
+    # Run as a script, this folder is on the path and not the one that holds it.
+    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+    from benchmarks.columns import SCENES
+    from benchmarks.judged_columns import calibration, judged_columns, repaired_columns
+    from benchmarks.matching import matched_margins
+    from benchmarks.periodic import periodic_views
+
+    each = max(cases // len(SCENES), 1)
+    judged = [judged_columns(scene, each, rng(100 + number)) for number, scene in enumerate(SCENES)]
+    for found in judged:
+        print("f. columns:", found)
+    print(f"   all {sum(found.cases for found in judged)} columns, by the probability that was stated:")
+    stated, true = (np.concatenate(parts) for parts in ([j.stated for j in judged], [j.true for j in judged]))
+    for one in calibration(stated, true):
+        print(f"   stated {one.stated:.4f}, true {one.true:.4f} of {one.cases}: {one.sigmas:+.1f} sigma")
+    for number, scene in enumerate(SCENES[:_REPAIRED]):
+        print("g. one bar off:", repaired_columns(scene, max(cases // 40, 1), rng(200 + number)))
+    print("h. assignments:", matched_margins(max(cases // 2, 1), rng(300)))
+    print("i. parts of rows:", periodic_views(max(cases // 20, 1), rng(301)))
+
+
 def main() -> None:
     """Run everything and print it."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -278,19 +302,8 @@ def main() -> None:
     print("c. single points, limit 2 mm:", guarded_points(options.cases, rng(3), limit_mm=2.0))
     print("c. trials, 1.0 mm per axis:", guarded_trials(few, rng(4)))
     print("c. trials, 1.6 mm per axis:", guarded_trials(few, rng(5), scatter_mm=1.6))
-    # Run as a script, this folder is on the path and not the one that holds it.
-    sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-    from benchmarks.columns import SCENES
-    from benchmarks.judged_columns import judged_columns, repaired_columns
-
-    for number, scene in enumerate(SCENES):
-        found = judged_columns(scene, FIELD, few, rng(100 + number))
-        print("f. columns:", replace(found, bins=()))
-        for one in found.bins:
-            print(f"   stated {one.stated:.3f}, true {one.true:.3f} of {one.cases}: {one.sigmas:+.1f} sigma")
-        if number < _REPAIRED:
-            print("g. one bar off:", repaired_columns(scene, FIELD, few, rng(200 + number)))
     print("d. square rings without up:", turned_rings(few, rng(6)))
+    _print_columns(options.cases, rng)
     for name, values in {
         "laboratory": (2.39, 1.23, 0.53, LAB, 26.0),
         "field": (13.93, 8.34, 4.16, FIELD, 36.0),

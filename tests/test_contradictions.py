@@ -120,6 +120,19 @@ def test_bars_of_another_size_hold_the_column_back_and_are_named(core_mm: float,
     assert report.findings[0].values["seems"] == fits
 
 
+@pytest.mark.parametrize(("core_mm", "seems"), [(19.3, "20 mm"), (24.2, "25 mm"), (15.4, "16 mm")])
+def test_one_bar_of_another_size_is_named(core_mm: float, seems: str) -> None:
+    """Near to 18 mm it is measured with the diameter that all share, further off it is not measured at all."""
+    odd = rescanned(lambda k, bar: replace(bar, core_diameter=core_mm) if k == 4 else bar)
+    report = checked(scans()[0], odd)
+    (finding,) = report.findings
+    assert (finding.code, finding.about) == ("diameter_differs", ("R5",))
+    assert seems.removesuffix(" mm") in str(finding.values["seems"]).removesuffix(" mm").split("/")
+    assert abs(float(str(finding.values["measured_mm"])) - core_mm) < 0.6
+    assert report.verdict is not Verdict.PASS
+    assert report.goes_on is not Verdict.PASS
+
+
 @pytest.mark.parametrize("left_mm", [6.0, 45.0])
 def test_a_bar_that_was_cut_off_holds_the_column_back(left_mm: float) -> None:
     cut = rescanned(lambda k, bar: replace(bar, top=bar.top - (LAB.exposed - left_mm) * (k == 4)))

@@ -12,7 +12,7 @@ from aadm_workbench.model import Array, BoolArray
 
 _CENTRING = 0.08
 _STEP = 0.99
-_LEVEL_ROUNDS = 6
+_LEVEL_ROUNDS = 3
 _HALVINGS = 10
 _SMALLEST_AIM = 1e-12
 _SMALLEST_SLACK = 1e-15
@@ -24,6 +24,11 @@ def vectors(p: Array, q: Array, z: Array) -> Array:
     return p + z[:, None, :1] * q + z[:, None, 1:]
 
 
+def squared(e: Array) -> Array:
+    """Squared lengths (k, n) of vectors (k, n, 2)."""
+    return np.asarray(e[..., 0] ** 2 + e[..., 1] ** 2)
+
+
 def step(p: Array, q: Array, weights: Array, z: Array, level: Array, lam: Array, bound: Array) -> None:
     """One primal–dual Newton step of k problems, in place on z (k, 3), the level s (k,) and the multipliers (k, n).
 
@@ -31,16 +36,17 @@ def step(p: Array, q: Array, weights: Array, z: Array, level: Array, lam: Array,
     :func:`~aadm_workbench.assembly.discs.smallest_common_disc`.
     """
     e = vectors(p, q, z)
-    value = weights * (e**2).sum(axis=2)
+    value = weights * squared(e)
     # Rounding may leave nothing of a slack that is tiny by right.
     slack = np.maximum(level[:, None] - value, _SMALLEST_SLACK * level[:, None])
     # Aimed at what the bound leaves open, not at the products: a step may centre long before it is near.
     mu = _CENTRING * np.maximum(level - bound, _SMALLEST_AIM * level) / lam.shape[1]
-    gradient = np.concatenate([(q * e).sum(axis=2, keepdims=True), e], axis=2) * (2.0 * weights[:, :, None])
+    turned = np.einsum("kni,kni->kn", q, e)[:, :, None]
+    gradient = np.concatenate([turned, e], axis=2) * (2.0 * weights[:, :, None])
     move, raised = _direction(q, gradient, lam, slack, mu, weights)
     along = np.einsum("kni,ki->kn", gradient, move)
     change = mu[:, None] / slack - lam + lam / slack * (along - raised[:, None])
-    curved = weights * ((move[:, None, :1] * q + move[:, None, 1:]) ** 2).sum(axis=2)
+    curved = weights * squared(move[:, None, :1] * q + move[:, None, 1:])
     longest = np.minimum(_STEP * _positive(lam, change), 1.0)
     length, level[:], descends = _line_search(value, along, curved, level, mu, longest)
     z += length[:, None] * move
@@ -94,13 +100,15 @@ def _barrier(value: Array, mu: Array) -> tuple[Array, Array]:
     level = value.max(axis=1) + mu
     for _ in range(_LEVEL_ROUNDS):
         inverse = mu[:, None] / (level[:, None] - value)
-        level = level + (inverse.sum(axis=1) - 1.0) * mu / (inverse**2).sum(axis=1)
+        # Newton's on the reciprocal of the sum, which is linear in s wherever the largest values are alike.
+        total = inverse.sum(axis=1)
+        level = level + total * (total - 1.0) * mu / np.einsum("kn,kn->k", inverse, inverse)
     return level - mu * np.log((level[:, None] - value) / mu[:, None]).sum(axis=1), level
 
 
 def _add_curvature(hessian: Array, q: Array, pull: Array) -> None:
     """Add Σ λ_i·∇²f_i, the curvature of the squared lengths, to (k, 4, 4)."""
-    hessian[:, 0, 0] += 2.0 * (pull * (q**2).sum(axis=2)).sum(axis=1)
+    hessian[:, 0, 0] += 2.0 * (pull * squared(q)).sum(axis=1)
     mixed = 2.0 * np.einsum("kn,knd->kd", pull, q)
     hessian[:, 0, 1:3] += mixed
     hessian[:, 1:3, 0] += mixed

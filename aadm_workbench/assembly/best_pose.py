@@ -30,7 +30,7 @@ class BestFit:
     """The best pose, radians and (2,) mm of bars onto sleeves, and its gaps.
 
     ``ratio`` is the largest ratio of a gap to its limit, infinite where a bar is as wide as its sleeve; ``multipliers``
-    (n,) say how much each pair decides, with the sum 1.
+    (n,) say how much each pair decides, with the sum 1, and ``gap_multipliers`` (c,) each of its gaps.
     """
 
     yaw: float
@@ -38,6 +38,7 @@ class BestFit:
     ratio: float
     multipliers: Array
     gaps: Gaps
+    gap_multipliers: Array
 
     @property
     def margin(self) -> float | None:
@@ -65,4 +66,5 @@ def fit_best_pose(pairs: Sequence[Pair], limits_mm: Array) -> BestFit | NoFit:
         return fit
     multipliers = np.zeros(len(pairs))
     np.add.at(multipliers, gaps.owner, fit.multipliers)
-    return BestFit(fit.yaw, fit.shift, float("inf") if hopeless.any() else fit.ratio, multipliers, gaps)
+    ratio = float("inf") if hopeless.any() else fit.ratio
+    return BestFit(fit.yaw, fit.shift, ratio, multipliers, gaps, fit.multipliers)

@@ -24,6 +24,7 @@ PASS_PROBABILITY = 0.95
 FAIL_PROBABILITY = 0.05
 
 _TAIL_SIGMAS = 9.0
+_SURE_SIGMAS = 2.5  # exp(-2.5²/2) is 4.4 %, Q(2.5) far less: both within what a pass and a fail need
 _NODES = 160
 
 
@@ -62,6 +63,23 @@ def decide_radial(offset_mm: Array, covariance: Array | None, limit_mm: float, d
         return Decision(Verdict.PASS if within else Verdict.FAIL, None)
     probability = probability_within_disc(offset_mm, covariance, limit_mm)
     return Decision(decide_probability(probability, within), probability)
+
+
+def verdict_radial(offset_mm: Array, covariance: Array | None, limit_mm: float, decision: DecisionRule) -> Verdict:
+    """The verdict of :func:`decide_radial` alone; what is far from the limit needs no integral.
+
+    Along its widest axis an offset errs by ``u``; it is d beyond, or within, the rim with a probability of at most
+    Q(d/u), or exp(-(d/u)²/2).
+    """
+    if decision == "simple" or covariance is None:
+        return decide_radial(offset_mm, covariance, limit_mm, decision).verdict
+    inside_mm = limit_mm - math.hypot(float(offset_mm[0]), float(offset_mm[1]))
+    u_mm = math.sqrt(max(float(np.linalg.eigvalsh(covariance)[-1]), 0.0))
+    if inside_mm > _SURE_SIGMAS * u_mm:
+        return Verdict.PASS
+    if inside_mm < -_SURE_SIGMAS * u_mm:
+        return Verdict.FAIL
+    return decide_radial(offset_mm, covariance, limit_mm, decision).verdict
 
 
 def decide_per_axis(offset_mm: Array, covariance: Array | None, limit_mm: float, decision: DecisionRule) -> Decision:

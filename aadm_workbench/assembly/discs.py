@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.assembly.barrier import step, vectors
+from aadm_workbench.assembly.barrier import squared, step, vectors
 from aadm_workbench.model import Array, BoolArray
 
 _ROUNDS = 60
@@ -89,7 +89,7 @@ def _undecided(best: Array, bound: Array, decide_at: float | None, gap: float) -
 
 
 def _largest(p: Array, q: Array, weights: Array, z: Array) -> Array:
-    return np.asarray((weights * (vectors(p, q, z) ** 2).sum(axis=2)).max(axis=1))
+    return np.asarray((weights * squared(vectors(p, q, z))).max(axis=1))
 
 
 def proven_bound(p: Array, q: Array, weights: Array, multipliers: Array) -> Array:

@@ -1,40 +1,37 @@
 """How likely it is that a pose exists at all in which every rebar enters its sleeve, given the uncertainties.
 
 Not the product over the pairs: at one fixed pose a pair may fail that another pose would save, and all pairs move
-together. Centres, leans and rooms are drawn from their covariances; for each draw it is decided whether a pose meets
-all limits, distances and rooms over the ribs alike, which is a convex question (:mod:`.discs`).
+together. True centres, leans and rooms are drawn from what is known of them (:mod:`.true_offsets`); for each draw it is
+decided whether a pose meets all limits, distances and rooms over the ribs alike, which is a convex question
+(:mod:`.discs`).
 
-What is drawn about the measured values is worse than these, as these are worse than the truth: the largest of many gaps
-grows with any scatter. With r the largest ratio at the best pose, r(measured) is the median of r(drawn) less a bias b,
-and about so far above the truth; so a draw counts as possible where r(drawn) ≤ 1 + 2b (the bias-corrected bootstrap,
-Efron & Tibshirani 1993, 14.3). It never lifts a pair above what its own uncertainty allows: with its bar found in the
-very middle, a pair holds its limit with a probability that bounds that of the whole.
+That a pair stands like the others where it was hardly seen is likely, and no evidence: such a pair is named, and keeps
+the trial from passing.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from aadm_workbench.assembly.barrier import squared
 from aadm_workbench.assembly.best_pose import WITHIN, BestFit, fit_best_pose
 from aadm_workbench.assembly.constraints import Part, start_pose
 from aadm_workbench.assembly.decision import PASS_PROBABILITY, probability_within_disc
-from aadm_workbench.assembly.discs import smallest_common_disc
+from aadm_workbench.assembly.discs import proven_bound, smallest_common_disc
 from aadm_workbench.assembly.eopa import NoFit
 from aadm_workbench.assembly.pairs import Pair
+from aadm_workbench.assembly.true_offsets import Measured, true_offsets, true_shifts
 from aadm_workbench.assembly.upright import turn
-from aadm_workbench.model import Array, BoolArray, IntArray
+from aadm_workbench.model import Array, BoolArray
 
 SAMPLES = 1000
 
 _FIRST = 200
-"""Where so many draws all say the same, no more are made: the probability is then known to 1.5 %."""
-
-_SOLVED = 40
-"""So many draws, each with its opposite, are solved for the bias: it is then known to a tenth of a spread."""
+"""Where so many draws all say the same, and far from the limit, no more are made."""
 
 _GRANTED_SIGMAS = 1.7
 """Of the root of the sum of both variances: about 5 % of gaps are further off, whatever their direction."""
@@ -42,13 +39,16 @@ _GRANTED_SIGMAS = 1.7
 _HOPELESS_SIGMAS = 8.0
 """No pose exists where the best one is beyond a limit by so many standard uncertainties of the gap known worst."""
 
-_LARGEST_BIAS = 1.0
-"""The bias counts up to this many spreads of r: beyond, the scatter hides what is measured, and nothing is known."""
+_FAR_SIGMAS = 3.0
+"""Of the same: with a margin as large as this the first draws are enough."""
 
 _SAFE_SIGMAS = 4.0
 
 _GAP = 1e-4
 """Share to which a squared ratio has to be known: some hundred times finer than the spread of the draws."""
+
+_LEAST_U = 1e-6
+_LEAST_SHARE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,12 +56,14 @@ class Existence:
     """How likely it is that a pose exists, and what has to be known better.
 
     ``contradicted``: the measured values themselves say that there is none. ``violated`` (n,) is the share of draws in
-    which each pair breaks a limit at the best pose of the measured values.
+    which each pair breaks a limit at the best pose of the measured values. ``hardly_seen`` (n,): pairs that would not
+    hold their limit for sure even if their bar had been found in the very middle.
     """
 
     probability: float
     violated: Array
     contradicted: bool
+    hardly_seen: BoolArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,13 +74,20 @@ class _Draws:
     turning: Array
     limits_mm: Array
 
-    def ratios_squared(self, rows: slice | IntArray, decide_at: float | None = None) -> Array:
-        """Squared largest ratios (k,) of these draws at their best poses; infinite where there is no room at all."""
-        p, limits = self.vectors[rows], self.limits_mm[rows]
+    def possible(self, multipliers: Array) -> BoolArray:
+        """In which draws (k,) a pose meets all limits; multipliers (c,) of a problem like these decide most of them."""
+        answer = np.zeros(len(self.vectors), dtype=bool)
+        rows = np.flatnonzero((self.limits_mm > 0.0).all(axis=1))
+        p, weights = self.vectors[rows], 1.0 / self.limits_mm[rows] ** 2
         q = np.broadcast_to(self.turning, p.shape)
-        weights = 1.0 / np.maximum(limits, 1e-6) ** 2
-        found = smallest_common_disc(p, q, weights, decide_at=decide_at, gap=_GAP).ratio_squared
-        return np.where((limits > 0.0).all(axis=1), found, np.inf)
+        here = (weights * squared(p)).max(axis=1) <= WITHIN**2
+        answer[rows[here]] = True
+        shares = np.broadcast_to(np.maximum(multipliers, _LEAST_SHARE), weights.shape)
+        unclear = ~here & (proven_bound(p, q, weights, shares) <= WITHIN**2)
+        if unclear.any():
+            found = smallest_common_disc(p[unclear], q[unclear], weights[unclear], decide_at=WITHIN**2, gap=_GAP)
+            answer[rows[unclear]] = found.ratio_squared <= WITHIN**2
+        return answer
 
 
 def existence_of_a_pose(
@@ -99,13 +108,16 @@ def existence_of_a_pose(
         return None
     bounds = np.array([_at_most(pair, float(limit_mm)) for pair, limit_mm in zip(pairs, limits_mm, strict=True)])
     hardly_seen = bounds < PASS_PROBABILITY
-    if hardly_seen.any():
-        pairs, limits_mm = _granted(pairs, limits_mm, hardly_seen)
-        granted = fit_best_pose(pairs, limits_mm)
-        fit = fit if isinstance(granted, NoFit) else granted
-    found = _of_the_rest(pairs, limits_mm, fit, generator, samples)
-    violated = np.where(hardly_seen, 1.0 - bounds, found.violated)
-    return Existence(min(found.probability, float(bounds.min())), violated, found.contradicted)
+    contradicted = not fit.exists
+    if hardly_seen.any() and contradicted:
+        granted = fit_best_pose(*_granted(pairs, limits_mm, hardly_seen))
+        contradicted = not isinstance(granted, NoFit) and not granted.exists
+    far = (fit.ratio - 1.0) / _largest_u(pairs, fit)
+    if np.isinf(fit.ratio) or far > _HOPELESS_SIGMAS:
+        return Existence(0.0, np.where(hardly_seen, 1.0 - bounds, 0.0), contradicted, hardly_seen)
+    draws = _drawn(pairs, limits_mm, fit, generator)
+    probability, violated = _counted(draws, fit, samples, first=_FIRST if abs(far) > _FAR_SIGMAS else samples)
+    return Existence(probability, np.where(hardly_seen, 1.0 - bounds, violated), contradicted, hardly_seen)
 
 
 def _granted(pairs: Sequence[Pair], limits_mm: Array, hardly_seen: BoolArray) -> tuple[tuple[Pair, ...], Array]:
@@ -130,23 +142,6 @@ def _granted(pairs: Sequence[Pair], limits_mm: Array, hardly_seen: BoolArray) ->
     return tuple(granted), wider_mm
 
 
-def _of_the_rest(
-    pairs: Sequence[Pair], limits_mm: Array, fit: BestFit, generator: np.random.Generator, samples: int
-) -> Existence:
-    """As :func:`existence_of_a_pose`, of pairs that were all seen well enough, or that are granted enough."""
-    if np.isfinite(fit.ratio) and fit.ratio - 1.0 > _HOPELESS_SIGMAS * _largest_u(pairs, fit):
-        return Existence(0.0, np.zeros(len(pairs)), True)
-    draws = _drawn(pairs, limits_mm, fit, generator, min(_FIRST, samples))
-    possible, reach = _possible(draws, fit, None)
-    if samples > _FIRST and 0.0 < possible.mean() < 1.0:
-        more = _drawn(pairs, limits_mm, fit, generator, samples - _FIRST)
-        possible = np.concatenate([possible, _possible(more, fit, reach)[0]])
-    lengths = np.hypot(draws.vectors[..., 0], draws.vectors[..., 1])
-    broken = lengths > draws.limits_mm
-    violated = np.array([broken[:, fit.gaps.owner == index].any(axis=1).mean() for index in range(len(pairs))])
-    return Existence(float(possible.mean()), violated, not fit.exists)
-
-
 def _largest_u(pairs: Sequence[Pair], fit: BestFit) -> float:
     """Largest standard uncertainty of a gap over its limit: no draw moves the largest ratio by more, in its units."""
     shares = []
@@ -156,20 +151,7 @@ def _largest_u(pairs: Sequence[Pair], fit: BestFit) -> float:
         variance = sum(float(np.linalg.eigvalsh(one)[-1]) for one in (pair.covariance, shift) if one is not None)
         room_u_mm = 0.0 if part == Part.CENTRES else pair.room_u_mm
         shares.append(math.sqrt(max(variance, 0.0) + room_u_mm**2) / limit_mm)
-    return float(max(shares))
-
-
-def _possible(draws: _Draws, fit: BestFit, reach: float | None) -> tuple[BoolArray, float | None]:
-    """Which draws count as possible, and the ratio up to which they do; None while that was not needed."""
-    if reach is not None:
-        return draws.ratios_squared(slice(None), reach**2) <= reach**2, reach
-    possible = draws.ratios_squared(slice(None), WITHIN**2) <= WITHIN**2
-    if possible.all() or not np.isfinite(fit.ratio):
-        return possible, None
-    reach = WITHIN + 2.0 * _bias(draws, fit.ratio)
-    rest = np.flatnonzero(~possible)
-    possible[rest] = draws.ratios_squared(rest, reach**2) <= reach**2
-    return possible, reach
+    return max(float(max(shares)), _LEAST_U)
 
 
 def probability_of_a_pose(
@@ -183,47 +165,39 @@ def probability_of_a_pose(
     return None if found is None else found.probability
 
 
-def _drawn(
-    pairs: Sequence[Pair], limits_mm: Array, fit: BestFit, generator: np.random.Generator, samples: int
-) -> _Draws:
-    """Draws in opposite pairs, first all of one sign: what is linear in them cancels in their mean."""
-    gaps, half = fit.gaps, (samples + 1) // 2
+def _counted(draws: Iterator[_Draws], fit: BestFit, samples: int, first: int) -> tuple[float, Array]:
+    """Share of possible draws, and of draws (n,) in which each pair breaks a limit at the pose of the fit."""
+    possible, broken = np.zeros(0, dtype=bool), np.zeros((0, len(fit.gaps.owner)), dtype=bool)
+    for some in draws:
+        possible = np.concatenate([possible, some.possible(fit.gap_multipliers)])
+        broken = np.concatenate([broken, np.hypot(some.vectors[..., 0], some.vectors[..., 1]) > some.limits_mm])
+        if len(possible) >= samples or (len(possible) >= first and possible.all() == possible.any()):
+            break
+    violated = [broken[:, fit.gaps.owner == index].any(axis=1).mean() for index in range(len(fit.multipliers))]
+    return float(possible.mean()), np.array(violated)
+
+
+def _drawn(pairs: Sequence[Pair], limits_mm: Array, fit: BestFit, generator: np.random.Generator) -> Iterator[_Draws]:
+    """Draws of all gaps, as many at a time as true offsets are drawn."""
+    gaps, count = fit.gaps, len(pairs)
     start = start_pose(pairs, limits_mm, fit.yaw, fit.shift)
     vectors, turning = start.vectors_of(gaps.source, gaps.target)
-    shape = (half, len(pairs), 2)
-    noise = _noise([pair.covariance for pair in pairs], generator.standard_normal(shape))[:, gaps.owner]
-    bar = _noise([pair.bar_shift_covariance for pair in pairs], generator.standard_normal(shape)) @ turn(fit.yaw).T
-    sleeve = _noise([pair.sleeve_shift_covariance for pair in pairs], generator.standard_normal(shape))
-    noise -= np.where((gaps.part == Part.MOUTH)[:, None], bar[:, gaps.owner], 0.0)
-    noise -= np.where((gaps.part == Part.TOP)[:, None], sleeve[:, gaps.owner], 0.0)
-    room = (np.array([pair.room_u_mm for pair in pairs]) * generator.standard_normal(shape[:2]))[:, gaps.owner]
-    room = np.where(gaps.part == Part.CENTRES, 0.0, room)
-    both = np.concatenate([noise, -noise])[:samples], np.concatenate([room, -room])[:samples]
-    return _Draws(vectors + both[0], turning, gaps.limits_mm + both[1])
-
-
-def _noise(covariances: Sequence[Array | None], normal: Array) -> Array:
-    """Normal numbers (k, n, 2) with these covariances (2, 2), zero where there is none."""
-    known = np.array([np.zeros((2, 2)) if covariance is None else covariance for covariance in covariances])
-    values, axes = np.linalg.eigh(known)
-    roots = axes * np.sqrt(np.maximum(values, 0.0))[:, None, :]
-    return np.asarray(np.einsum("nij,knj->kni", roots, normal))
-
-
-def _bias(draws: _Draws, ratio: float) -> float:
-    """How much larger r is in the middle of the draws than at the measured values, up to :data:`_LARGEST_BIAS`."""
-    half = len(draws.vectors) // 2
-    few = np.arange(min(_SOLVED, half))
-    opposite = np.sqrt(draws.ratios_squared(np.concatenate([few, few + (len(draws.vectors) + 1) // 2])))
-    if not len(few):
-        return 0.0
-    first, second = opposite[: len(few)], opposite[len(few) :]
-    usable = np.isfinite(first) & np.isfinite(second)
-    if not usable.any():
-        return 0.0
-    bias = float(np.median((first + second)[usable] / 2.0)) - ratio
-    spread = float(np.sqrt(np.mean(((first - second)[usable] / 2.0) ** 2)))
-    return min(max(bias, 0.0), _LARGEST_BIAS * spread)
+    centres = np.flatnonzero(gaps.part == Part.CENTRES)
+    covariances = np.array([pair.covariance for pair in pairs])
+    rooms_u_mm = np.array([pair.room_u_mm for pair in pairs])
+    bars = np.array([pair.bar_shift for pair in pairs]), [pair.bar_shift_covariance for pair in pairs]
+    sleeves = np.array([pair.sleeve_shift for pair in pairs]), [pair.sleeve_shift_covariance for pair in pairs]
+    bars_usual_mm = min(pair.bar_usual_mm for pair in pairs)
+    sleeves_usual_mm = min(pair.sleeve_usual_mm for pair in pairs)
+    for offsets in true_offsets(Measured(vectors[centres], turning[centres], covariances), generator):
+        k = len(offsets)
+        moved = (offsets - vectors[centres])[:, gaps.owner]
+        bar = true_shifts(*bars, bars_usual_mm, k, generator) @ turn(fit.yaw).T
+        sleeve = true_shifts(*sleeves, sleeves_usual_mm, k, generator)
+        moved -= np.where((gaps.part == Part.MOUTH)[:, None], bar[:, gaps.owner], 0.0)
+        moved -= np.where((gaps.part == Part.TOP)[:, None], sleeve[:, gaps.owner], 0.0)
+        room = (rooms_u_mm * generator.standard_normal((k, count)))[:, gaps.owner]
+        yield _Draws(vectors + moved, turning, gaps.limits_mm + np.where(gaps.part == Part.CENTRES, 0.0, room))
 
 
 def _at_most(pair: Pair, limit_mm: float) -> float:

@@ -62,6 +62,8 @@ class Pair:
         Standard uncertainty of the room.
     seen_length_mm
         Length of the bar below its top whose side was seen, up to the embedded length; None where it is not known.
+    bar_usual_mm, sleeve_usual_mm
+        By how much, per axis, such shifts differ as built; 0 where the shift and its covariance hold that already.
     sleeve_u_mm, rebar_u_mm
         Standard uncertainty per axis of each of the two, of its centre and of its lean over the embedded length.
     """
@@ -78,6 +80,8 @@ class Pair:
     sleeve_shift_covariance: Array | None = None
     room_u_mm: float = 0.0
     seen_length_mm: float | None = None
+    bar_usual_mm: float = 0.0
+    sleeve_usual_mm: float = 0.0
     sleeve_u_mm: float = 0.0
     rebar_u_mm: float = 0.0
 
@@ -143,6 +147,8 @@ def form_pairs(
                 sleeve_shift_covariance=sleeve_shift,
                 room_u_mm=float(np.hypot(MEASURED_SIZE_U_MM if measured_diameters else SIZE_U_MM, SIZE_U_MM)) / 2.0,
                 seen_length_mm=None if rebar.seen_length_mm is None else min(rebar.seen_length_mm, length_mm),
+                bar_usual_mm=_usual_mm(rebar, length_mm),
+                sleeve_usual_mm=_usual_mm(sleeve, length_mm),
                 sleeve_u_mm=_u_mm(flat_covariance(sleeve), sleeve_shift),
                 rebar_u_mm=_u_mm(flat_covariance(rebar), bar_shift),
             )
@@ -168,6 +174,11 @@ def _unstraight(rebar: AssemblyPoint, length_mm: float) -> Array:
     """Covariance (2, 2), mm², of what a bar may bend below its seen part; all is unseen where nobody says."""
     unseen_mm = max(length_mm - (rebar.seen_length_mm or 0.0), 0.0)
     return (STRAIGHT_U_RAD * unseen_mm) ** 2 * np.eye(2)
+
+
+def _usual_mm(point: AssemblyPoint, length_mm: float) -> float:
+    """What is usual of a shift, where its measurement does not hold it; where there is none, its covariance does."""
+    return 0.0 if point.axis_believed or point.axis_covariance is None else LEAN_U_RAD * length_mm
 
 
 def _u_mm(*parts: Array | None) -> float:

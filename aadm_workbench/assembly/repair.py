@@ -83,8 +83,15 @@ def advise_repair(
 def _best_plan(case: RepairCase) -> tuple[RepairPlan, bool] | None:
     """The plan to advise among the first kind of bars that helps, and whether no smaller set of these would do."""
     kinds = (case.rebar_fails, case.rebar_fails | case.sleeve_fails, np.ones(len(case.pairs), dtype=bool))
-    plans = (_plan_among(case, among) for among in kinds if among.any())
-    return next((found for found in plans if found is not None), None)
+    tried: list[BoolArray] = []
+    for among in kinds:
+        if not among.any() or any(np.array_equal(among, other) for other in tried):
+            continue
+        found = _plan_among(case, among)
+        if found is not None:
+            return found
+        tried.append(among)
+    return None
 
 
 def _plan_among(case: RepairCase, among: BoolArray) -> tuple[RepairPlan, bool] | None:
@@ -94,14 +101,18 @@ def _plan_among(case: RepairCase, among: BoolArray) -> tuple[RepairPlan, bool] |
     near its own place: one bar that stands far off is no reason to bend its neighbours after it.
     """
     count, stay = len(case.pairs), of_bars_that_stay(case.constraints)
-    sets, exact = smallest_sets([stay], count, among)
-    if sets and case.adjustment_mm is not None:
+    near: tuple[RepairPlan, bool, int] | None = None
+    if case.adjustment_mm is not None:
         reach = within_reach(case.constraints, case.rebars, case.sleeves, case.places, case.adjustment_mm)
         reachable, proven = smallest_sets([stay, reach], count, among)
         if reachable:
             plan = choose_plan(case, reachable, [stay, reach], case.adjustment_mm)
-            if plan.within_own or len(reachable[0].bent) == len(sets[0].bent):
+            if plan.within_own:
                 return plan, proven
+            near = plan, proven, len(reachable[0].bent)
+    sets, exact = smallest_sets([stay], count, among)
+    if near is not None and sets and len(sets[0].bent) == near[2]:
+        return near[:2]
     return (choose_plan(case, sets, [stay], None), exact) if sets else None
 
 

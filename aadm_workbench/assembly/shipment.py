@@ -11,6 +11,7 @@ import numpy as np
 from aadm_workbench.assembly.best_pose import fit_best_pose
 from aadm_workbench.assembly.eopa import NoFit
 from aadm_workbench.assembly.match import Match
+from aadm_workbench.assembly.open_ways import open_ways
 from aadm_workbench.assembly.pairs import form_pairs
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.rules import applicable_rules
@@ -65,17 +66,11 @@ def try_margin(
 
     Where it is open how a scan is turned, the worst of what it may be counts.
     """
-    sleeve_turns, rebar_turns = sleeves[1].evaluated, rebars[1].evaluated
-    if len(sleeve_turns) > len(rebar_turns):
-        rebar_turns = rebar_turns[:1]
-    else:
-        sleeve_turns = sleeve_turns[:1]
     cells = []
-    for sleeve_turn in sleeve_turns:
+    for sleeve_turn, rebar_turn in open_ways(design, sleeves[1], rebars[1]):
         feet = [None if one is None else one.point for one in place_points(sleeves[0], sleeve_turn)]
-        for rebar_turn in rebar_turns:
-            tops = [None if one is None else one.point for one in place_points(rebars[0], rebar_turn)]
-            cells.append(_best_turn(design, feet, tops, profile, turns))
+        tops = [None if one is None else one.point for one in place_points(rebars[0], rebar_turn)]
+        cells.append(_best_turn(design, feet, tops, profile, turns))
     return min(cells, key=_by_margin)
 
 

@@ -22,6 +22,7 @@ from aadm_workbench.assembly.existence import SAMPLES, existence_of_a_pose
 from aadm_workbench.assembly.inspect import describe_ambiguity
 from aadm_workbench.assembly.match import Match, Placement
 from aadm_workbench.assembly.minimax import fit_minimax
+from aadm_workbench.assembly.open_ways import open_ways
 from aadm_workbench.assembly.pairs import Pair, embedded_length_mm, form_pairs
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.rules import applicable_rules
@@ -60,35 +61,26 @@ def try_scans(
 ) -> TrialReport:
     """Trial assembly from two scans that were matched to the design.
 
-    Where a match is ambiguous, the trial is made in every turn of the bars against the sleeves that it leaves open,
+    Where matches are ambiguous, the trial is made in every way of the bars against the sleeves that they leave open,
     and the verdict stands only where all of them agree. Parameters as :func:`try_assembly`.
     """
     for extraction, match in (sleeves, rebars):
         if not match:
             return TrialReport(Verdict.NOT_MEASURED, reasons=(f"{extraction.kind.plural}: {match.reason}",))
-    # Only the turn of bars against sleeves matters, so the less ambiguous of the two stays as it lies.
-    sleeve_turns, rebar_turns = sleeves[1].evaluated, rebars[1].evaluated
-    if len(sleeve_turns) > len(rebar_turns):
-        rebar_turns = rebar_turns[:1]
-    else:
-        sleeve_turns = sleeve_turns[:1]
     reports = []
-    for sleeve_turn in sleeve_turns:
-        placed_sleeves = _in_column_frame(sleeves[0], sleeve_turn)
-        for rebar_turn in rebar_turns:
-            placed_rebars = _in_column_frame(rebars[0], rebar_turn)
-            report = try_assembly(
-                design,
-                placed_sleeves,
-                placed_rebars,
-                profile,
-                generator,
-                decision=decision,
-                turns=turns,
-                samples=samples,
-                measured_diameters=measured_diameters,
-            )
-            reports.append(report)
+    for sleeve_turn, rebar_turn in open_ways(design, sleeves[1], rebars[1]):
+        report = try_assembly(
+            design,
+            _in_column_frame(sleeves[0], sleeve_turn),
+            _in_column_frame(rebars[0], rebar_turn),
+            profile,
+            generator,
+            decision=decision,
+            turns=turns,
+            samples=samples,
+            measured_diameters=measured_diameters,
+        )
+        reports.append(report)
     ambiguous = next((match for _, match in (sleeves, rebars) if match.orientation == "ambiguous"), None)
     return reports[0] if ambiguous is None else _agree(reports, ambiguous)
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from aadm_workbench.assembly.best_pose import BestFit
-from aadm_workbench.assembly.decision import Decision, DecisionRule, decide_radial, standard_uncertainty
+from aadm_workbench.assembly.decision import Decision, DecisionRule, decide_radial, standard_uncertainty, verdict_radial
 from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.tolerances import describe_clause
 from aadm_workbench.assembly.upright import planar_transform, turn
@@ -107,7 +107,7 @@ def _best_pair(pair: Pair, limit_mm: float, fit: BestFit, rule: Rule | None, dec
     by_distance = Verdict.NOT_ASSESSED
     if rule is not None:
         offset = _offset(pair, fit.yaw, fit.shift)
-        by_distance = decide_radial(offset, pair.covariance, rule.upper, decision).verdict
+        by_distance = verdict_radial(offset, pair.covariance, rule.upper, decision)
     decided = [by_distance, *_room_verdicts(pair, fit, decision)]
     verdict = worst(one for one in decided if one is not Verdict.NOT_ASSESSED)
     if all(one is Verdict.NOT_ASSESSED for one in decided):
@@ -128,7 +128,7 @@ def _room_verdicts(pair: Pair, fit: BestFit, decision: DecisionRule) -> list[Ver
         return []
     sized = pair.room_u_mm**2 * np.eye(2)
     return [
-        decide_radial(end.gap, _sum(end.covariance, sized), pair.room_mm, decision).verdict
+        verdict_radial(end.gap, _sum(end.covariance, sized), pair.room_mm, decision)
         for end in _ends(pair, fit.yaw, fit.shift)
     ]
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.assembly.best_pose import BestFit
-from aadm_workbench.assembly.decision import decide_probability
+from aadm_workbench.assembly.decision import PASS_PROBABILITY, decide_probability
 from aadm_workbench.assembly.existence import Existence
 from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.rules import applicable_rules, not_assessed, rule_result
@@ -18,6 +18,8 @@ from aadm_workbench.assembly.window import find_window
 from aadm_workbench.model import PairResult, PoseWindow, Profile, RuleResult, TrialPose, TrialReport, Verdict
 
 QUANTITY = "sleeve_rebar_distance"
+_HARDLY_SEEN = "but what was hardly seen does not pass"
+_TOO_CLOSE = "too close to the limit for the uncertainty"
 NO_POSE = "no pose brings every rebar into its sleeve"
 
 _MOST_RESCANNED = 2
@@ -35,7 +37,8 @@ def judge_trial(
     """Verdict of a trial with its margin, its window and its reasons.
 
     The probability that a pose exists decides, or, where there is none, whether one does by value alone; a trial fails
-    only where the measured values themselves say that none does. What does not fail but lacks a pair is not measured.
+    only where the measured values themselves say that none does, and passes only where every pair was seen well enough
+    to hold its limit. What does not fail but lacks a pair is not measured.
 
     Parameters
     ----------
@@ -50,6 +53,8 @@ def judge_trial(
         verdict = Verdict.PASS if fit.exists else Verdict.FAIL
     else:
         verdict = decide_probability(existence.probability, fit.exists or not existence.contradicted)
+        if existence.hardly_seen.any() and verdict is Verdict.PASS:
+            verdict = Verdict.INCONCLUSIVE
     by_measure = verdict
     if report.missing and verdict is not Verdict.FAIL:
         verdict = Verdict.NOT_MEASURED
@@ -122,9 +127,11 @@ def _reasons(
         text = f"the probability that a pose exists is {100.0 * existence.probability:.1f} %"
         if by_measure is Verdict.INCONCLUSIVE:
             named = " and ".join(said for _, said in rescan)
-            text += ", too close to the limit for the uncertainty: rescan closer" + (
-                f", above all {named}" * bool(named)
+            likely = existence.probability >= PASS_PROBABILITY
+            text += (
+                ", but what was hardly seen does not pass" if likely else ", too close to the limit for the uncertainty"
             )
+            text += ": rescan closer" + f", above all {named}" * bool(named)
         reasons.append(text)
     if report.missing:
         reasons.append(f"not measured: {', '.join(report.missing)}")

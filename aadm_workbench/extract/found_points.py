@@ -29,7 +29,7 @@ def found_points(
 
     ``covariances`` (k, 2, 2) mm² are those of the plan positions; ``heights_u_mm`` (k,) are the standard uncertainties
     across it. ``diameters_mm`` (k,); ``why`` the evidence. ``leans`` (k, 2, 2) are the covariances of the axes'
-    offsets per length, ``seen_lengths_mm`` how much of each bore or bar is seen.
+    offsets per length, what is usual taken in; ``seen_lengths_mm`` how much of each bore or bar is seen.
     """
     axes = axes_on(plane)
     turned = directions @ axes
@@ -46,7 +46,16 @@ def found_points(
     )
     return tuple(
         AssemblyPoint(
-            "", kind, centre, axis, diameter_mm, covariance, why=words, axis_covariance=lean, seen_length_mm=seen_mm
+            "",
+            kind,
+            centre,
+            axis,
+            diameter_mm,
+            covariance,
+            why=words,
+            axis_covariance=lean,
+            axis_believed=True,
+            seen_length_mm=seen_mm,
         )
         for centre, axis, diameter_mm, covariance, words, lean, seen_mm in rows
     )

@@ -41,6 +41,9 @@ class AssemblyPoint:
     axis_covariance
         (3, 3) float64, without unit (mm of offset a mm of length, squared), of the unit axis, in the frame of the axis
         and singular along it; None where it is not known.
+    axis_believed
+        Measured only: whether the axis and its covariance hold what is usual of axes already; else they are what was
+        seen alone.
     seen_length_mm
         Measured only: length along the axis over which the surface was seen that gave the axis; None where the
         extraction does not say.
@@ -58,6 +61,7 @@ class AssemblyPoint:
     object_name: str | None = None
     outer_diameter_mm: float | None = None
     axis_covariance: Array | None = None
+    axis_believed: bool = False
     seen_length_mm: float | None = None
 
 

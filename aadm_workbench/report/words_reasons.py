@@ -76,6 +76,7 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
         rf": rescan closer, above all ({_LABEL}) \(u = ({_NUMBER}) mm\)",
         r":请靠近重新扫描,首先是 \1(u = \2 mm)",
     ),
+    (r", but what was hardly seen does not pass", ",但未看清的点不能判为合格"),
     (r", too close to the limit for the uncertainty", ",不确定度下过于接近限值"),
     (
         r"\. Still beyond (?:its|their) own limit of position then: ((?:R\d+(?:, )?)+)",
@@ -92,6 +93,12 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
     (rf"largest distance ({_NUMBER}) mm", r"最大中心距 \1 mm"),
     (rf", limit ({_NUMBER}) mm", r",限值 \1 mm"),
     (rf", limit ({_NUMBER} … {_NUMBER}) mm", r",限值 \1 mm"),
+    (
+        r"not seen: what is only inferred does not pass, look from another corner",
+        "未见到:仅靠推断不能判为合格,请从另一角拍摄",
+    ),
+    (r"not seen: where it was measured before hoisting", "未见到:取吊装前的测量位置"),
+    (r"not seen: inferred from the others", "未见到:由其余各点推断"),
     (rf"({_LABEL}) not measured: ", r"\1 未测到:"),
     (rf"not measured: ((?:{_LABEL}(?:, )?)+)", r"未测到:\1"),
     (

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from aadm_workbench.model import RepairAction, Verdict
+from benchmarks.matching import best_worth, matched_margins, worth_of
+from benchmarks.periodic import periodic_views
 from benchmarks.verdict import (
     FIELD,
     LAB,
@@ -57,6 +59,22 @@ def test_a_square_ring_without_up_is_never_labelled_with_false_confidence() -> N
     found = turned_rings(60, np.random.default_rng(16))
     assert found["wrong"] == 0
     assert found["ambiguous"] >= 57
+
+
+def test_assignments_equal_the_search_of_all_of_them() -> None:
+    found = matched_margins(1500, np.random.default_rng(17))
+    assert (found.matrices, found.worse) == (1500, 0)
+    # The search itself: one column that goes on is worth more than any sum, and gaps place nobody.
+    margins = np.array([[0.1, np.nan], [9.0, -0.2]])
+    assert best_worth(margins) == (1, 9.0, 9.0)
+    assert worth_of(margins, [(0, 0), (1, 1)]) < best_worth(margins)
+
+
+def test_parts_of_rows_are_right_or_ambiguous() -> None:
+    found = periodic_views(25, np.random.default_rng(18))
+    assert found["wrong"] == 0
+    assert found["right"] > 2
+    assert found["ambiguous"] > 5
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -10,6 +10,7 @@ import numpy as np
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.hold import held_back
 from aadm_workbench.assembly.findings.mistaken import Look, NamedScan, mistaken_findings
+from aadm_workbench.assembly.findings.odd_bars import odd_bar_findings
 from aadm_workbench.assembly.findings.rules import findings_of
 from aadm_workbench.assembly.findings.shared_ids import shared_id_findings
 from aadm_workbench.extract.sizes import extract_sizes
@@ -48,6 +49,8 @@ def with_findings(
     scans = {kind: NamedScan(one.scan.source, _look_in(one.scan, method, rng)) for kind, one in seen.items()}
     found = [*findings_of(design, list(groups.values())), *mistaken_findings(design, groups, scans, others)]
     found += shared_id_findings(design)
+    if Kind.REBAR in seen and method == "refined":
+        found += odd_bar_findings(groups[Kind.REBAR], seen[Kind.REBAR].scan, found, rng)
     lost = {kind for kind, group in groups.items() if not group.match}
     said = [f"{kind.plural}: {groups[kind].match.reason}" for kind in lost if _told(found, kind)]
     return held_back(report, found, said)

@@ -1,0 +1,150 @@
+"""What the true offsets of bars from their sleeves may be, given the measured ones.
+
+Measured offsets scatter more than true ones, by their uncertainty, and the largest of many most of all: drawn about
+them, a column looks worse than it is. How bars and sleeves scatter as built is told by the pairs themselves, so both
+are drawn together (Gibbs sampling of a hierarchical model; Gelman et al., Bayesian Data Analysis, 3rd ed., 11.1, 17.2):
+
+    measured offset = pose + true scatter + error        error ~ N(0, its covariance)
+    true scatter ~ Student's law in the plane, of a width that all pairs share
+
+Few points far off are usual, so the law has heavy tails: what stands far off by more than its uncertainty is left where
+it was measured and not drawn to the others. The pose is free, as in the trial.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.assembly.likelihood import USUAL_SCATTER_MM
+from aadm_workbench.model import Array
+
+CHAINS = 100
+"""So many draws are made at once, each from the one before it."""
+
+_SETTLE = 8
+"""Sweeps that are left out: the start is the moments' estimate, and the pose is drawn with the scatter integrated."""
+
+_FREEDOM = 4.0
+"""Of Student's law: one point in a hundred lies beyond four and a half widths."""
+
+_PRIOR_POINTS = 1.0
+"""The usual scatter of bars and sleeves counts as one pair does."""
+
+_USUAL_VARIANCE = 2.0 * USUAL_SCATTER_MM**2
+
+_SMALLEST_VARIANCE = 0.05**2
+_TINY = 1e-18
+
+_LEAST_LEAN = 0.1
+"""Of what is usual: no group stands straighter."""
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """n offsets (n, 2) mm, how they change with a turn of the bars, (n, 2), and their covariances (n, 2, 2) mm²."""
+
+    offsets: Array
+    turning: Array
+    covariances: Array
+
+    @property
+    def by_pose(self) -> Array:
+        """How the offsets change with the pose (turn, x, y): (n, 2, 3)."""
+        change = np.zeros((len(self.offsets), 2, 3))
+        change[:, :, 0], change[:, 0, 1], change[:, 1, 2] = self.turning, 1.0, 1.0
+        return change
+
+
+def true_offsets(measured: Measured, generator: np.random.Generator) -> Iterator[Array]:
+    """Draws of the true offsets, (k, n, 2) mm with k = :data:`CHAINS`, again and again."""
+    by_pose = measured.by_pose
+    variance, weight = np.full(CHAINS, _first_variance(measured)), np.ones((CHAINS, len(measured.offsets)))
+    sweep = 0
+    while True:
+        own = variance[:, None] / weight
+        inverse = _inverse(own[..., None, None] * np.eye(2) + measured.covariances)
+        pose = _drawn_pose(measured, by_pose, inverse, generator)
+        moved = np.einsum("nij,kj->kni", by_pose, pose)
+        scatter = _drawn_scatter(measured, moved, own, inverse, generator)
+        squares = np.einsum("kni,kni->kn", scatter, scatter)
+        freedom = _FREEDOM + squares / variance[:, None]
+        weight = 2.0 * generator.gamma((_FREEDOM + 2.0) / 2.0, size=squares.shape) / freedom
+        variance = _drawn_variance((weight * squares).sum(axis=1), squares.shape[1], generator)
+        sweep += 1
+        if sweep > _SETTLE:
+            yield scatter - moved
+
+
+def _first_variance(measured: Measured) -> float:
+    """Of the true scatter, per axis, by the moments."""
+    count = len(measured.offsets)
+    found = float((measured.offsets**2).sum()) / max(2 * count - 3, 1)
+    return max(found - float(np.trace(measured.covariances, axis1=1, axis2=2).mean()) / 2.0, _USUAL_VARIANCE / 10.0)
+
+
+def _inverse(matrices: Array) -> Array:
+    """Inverses of symmetric matrices (..., 2, 2)."""
+    a, b, c = matrices[..., 0, 0], matrices[..., 0, 1], matrices[..., 1, 1]
+    adjugate = np.stack([np.stack([c, -b], axis=-1), np.stack([-b, a], axis=-1)], axis=-2)
+    return np.asarray(adjugate / (a * c - b * b)[..., None, None])
+
+
+def _drawn_pose(measured: Measured, by_pose: Array, inverse: Array, generator: np.random.Generator) -> Array:
+    """Poses (k, 3) that lay the offsets about zero, given the law of scatter and error together."""
+    weighted = np.einsum("knij,njl->knil", inverse, by_pose)
+    precision = np.einsum("nil,knim->klm", by_pose, weighted)
+    right = -np.einsum("knil,ni->kl", weighted, measured.offsets)
+    covariance = np.linalg.inv(precision)
+    root = np.linalg.cholesky((covariance + covariance.transpose(0, 2, 1)) / 2.0)
+    middle = np.einsum("kij,kj->ki", covariance, right)
+    return np.asarray(middle + np.einsum("kij,kj->ki", root, generator.standard_normal(middle.shape)))
+
+
+def _drawn_scatter(
+    measured: Measured, moved: Array, own: Array, inverse: Array, generator: np.random.Generator
+) -> Array:
+    """True scatter (k, n, 2) of each pair about its place in the pose."""
+    gain = own[..., None, None] * inverse
+    middle = np.einsum("knij,knj->kni", gain, measured.offsets + moved)
+    return np.asarray(middle + _coloured(gain @ measured.covariances, generator.standard_normal(middle.shape)))
+
+
+def _coloured(covariances: Array, normal: Array) -> Array:
+    """Normal numbers (..., 2) with these covariances (..., 2, 2)."""
+    first = np.sqrt(np.maximum(covariances[..., 0, 0], _TINY))
+    mixed = covariances[..., 0, 1] / first
+    second = np.sqrt(np.maximum(covariances[..., 1, 1] - mixed**2, 0.0))
+    x, y = normal[..., 0], normal[..., 1]
+    return np.stack([first * x, mixed * x + second * y], axis=-1)
+
+
+def _drawn_variance(weighted_squares: Array, count: int, generator: np.random.Generator) -> Array:
+    """Squared widths (k,) of the scatter: flat in the width, but for a prior that counts as some pairs do."""
+    shape = count - 0.5 + _PRIOR_POINTS
+    found = weighted_squares / 2.0 + _PRIOR_POINTS * _USUAL_VARIANCE
+    return np.maximum(found / generator.gamma(shape, size=len(weighted_squares)), _SMALLEST_VARIANCE)
+
+
+def true_shifts(
+    shifts: Array, covariances: Sequence[Array | None], usual_mm: float, count: int, generator: np.random.Generator
+) -> Array:
+    """What the true shifts (n, 2) mm of leaning axes differ from the measured ones by: draws (count, n, 2).
+
+    Axes of one group lean about their median, as far as they are seen to and by ``usual_mm`` per axis as built, which
+    counts as one axis more; what one of them differs by is partly its error. With zero for it the covariances hold all
+    that is known.
+    """
+    known = np.array([np.zeros((2, 2)) if one is None else one for one in covariances])
+    normal = generator.standard_normal((count, *shifts.shape))
+    if usual_mm <= 0.0:
+        return _coloured(known, normal)
+    off = shifts - np.median(shifts, axis=0)
+    error = float(np.trace(known, axis1=1, axis2=2).mean()) / 2.0
+    freedom = 2 * len(off) - 2 + 2
+    both = (float((off**2).sum()) + 2.0 * (usual_mm**2 + error)) / generator.chisquare(freedom, count)
+    variance = np.maximum(both - error, (_LEAST_LEAN * usual_mm) ** 2)[:, None, None, None]
+    gain = variance * _inverse(variance * np.eye(2) + known)
+    return np.asarray(np.einsum("knij,nj->kni", gain, off) - off + _coloured(gain @ known, normal))
