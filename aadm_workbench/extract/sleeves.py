@@ -12,7 +12,8 @@ import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
-from aadm_workbench.extract.edge_shift import BLURRED, BentDiscs, bend_at_edges, bent_discs, shift_of_mouths
+from aadm_workbench.extract.edge_shift import BentDiscs, bend_at_edges, bent_discs, shift_of_mouths
+from aadm_workbench.extract.filter_signs import filter_signs
 from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouths_in
@@ -127,9 +128,11 @@ def _measured(mouths: Mouths, patches: Patches, face: Plane, diameter_mm: float,
     if len(mouths.place) == 0:
         reason = f"no hole of {diameter_mm:g} mm in the face could be measured"
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
-    fit = _fit(mouths, sight_lines_on_face(patches.of(mouths.kept)), diameter_mm, pitch_mm)
-    if fit is None:
-        return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=BLURRED)
+    own = patches.of(mouths.kept)
+    fit = _fit(mouths, sight_lines_on_face(own), diameter_mm, pitch_mm)
+    signs = filter_signs(own, mouths.centre, diameter_mm / 2, pitch_mm, 1.0)
+    if fit is None or signs.reason(blurred=False):
+        return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=signs.reason(blurred=fit is None))
     sound = (np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT) & _are_round(mouths, fit, pitch_mm)
     points = tuple(point for point, kept in zip(_points(mouths, fit, face, pitch_mm), sound, strict=True) if kept)
     if not points:

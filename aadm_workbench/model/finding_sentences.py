@@ -48,6 +48,20 @@ FINDING_SENTENCES: dict[str, Sentence] = {
         "one of the two templates, is too large",
         "套筒与钢筋的布置比例相差 {difference:.4f}(±{U:.4f}):两个扫描之一或两个模板之一偏大",
     ),
+    "smoothed": Sentence(
+        "the scan of the {group} was smoothed: its noise is shared by neighbouring pixels, and edges run into each "
+        "other. Turn smoothing off in the camera's software (surface smoothing, Gaussian, median or spatial filter) and "
+        "scan again",
+        "{group} 的扫描被平滑过:相邻像素的噪声相同,边缘相互渗混。请在相机软件中关闭平滑(表面平滑、高斯、中值或空间滤波,"
+        "即 smoothing / spatial filter)后重新扫描",
+    ),
+    "gaps_filled": Sentence(
+        "the scan of the {group} has surfaces where nothing is, between edges and what lies behind them: what was not "
+        "measured was filled in. Turn hole filling off in the camera's software (gap filling, interpolation) and scan "
+        "again",
+        "{group} 的扫描在边缘与其后方之间有并不存在的表面:未测到处被填补。请在相机软件中关闭孔洞填充"
+        "(补洞、插值,即 hole filling / gap filling)后重新扫描",
+    ),
     "exposed_length_differs.short": Sentence(
         "{about} sticks out {measured_mm:.0f} mm where {expected_mm:.0f} mm are expected ({of}): it is cut off or bent "
         "away, and does not reach as far into its sleeve as it must",

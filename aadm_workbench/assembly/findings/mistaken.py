@@ -15,6 +15,8 @@ from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.assembly.match import match_extraction
 from aadm_workbench.design.bar_sizes import OVER_RIBS_MM
+from aadm_workbench.extract.edge_shift import BLURRED
+from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Finding, Kind
 
 FITS_SHARE = 0.75
@@ -22,6 +24,7 @@ FITS_SHARE = 0.75
 
 _FEWEST = 4
 _LOOKS = 3  # in one scan, for other columns' sizes: each takes as long as a check
+_UNFIT_REASONS = (SMOOTHED, GAPS_FILLED, BLURRED)
 _SIZES_EACH_WAY = 2  # bars two sizes off have been delivered; more would be seen from afar
 
 Look = Callable[[Kind, Sequence[float]], Extraction]
@@ -49,7 +52,7 @@ def mistaken_findings(
     others
         The other columns of the job, for a scan that fits one of them.
     """
-    lost = [kind for kind, group in groups.items() if not group.match and not group.match.contradiction]
+    lost = [kind for kind, group in groups.items() if _is_lost(group)]
     crossed = [kind for kind in lost if _shows(design, scans[kind], _other(kind))]
     if len(crossed) == 2:
         yield make_finding("swapped", ["sleeves", "rebars"])
@@ -64,6 +67,12 @@ def mistaken_findings(
             found = _of_other_sizes(groups[kind], scans[kind])
         if found is not None:
             yield found
+
+
+def _is_lost(group: SeenGroup) -> bool:
+    """Whether nothing explains yet that a group lies nowhere."""
+    explained = group.match.contradiction or any(reason in group.extraction.reason for reason in _UNFIT_REASONS)
+    return not group.match and not explained
 
 
 def _other(kind: Kind) -> Kind:
