@@ -12,6 +12,7 @@ from aadm_workbench.assembly.match import match_extraction
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.assembly.trial import try_scans
 from aadm_workbench.model import Array, BoolArray, ColumnReport, Extraction, GroupReport, Kind, Verdict
+from aadm_workbench.twin.camera import PRO_M
 from aadm_workbench.twin.scene import truth_of
 from benchmarks.site_scenes import Column
 
@@ -53,7 +54,7 @@ def errors_of(column: Column, report: ColumnReport, kind: Kind) -> Errors:
     group, scan = _group(report, kind), column.sleeves if kind is Kind.SLEEVE else column.rebars
     measurable = _measurable(column, kind)
     distances, inside, ghosts, found = [], [], 0, 0
-    true = scan.points_scan()
+    true = _told(scan.points_scan(), column)
     for k, point in enumerate(group.points if group is not None else ()):
         if point.scan_mm is None or point.verdict is Verdict.NOT_MEASURED or k >= len(true):
             continue
@@ -68,6 +69,12 @@ def errors_of(column: Column, report: ColumnReport, kind: Kind) -> Errors:
         covariance = np.array(point.cov_mm2)
         inside.append(bool(off @ np.linalg.solve(covariance, off) <= CHI2_95))
     return Errors(kind, sum(measurable), found, ghosts, np.array(distances), np.array(inside, bool))
+
+
+def _told(points: Array, column: Column) -> Array:
+    """Points (n, 3) where a camera has them that is told a wrong principal point: it cannot know."""
+    across = np.array([*column.slip.principal_px, 0.0]) / PRO_M.fx
+    return points - points[:, 2:] * across
 
 
 def false_verdicts(column: Column, report: ColumnReport, *, void: bool) -> list[str]:

@@ -17,10 +17,10 @@ from aadm_workbench.model import Array, BoolArray, FloatArray
 
 _FALL_MM = (1.0, 60.0)  # from pixel to pixel on a ramp
 _EVEN = 6.0  # the steepest fall of three over the flattest
-_OFF_WALL_MM = 2.5  # ribs, chamfers and leans stay nearer to a wall
+_OFF_WALL_MM, _OFF_LEAN = 2.5, 0.08  # ribs and chamfers stay nearer to a wall; bars that lean by four degrees do
 _BELOW_MM = 3.0  # of the surface that a feature lies in
 _WITHIN_MM = 1.5  # of it, where its noise is looked at
-_OWN_NOISE, _OWN_COARSE = 0.55, 0.35  # half of what the least noisy neighbours of any camera without a filter share
+_OWN_NOISE = 0.55  # noise of which half is shared over a pixel and more comes to 0.7, a median of three to 0.5
 _RAMPED, _RAMPED_UNLOST = 0.1, 0.03  # slips of the fringe order and flying pixels come to 0.02
 _UNLOST = 1e-4  # a camera loses one pixel in a thousand at least
 
@@ -36,20 +36,19 @@ _FEWEST = 300  # points of a surface whose noise is looked at
 class FilterSigns:
     """Signs of filters about the features of one scan.
 
-    ``ramps``: places of even fall through the air, for each pixel of the features' outlines. ``fine`` and ``coarse``:
-    robust second differences of heights over one pixel against those over two, and over four; 1 for noise that every
-    pixel has of its own, 0 for what is smooth. ``lost``: share of pixels without a point among such with points on all
+    ``ramps``: places of even fall through the air, for each pixel of the features' outlines. ``fine``: second
+    differences of heights over one pixel against those over two, squared; 1 for noise that every pixel has of its own,
+    0 for what is smooth. ``lost``: share of pixels without a point among such with points on all
     sides.
     """
 
     ramps: float = 0.0
     fine: float = 1.0
-    coarse: float = 1.0
     lost: float = 0.0
 
     def reason(self, *, blurred: bool) -> str:
         """Why nothing is to be measured in such a scan; empty where neither a filter shows nor a blur."""
-        if self.fine < _OWN_NOISE or self.coarse < _OWN_COARSE:
+        if self.fine < _OWN_NOISE:
             return SMOOTHED
         if self.lost < _UNLOST and self.ramps > _RAMPED_UNLOST:
             return GAPS_FILLED
@@ -58,20 +57,26 @@ class FilterSigns:
         return SMOOTHED if self.ramps > _RAMPED else ""
 
 
-def filter_signs(patches: Patches, centre: Array, radius_mm: float, pitch_mm: float, side: float) -> FilterSigns:
-    """The signs about features at ``centre`` (k, 2) of their patches; ``side`` +1 for mouths, -1 for tops of bars."""
+def filter_signs(
+    patches: Patches, centre: Array, radius_mm: float, pitch_mm: float, side: float, *, flat: bool = True
+) -> FilterSigns:
+    """The signs about features at ``centre`` (k, 2) of their patches; ``side`` +1 for mouths, -1 for tops of bars.
+
+    Of a surface that is not ``flat`` the noise is not looked at.
+    """
     if not patches.columns or not len(centre):
         return FilterSigns()
     x, y = patches.x - centre[:, :1].astype(np.float32), patches.y - centre[:, 1:].astype(np.float32)
     inside = np.float32(side) * (np.float32(radius_mm) - np.sqrt(x * x + y * y))
     shape = (len(centre), -1, patches.columns)
     height = patches.height.reshape(shape)
-    in_air = ((inside > _OFF_WALL_MM) & (patches.height < -_BELOW_MM)).reshape(shape)
+    off_wall = inside > np.float32(_OFF_WALL_MM) - np.float32(_OFF_LEAN) * patches.height
+    in_air = (off_wall & (patches.height < -_BELOW_MM)).reshape(shape)
     on_surface = ((inside < -2.0 * pitch_mm) & (np.abs(patches.height) < _WITHIN_MM)).reshape(shape)
     ramps = sum(_ramps(h, a) for h, a in ((height, in_air), (height.swapaxes(1, 2), in_air.swapaxes(1, 2))))
     outline = len(centre) * 2.0 * np.pi * radius_mm / pitch_mm
-    first, second, fourth = (_roughness(height, on_surface, step) for step in (1, 2, 4))
-    return FilterSigns(float(ramps / outline), _ratio(first, second), _ratio(first, fourth), _lost(height))
+    first, second = (_roughness(height, on_surface, step) if flat else None for step in (1, 2))
+    return FilterSigns(float(ramps / outline), _ratio(first, second), _lost(height))
 
 
 def _ramps(height: FloatArray, in_air: BoolArray) -> int:

@@ -11,6 +11,7 @@ from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.hold import held_back
 from aadm_workbench.assembly.findings.mistaken import Look, NamedScan, mistaken_findings
 from aadm_workbench.assembly.findings.rules import findings_of
+from aadm_workbench.assembly.findings.void import without_spoilt
 from aadm_workbench.extract.sizes import extract_sizes
 from aadm_workbench.model import ColumnDesign, ColumnReport, Extraction, Finding, Kind, Scan
 
@@ -31,6 +32,7 @@ def with_findings(
     method: str,
     rng: np.random.Generator,
     others: Sequence[ColumnDesign] = (),
+    checks: Sequence[str] = ("sleeves", "rebars", "trial"),
 ) -> ColumnReport:
     """The report of a column with its findings, held back by them.
 
@@ -42,13 +44,15 @@ def with_findings(
         For looking again at scans that show nothing of what they should.
     others
         The other columns of the job.
+    checks
+        What the verdict of the column counts.
     """
     groups = {kind: one.group for kind, one in seen.items()}
     scans = {kind: NamedScan(one.scan.source, _look_in(one.scan, method, rng)) for kind, one in seen.items()}
     found = [*findings_of(design, list(groups.values())), *mistaken_findings(design, groups, scans, others)]
     lost = {kind for kind, group in groups.items() if not group.match}
     said = [f"{kind.plural}: {groups[kind].match.reason}" for kind in lost if _told(found, kind)]
-    return held_back(report, found, said)
+    return held_back(without_spoilt(report, found, checks), found, said)
 
 
 def _told(found: Sequence[Finding], kind: Kind) -> bool:

@@ -8,6 +8,7 @@ from aadm_workbench.assembly.findings.diameters import diameter_findings
 from aadm_workbench.assembly.findings.exposed_lengths import exposed_length_findings
 from aadm_workbench.assembly.findings.filters import filter_findings
 from aadm_workbench.assembly.findings.group import SeenGroup
+from aadm_workbench.assembly.findings.leans import lean_findings
 from aadm_workbench.assembly.findings.scales import scale_findings
 from aadm_workbench.assembly.findings.turns import turn_findings
 from aadm_workbench.model import ColumnDesign, Finding
@@ -17,6 +18,7 @@ def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Find
     """What contradicts the design, the declaration or the camera, of the groups of a column that were scanned."""
     found: list[Finding] = [finding for group in groups for finding in turn_findings(group)]
     found += scale_findings(groups)
+    found += lean_findings(groups)
     for group in groups:
         found += filter_findings(group)
         found += diameter_findings(group)

@@ -1,0 +1,95 @@
+"""The face of a foot in a scan: the plane with the mouths in it, and how far the concrete lies before and behind it.
+
+Feet are roughened by order (6 mm and more, washed or with keys): then the face is a layer and no plane, and only what
+reaches through the layer is a hole.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.extract.holes import find_discs, rastered
+from aadm_workbench.extract.plane import facing, find_planes, in_plane, near, refined_plane
+from aadm_workbench.extract.sample import Thinned, point_pitch_mm
+from aadm_workbench.model import Array, Plane, Scan
+
+FACE_BAND_MM = 1.5
+"""About the plane of a face that is smooth."""
+
+RIM_DEPTH_MM = 2.5
+"""A chamfer ends less far behind the face."""
+
+_LAYER_MM = 12.0  # what is roughened lies within, what stands before a foot or far behind does not
+_OUTER_PERCENT = 4.0, 96.0
+_ROUGH_MM, _ROUGH_NOISES = 3.0, 8.0  # rings and splashes of grout are thinner; noise alone comes to 3.5
+_MARGIN_MM = 1.0
+_EVERY = 16
+_ROUGH_INLIER_MM = 3.0
+
+
+@dataclass(frozen=True, eq=False)
+class FootFace:
+    """``plane``; what lies between ``low_mm`` (negative: inside of the foot) and ``high_mm`` over it is the face."""
+
+    plane: Plane
+    low_mm: float = -RIM_DEPTH_MM
+    high_mm: float = FACE_BAND_MM
+    rough: bool = False
+
+
+def face_with_holes(
+    scan: Scan, sample: Thinned, radius_mm: float, rng: np.random.Generator
+) -> tuple[FootFace, Array, float] | None:
+    """The face with most holes of a radius among the largest planes, their centres (k, 2) mm and the points' pitch."""
+    best: tuple[FootFace, Array, float] | None = None
+    noise_mm = _noise_mm(scan)
+    for plane in find_planes(sample.points, rng, 3):
+        face = _layer(plane if scan.viewpoint is None else facing(plane, scan.viewpoint), sample, noise_mm)
+        local = in_plane(sample.points[_on_face(sample, face)], face.plane)[:, :2]
+        pitch_mm = point_pitch_mm(sample, local)
+        spacing_mm = pitch_mm / np.sqrt(sample.share)
+        raster = rastered(local, max(radius_mm / 12, 1.3 * spacing_mm), 3 * radius_mm)
+        centres, _ = find_discs(raster, radius_mm, holes=True)
+        if best is None or len(centres) > len(best[1]):
+            best = (face, centres, pitch_mm)
+        if len(centres) >= 3:
+            break
+    return best
+
+
+def _on_face(sample: Thinned, face: FootFace) -> Array:
+    if not face.rough:
+        return near(sample.points, face.plane, FACE_BAND_MM)
+    height = face.plane.height(sample.points)
+    return np.asarray((height > face.low_mm) & (height < face.high_mm))
+
+
+def _layer(plane: Plane, sample: Thinned, noise_mm: float) -> FootFace:
+    some = sample.points[::_EVERY]
+    low, high = _outer(plane, some)
+    if high - low < max(_ROUGH_MM, _ROUGH_NOISES * noise_mm):
+        return FootFace(plane)
+    middle = refined_plane(some, plane, _ROUGH_INLIER_MM)
+    low, high = _outer(middle, some)
+    return FootFace(middle, min(-RIM_DEPTH_MM, low - _MARGIN_MM), max(FACE_BAND_MM, high + _MARGIN_MM), rough=True)
+
+
+def _outer(plane: Plane, points: Array) -> tuple[float, float]:
+    height = plane.height(points)
+    layer = height[np.abs(height) < _LAYER_MM]
+    if not len(layer):
+        return 0.0, 0.0
+    low, high = np.percentile(layer, _OUTER_PERCENT)
+    return float(low), float(high)
+
+
+def _noise_mm(scan: Scan) -> float:
+    """Of heights of neighbouring pixels against each other; 0 for clouds, whose neighbours nobody knows."""
+    if not scan.organised:
+        return 0.0
+    depth = scan.points[::_EVERY, :, 2]
+    bend = np.abs(depth[:, :-2] - 2.0 * depth[:, 1:-1] + depth[:, 2:])
+    bend = bend[np.isfinite(bend)]
+    return float(1.4826 * np.median(bend) / np.sqrt(6.0)) if len(bend) else 0.0
