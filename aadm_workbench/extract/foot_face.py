@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.extract.holes import find_discs, rastered
-from aadm_workbench.extract.plane import facing, find_planes, in_plane, near, refined_plane
+from aadm_workbench.extract.patches import Patches
+from aadm_workbench.extract.plane import facing, find_planes, in_plane, refined_plane
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm
 from aadm_workbench.model import Array, Plane, Scan
 
@@ -27,16 +28,22 @@ _ROUGH_MM, _ROUGH_NOISES = 3.0, 8.0  # rings and splashes of grout are thinner; 
 _MARGIN_MM = 1.0
 _EVERY = 16
 _ROUGH_INLIER_MM = 3.0
+_RING_MM = 1.0, 3.0  # beyond a mouth's edge: there the sleeve's own ring ends, or the concrete begins
+_RISE_MM = 1.0, 5.0  # of rings before the face, from where on it counts
 
 
 @dataclass(frozen=True, eq=False)
 class FootFace:
-    """``plane``; what lies between ``low_mm`` (negative: inside of the foot) and ``high_mm`` over it is the face."""
+    """``plane``; what lies between ``low_mm`` (negative: inside of the foot) and ``high_mm`` over it is the face.
+
+    ``rough``: it is a layer; ``flat``: neither that, nor do rings stand out of it.
+    """
 
     plane: Plane
     low_mm: float = -RIM_DEPTH_MM
     high_mm: float = FACE_BAND_MM
     rough: bool = False
+    flat: bool = True
 
 
 def face_with_holes(
@@ -60,10 +67,9 @@ def face_with_holes(
 
 
 def _on_face(sample: Thinned, face: FootFace) -> Array:
-    if not face.rough:
-        return near(sample.points, face.plane, FACE_BAND_MM)
     height = face.plane.height(sample.points)
-    return np.asarray((height > face.low_mm) & (height < face.high_mm))
+    low_mm, high_mm = (face.low_mm, face.high_mm) if face.rough else (-FACE_BAND_MM, _RISE_MM[1])
+    return np.asarray((height > low_mm) & (height < high_mm))
 
 
 def _layer(plane: Plane, sample: Thinned, noise_mm: float) -> FootFace:
@@ -73,7 +79,7 @@ def _layer(plane: Plane, sample: Thinned, noise_mm: float) -> FootFace:
         return FootFace(plane)
     middle = refined_plane(some, plane, _ROUGH_INLIER_MM)
     low, high = _outer(middle, some)
-    return FootFace(middle, min(-RIM_DEPTH_MM, low - _MARGIN_MM), max(FACE_BAND_MM, high + _MARGIN_MM), rough=True)
+    return FootFace(middle, min(-RIM_DEPTH_MM, low - _MARGIN_MM), max(FACE_BAND_MM, high + _MARGIN_MM), rough=True, flat=False)
 
 
 def _outer(plane: Plane, points: Array) -> tuple[float, float]:
@@ -93,3 +99,16 @@ def _noise_mm(scan: Scan) -> float:
     bend = np.abs(depth[:, :-2] - 2.0 * depth[:, 1:-1] + depth[:, 2:])
     bend = bend[np.isfinite(bend)]
     return float(1.4826 * np.median(bend) / np.sqrt(6.0)) if len(bend) else 0.0
+
+
+def level_with_rings(patches: Patches, radius_mm: float) -> tuple[Patches, bool]:
+    """Patches about mouths whose rings stand out of the face, each as if the ring's own end was it; and if any does."""
+    squares = patches.x * patches.x + patches.y * patches.y
+    low, high = ((radius_mm + part) ** 2 for part in _RING_MM)
+    about = np.where((squares > low) & (squares < high), patches.height, np.nan)
+    about[np.abs(about) > _RISE_MM[1]] = np.nan
+    seen = np.isfinite(about).any(axis=1)
+    rise = np.zeros(len(about))
+    rise[seen] = np.nanmedian(about[seen], axis=1)
+    rise[rise < _RISE_MM[0]] = 0.0
+    return (patches.raised(rise), True) if rise.any() else (patches, False)

@@ -21,7 +21,7 @@ from aadm_workbench.extract.edge_shift import (
     shift_of_rims,
 )
 from aadm_workbench.extract.filter_signs import filter_signs
-from aadm_workbench.extract.foot_face import FACE_BAND_MM, FootFace, face_with_holes
+from aadm_workbench.extract.foot_face import FACE_BAND_MM, FootFace, face_with_holes, level_with_rings
 from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouths_in
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
@@ -96,6 +96,9 @@ def extract_sleeves(
         face, centres = _facing_away_from_walls(face, centres, sample, diameter_mm / 2)
         layer = layer if face is layer.plane else replace(layer, plane=face, low_mm=-layer.high_mm, high_mm=-layer.low_mm)
     patches = patches_around(scan, sample, face, centres, diameter_mm / 2 + REACH_MM)
+    if not layer.rough:
+        patches, ringed = level_with_rings(patches, diameter_mm / 2)
+        layer = replace(layer, flat=not ringed)
     mouths = mouths_in(patches, centres, diameter_mm / 2, pitch_mm, tuple(other / 2 for other in others_mm), layer)
     return _measured(mouths, patches, layer, diameter_mm, pitch_mm)
 
@@ -120,11 +123,11 @@ def _measured(mouths: Mouths, patches: Patches, layer: FootFace, diameter_mm: fl
         reason = f"no hole of {diameter_mm:g} mm in the face could be measured"
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
     own = patches.of(mouths.kept)
-    lines = None if layer.rough else sight_lines_on_face(own)  # on what is no plane nobody knows where they end
+    lines = sight_lines_on_face(own) if layer.flat else None  # on what is no plane nobody knows where they end
     fit = _fit(mouths, lines, diameter_mm, pitch_mm)
-    if layer.rough and fit is not None:
+    if fit is not None and not layer.flat:
         fit = replace(fit, covariance=fit.covariance + _ROUGH_U_MM**2 * np.eye(2))
-    signs = filter_signs(own, mouths.centre, diameter_mm / 2, pitch_mm, 1.0, flat=not layer.rough)
+    signs = filter_signs(own, mouths.centre, diameter_mm / 2, pitch_mm, 1.0, flat=layer.flat)
     if fit is None or signs.reason(blurred=False):
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=signs.reason(blurred=fit is None))
     sound = (np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT) & _are_round(mouths, fit, pitch_mm)

@@ -80,7 +80,7 @@ def _bore_profile(sleeve: SleeveAsBuilt) -> list[tuple[float, float]]:
     radius, chamfer = sleeve.diameter / 2, sleeve.chamfer
     depth = sleeve.depth if sleeve.plugged_at is None else max(sleeve.plugged_at, 0.05)
     profile = [(0.0, -15.0), (radius + chamfer, -15.0)]
-    profile += [(radius + chamfer, 0.0), (radius, chamfer)] if chamfer > 0 else []
+    profile += [(radius + chamfer, -sleeve.proud), (radius, chamfer - sleeve.proud)] if chamfer > 0 else []
     profile += [(radius, depth_mm) for depth_mm in _SHIFT_DEPTHS_MM if sleeve.wall_shift != (0.0, 0.0)]
     if sleeve.rib_height > 0:
         for start in np.arange(sleeve.rib_start, depth - 10.0, sleeve.rib_pitch):
