@@ -1,12 +1,10 @@
-"""Random columns as a site and its cameras leave them, cheap enough to make hundreds: small patterns, cropped images."""
+"""Random columns as a site and its cameras leave them, cheap enough for hundreds: small patterns, cropped images."""
 
 from __future__ import annotations
 
-import pickle
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -20,7 +18,7 @@ from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot, ring
 from aadm_workbench.twin.scene import TrueScan, scan_of
 from aadm_workbench.twin.scenes import Setting, random_bars, random_foot, random_pose
 from aadm_workbench.twin.site import left_by_site
-from aadm_workbench.twin.slips import NO_SLIP, Slip, told_scan
+from aadm_workbench.twin.slips import NO_SLIP, Slip, seen_with, told_scan
 
 SIZES_MM = ((14.0, 30.0), (16.0, 32.0), (18.0, 26.0), (20.0, 36.0), (22.0, 38.0), (25.0, 42.0), (28.0, 46.0))
 """Bars and the bores of sleeves that are made for them."""
@@ -36,6 +34,7 @@ class Pattern(Setting):
     places: tuple[tuple[float, float], ...] = ()
 
     def centres(self) -> Array:
+        """Design centres (n, 2), in the order of their labels."""
         centres = np.array(self.places)
         return np.asarray(centres[label_order(centres)])
 
@@ -72,11 +71,11 @@ class Column:
 def random_pattern(rng: np.random.Generator, *, keyed: bool) -> Pattern:
     """4 to 16 places on a ring, a quarter of the rings without one or two of them; keyed ones always so."""
     bar_mm, sleeve_mm = SIZES_MM[rng.integers(len(SIZES_MM))]
-    per_side = int(rng.integers(2, 6))
+    per_side = int(rng.integers(3 if keyed else 2, 6))
     step_mm = min(float(rng.uniform(2.0, 2.8)) * sleeve_mm, 2 * _LARGEST_HALF_MM / (per_side - 1))
     wide = step_mm * (per_side - 1) / 2
     places = ring(wide, wide * float(rng.choice([1.0, rng.uniform(0.8, 1.0)])), per_side)
-    if (keyed or rng.random() < 0.25) and per_side > 2:
+    if per_side > 2 and (keyed or rng.random() < 0.25):
         places = np.delete(places, int(rng.integers(1, len(places))), axis=0)
     places = places - places.mean(axis=0)
     half = float(np.abs(places).max())
@@ -110,32 +109,18 @@ def random_camera(rng: np.random.Generator) -> CameraNoise:
     return noise
 
 
-def built_column(scenario: Scenario, number: int, keep: Path | None = None) -> Column:
-    """The column of a number; the same scenario and number give the same one, filters and slips the same scene.
-
-    Rendering takes longest: ``keep`` is a folder for what was rendered.
-    """
-    rendered = _rendered(scenario, number, keep)
+def built_column(scenario: Scenario, number: int) -> Column:
+    """The column of a number; the same scenario and number give the same one, filters and slips the same scene."""
+    words = (*scenario.site, *(name for name in ("keyed", "other", "bars_of") if getattr(scenario, name)))
+    rendered = _render(scenario, np.random.default_rng([zlib.crc32("-".join(words).encode()), number]))
     rng = np.random.default_rng([1, number])
     filters, slip = scenario.filters(rng), scenario.slip(rng)
     seen = [
-        told_scan(replace(scan, depth=filtered(scan.depth, filters)), replace(slip, floor=slip.floor or is_foot), rng)
+        told_scan(seen_with(replace(scan, depth=filtered(scan.depth, filters)), slip, rng, is_foot=is_foot), slip)
         for scan, is_foot in ((rendered.sleeves, True), (rendered.rebars, False))
     ]
     sleeves, rebars = seen[::-1] if slip.swapped else seen
     return replace(rendered, sleeves=sleeves, rebars=rebars, slip=slip)
-
-
-def _rendered(scenario: Scenario, number: int, keep: Path | None) -> Column:
-    words = (*scenario.site, *(name for name in ("keyed", "other", "bars_of") if getattr(scenario, name)))
-    path = None if keep is None else keep / f"{'-'.join(words) or 'plain'}-{number}.pickle"
-    if path is not None and path.exists():
-        column: Column = pickle.loads(path.read_bytes())
-        return column
-    column = _render(scenario, np.random.default_rng([zlib.crc32("-".join(words).encode()), number]))
-    if path is not None:
-        path.write_bytes(pickle.dumps(column))
-    return column
 
 
 def _render(scenario: Scenario, rng: np.random.Generator) -> Column:
@@ -144,7 +129,7 @@ def _render(scenario: Scenario, rng: np.random.Generator) -> Column:
     if scenario.other:
         foot = random_foot(_unlike(setting, rng), rng, _SPREAD_MM)
     if scenario.bars_of:
-        bars = replace(bars, bars=tuple(replace(b, core_diameter=b.core_diameter * 1.12) for b in bars.bars))
+        bars = replace(bars, bars=tuple(replace(b, core_diameter=b.core_diameter * 1.2) for b in bars.bars))
     foot = replace(foot, sleeves=tuple(replace(s, depth=_SEEN_DEPTH_MM) for s in foot.sleeves))
     foot, bars = left_by_site(scenario.site, foot, bars, rng)
     noise = random_camera(rng)

@@ -58,7 +58,8 @@ def errors_of(column: Column, report: ColumnReport, kind: Kind) -> Errors:
     for k, point in enumerate(group.points if group is not None else ()):
         if point.scan_mm is None or point.verdict is Verdict.NOT_MEASURED or k >= len(true):
             continue
-        assert group is not None and group.fit is not None
+        assert group is not None
+        assert group.fit is not None
         off = group.fit.T_design_scan[:2, :3] @ (np.array(point.scan_mm) - true[k])
         distance = float(np.hypot(*off))
         found += measurable[k]

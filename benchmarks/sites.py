@@ -1,4 +1,4 @@
-"""Sites and settings as they are: of each kind of trouble, how often it is noticed, named, and what it does to verdicts.
+"""Sites and settings as they are: how often each kind of trouble is noticed and named, and what it does to verdicts.
 
     python -m benchmarks.sites [--kinds NAME ...] [--cases 20] [--sound 200] [--first 0] [--why]
 
@@ -14,7 +14,6 @@ import time
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -24,7 +23,7 @@ from aadm_workbench.errors import ScanError
 from aadm_workbench.model import ColumnReport, Kind, Scan
 from aadm_workbench.scan.plausible import check_plausible
 from aadm_workbench.twin.filters import Filters
-from aadm_workbench.twin.slips import NO_SLIP, SLIPS
+from aadm_workbench.twin.slips import SLIPS
 from benchmarks.site_scenes import Column, Scenario, built_column
 from benchmarks.site_truth import Errors, errors_of, false_verdicts
 
@@ -139,11 +138,11 @@ def _told(scan: Scan, column: Column) -> Scan:
     return replace(scan, points=scan.points * scan.points.dtype.type(factor)) if factor != 1.0 else scan
 
 
-def tally(name: str, numbers: Sequence[int], *, keep: Path | None = None, why: bool = False) -> Tally:
+def tally(name: str, numbers: Sequence[int], *, why: bool = False) -> Tally:
     """Make and check the columns of a kind."""
     trouble, result = TROUBLES[name], Tally()
     for number in numbers:
-        column = built_column(trouble.scenario, number, keep)
+        column = built_column(trouble.scenario, number)
         began = time.perf_counter()
         report = checked(column)
         result.seconds += time.perf_counter() - began
@@ -218,14 +217,13 @@ def main() -> None:
     parser.add_argument("--cases", type=int, default=20)
     parser.add_argument("--sound", type=int, default=200)
     parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--keep", type=Path, metavar="DIR", help="a folder that is there, for what was rendered")
     parser.add_argument("--why", action="store_true", help="print what was said of each column")
     options = parser.parse_args()
     print(f"{platform.machine()}, Python {platform.python_version()}, numpy {np.__version__}")
     print(HEADER)
     for name in options.kinds:
         count = options.sound if name == "sound" else options.cases
-        result = tally(name, range(options.first, options.first + count), keep=options.keep, why=options.why)
+        result = tally(name, range(options.first, options.first + count), why=options.why)
         print(_row(name, result), flush=True)
         for text in result.false[:12]:
             print(f"      false: {text}")

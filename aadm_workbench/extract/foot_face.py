@@ -14,7 +14,7 @@ from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.patches import Patches
 from aadm_workbench.extract.plane import facing, find_planes, in_plane, refined_plane
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm
-from aadm_workbench.model import Array, Plane, Scan
+from aadm_workbench.model import Array, FloatArray, Plane, Scan
 
 FACE_BAND_MM = 1.5
 """About the plane of a face that is smooth."""
@@ -79,10 +79,12 @@ def _layer(plane: Plane, sample: Thinned, noise_mm: float) -> FootFace:
         return FootFace(plane)
     middle = refined_plane(some, plane, _ROUGH_INLIER_MM)
     low, high = _outer(middle, some)
-    return FootFace(middle, min(-RIM_DEPTH_MM, low - _MARGIN_MM), max(FACE_BAND_MM, high + _MARGIN_MM), rough=True, flat=False)
+    return FootFace(
+        middle, min(-RIM_DEPTH_MM, low - _MARGIN_MM), max(FACE_BAND_MM, high + _MARGIN_MM), rough=True, flat=False
+    )
 
 
-def _outer(plane: Plane, points: Array) -> tuple[float, float]:
+def _outer(plane: Plane, points: FloatArray) -> tuple[float, float]:
     height = plane.height(points)
     layer = height[np.abs(height) < _LAYER_MM]
     if not len(layer):

@@ -175,7 +175,9 @@ def _is_shallow(
     if not floored.any():
         return floored
     depth, inner = -patches.height.ravel()[at], floor.distance(centre) < _INSIDE[1] * radius_mm
-    middle_mm = np.array([np.median(depth[inner & (floor.owner == k)]) if floored[k] else 0.0 for k in range(len(centre))])
+    middle_mm = np.array(
+        [np.median(depth[inner & (floor.owner == k)]) if floored[k] else 0.0 for k in range(len(centre))]
+    )
     unlike_plug = agreeing_shares(shape, centre, radius_mm) < _PLUG_ROUND
     return np.asarray(floored & ((middle_mm < _SPALL_MM) | unlike_plug))
 

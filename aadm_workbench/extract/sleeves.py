@@ -94,7 +94,9 @@ def extract_sleeves(
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
     if scan.viewpoint is None:
         face, centres = _facing_away_from_walls(face, centres, sample, diameter_mm / 2)
-        layer = layer if face is layer.plane else replace(layer, plane=face, low_mm=-layer.high_mm, high_mm=-layer.low_mm)
+        layer = (
+            layer if face is layer.plane else replace(layer, plane=face, low_mm=-layer.high_mm, high_mm=-layer.low_mm)
+        )
     patches = patches_around(scan, sample, face, centres, diameter_mm / 2 + REACH_MM)
     if not layer.rough:
         patches, ringed = level_with_rings(patches, diameter_mm / 2)

@@ -24,9 +24,7 @@ def rough_block(size: tuple[float, float], height: float, roughness: Roughness) 
     x, y = (np.linspace(-side / 2, side / 2, int(np.ceil(side / step_mm)) + 1) for side in size)
     below = rough_heights(x, y, roughness)
     plan = np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)
-    vertices = np.vstack(
-        [np.column_stack([plan, below.ravel()]), np.column_stack([plan, np.full(len(plan), height)])]
-    )
+    vertices = np.vstack([np.column_stack([plan, below.ravel()]), np.column_stack([plan, np.full(len(plan), height)])])
     mesh = manifold3d.Mesh(vertices.astype(np.float32), _closed(len(y), len(x)).astype(np.uint32))
     return manifold3d.Manifold(mesh)
 

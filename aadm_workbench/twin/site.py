@@ -65,7 +65,9 @@ def _taped_and_spalled(foot: Foot, bars: BarGroup, rng: np.random.Generator) -> 
     sleeves = list(foot.sleeves)
     for k in _some(len(sleeves), rng):
         sleeve = sleeves[k]
-        sleeves[k] = replace(sleeve, taped=1.0, chip=float(rng.uniform(0.7, 1.1)) * sleeve.diameter, chip_direction=_turn(rng))
+        sleeves[k] = replace(
+            sleeve, taped=1.0, chip=float(rng.uniform(0.7, 1.1)) * sleeve.diameter, chip_direction=_turn(rng)
+        )
     return replace(foot, sleeves=tuple(sleeves)), bars
 
 
@@ -117,16 +119,28 @@ SITE: Mapping[str, Change] = MappingProxyType(
 )
 """What a site does, by name. Lengths in mm, as the notes on them were seen:
 
-``rough`` feet washed to 6 to 8 mm, ``keyed`` ones with pockets, both up to the mouths; ``spalls`` beside a quarter of the
-mouths; ``taped-spalls``, where that quarter is under tape as well; ``proud-rings`` 2 mm before the face; ``plugs`` 10 mm
-inside; ``burrs`` of 0.6 to 1.4 mm on one side of half of the bars; ``caps`` of plastic on a quarter; ``kinks`` of a
+``rough`` feet washed to 6 to 8 mm, ``keyed`` ones with pockets, both up to the mouths; ``spalls`` beside a quarter of
+the mouths; ``taped-spalls``, where that quarter is under tape as well; ``proud-rings`` 2 mm before the face; ``plugs``
+10 mm inside; ``burrs`` of 0.6 to 1.4 mm on one side of half of the bars; ``caps`` of plastic on a quarter; ``kinks`` of a
 quarter; ``leans`` of 3 degrees of a quarter; ``two-heights``, every other bar 30 to 80 mm longer.
 """
 
 
-def left_by_site(
-    names: Sequence[str], foot: Foot, bars: BarGroup, rng: np.random.Generator
-) -> tuple[Foot, BarGroup]:
+def known_site(names: Sequence[str]) -> Sequence[str]:
+    """The names themselves, each one of :data:`SITE`.
+
+    Raises
+    ------
+    AadmError
+        Where one is not.
+    """
+    for name in names:
+        if name not in SITE:
+            raise AadmError(f"--site {name}: no site does that; there are {', '.join(SITE)}")
+    return names
+
+
+def left_by_site(names: Sequence[str], foot: Foot, bars: BarGroup, rng: np.random.Generator) -> tuple[Foot, BarGroup]:
     """A foot and its bars after a site did some things to them, in the order of their names.
 
     Raises
@@ -134,8 +148,6 @@ def left_by_site(
     AadmError
         Where a name is none of :data:`SITE`.
     """
-    for name in names:
-        if name not in SITE:
-            raise AadmError(f"--site {name}: no site does that; there are {', '.join(SITE)}")
+    for name in known_site(names):
         foot, bars = SITE[name](foot, bars, rng)
     return foot, bars

@@ -1,4 +1,4 @@
-"""What goes wrong between a camera and a job: a lens, a unit or a name that is not the scan's, and what is not in view."""
+"""What goes wrong between a camera and a job: a lens, a unit or a name that is not the scan's, and what is not seen."""
 
 from __future__ import annotations
 
@@ -86,12 +86,17 @@ def told_camera(camera: Camera, slip: Slip) -> Camera:
     )
 
 
-def told_scan(scan: TrueScan, slip: Slip, rng: np.random.Generator) -> TrueScan:
-    """The scan as the job tells of it: its depth map and its camera; the truth remains that of the scene."""
-    depth = scan.depth if slip.floor else _without_floor(scan)
+def seen_with(scan: TrueScan, slip: Slip, rng: np.random.Generator, *, is_foot: bool = False) -> TrueScan:
+    """The scan with what a slip does to scans themselves: outliers, and no floor under bars."""
+    depth = scan.depth if slip.floor or is_foot else _without_floor(scan)
     if slip.outliers:
         depth = _strewn(depth, slip.outliers, rng)
-    return replace(scan, depth=depth * np.float32(slip.lengths), camera=told_camera(scan.camera, slip))
+    return replace(scan, depth=depth)
+
+
+def told_scan(scan: TrueScan, slip: Slip) -> TrueScan:
+    """The scan as the job tells of it: its lengths and its camera; the truth remains that of the scene."""
+    return replace(scan, depth=scan.depth * np.float32(slip.lengths), camera=told_camera(scan.camera, slip))
 
 
 def _without_floor(scan: TrueScan) -> Depth:

@@ -18,7 +18,7 @@ from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.model import Array, Finding, Kind
 
 LEAST_DEG = 0.8
-"""Floors, and feet, are square to their columns' axes to half of that; a single bar or sleeve leans by 0.3° by right."""
+"""Floors, and feet, are square to their columns to half of that; a single bar or sleeve leans by 0.3° by right."""
 
 _FEWEST = 4
 _SIGMAS = 6.0

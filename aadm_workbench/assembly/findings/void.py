@@ -16,19 +16,20 @@ from aadm_workbench.model import (
     Verdict,
 )
 
-SPOILS_LENGTHS = ("scale_differs",)
-"""A part in a hundred moves a point at the corner of a column by millimetres, whoever is to blame."""
+TAKES_BACK = ("scale_differs", "other_column")
+"""A part in a hundred moves a point at the corner of a column by millimetres, whoever is to blame; and some points of
+another column lie on this one by chance."""
 
 
 def without_spoilt(report: ColumnReport, findings: Sequence[Finding], checks: Sequence[str]) -> ColumnReport:
-    """The report with nothing decided on lengths that a finding says are wrong: its points are not measured.
+    """The report with nothing decided on groups that a finding takes back: their points are not measured.
 
     Parameters
     ----------
     checks
         What the verdict of the column counts: ``sleeves``, ``rebars``, ``trial``.
     """
-    reason = {name: one.text for one in findings if one.code in SPOILS_LENGTHS for name in one.about}
+    reason = {name: one.text for one in findings if one.code in TAKES_BACK for name in one.about}
     if not reason:
         return report
     sleeves, rebars = (
