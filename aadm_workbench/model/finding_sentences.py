@@ -57,8 +57,8 @@ FINDING_SENTENCES: dict[str, Sentence] = {
     ),
     "scale_differs.focal": Sentence(
         "the {group} lie on their design, with their sizes, once the focal length is taken as {times:.2g} times what "
-        "the job says: fx and fy in [camera] are those of another camera, or of another resolution; take the intrinsics "
-        "that the camera's software exports with the scans",
+        "the job says: fx and fy in [camera] are those of another camera, or of another resolution; take the "
+        "intrinsics that the camera's software exports with the scans",
         "只有把焦距取为任务所给的 {times:.2g} 倍时,{group} 的位置和尺寸才与设计吻合:[camera] 中的 fx、fy "
         "是另一台相机或另一分辨率的内参;请采用相机软件随扫描导出的内参",
     ),
@@ -75,8 +75,8 @@ FINDING_SENTENCES: dict[str, Sentence] = {
     ),
     "common_lean.camera": Sentence(
         "all sleeves lean by {sleeves_deg:.1f}° and all bars by {rebars_deg:.1f}° towards the same side of their "
-        "images: the principal point of the camera (cx, cy in [camera]) is not that of these scans, or the image was cropped; "
-        "take the intrinsics that the camera's software exports with the scans",
+        "images: the principal point of the camera (cx, cy in [camera]) is not that of these scans, or the image was "
+        "cropped; take the intrinsics that the camera's software exports with the scans",
         "全部套筒倾斜 {sleeves_deg:.1f}°、全部钢筋倾斜 {rebars_deg:.1f}°,且朝向图像同一侧:"
         "相机主点([camera] 中的 cx、cy)与扫描不符,或图像被裁剪过;请采用相机软件随扫描导出的内参",
     ),
@@ -100,10 +100,10 @@ FINDING_SENTENCES: dict[str, Sentence] = {
     ),
     "gaps_filled": Sentence(
         "the scan of the {group} has surfaces where nothing is, between edges and what lies behind them: what was not "
-        "measured was filled in. Turn hole filling off in the camera's software (gap filling, interpolation) and scan "
-        "again",
-        "{group} 的扫描在边缘与其后方之间有并不存在的表面:未测到处被填补。请在相机软件中关闭孔洞填充"
-        "(补洞、插值,即 hole filling / gap filling)后重新扫描",
+        "measured was filled in, or edges were fattened. Turn hole filling off in the camera's software (gap filling, "
+        "interpolation, dilation) and scan again",
+        "{group} 的扫描在边缘与其后方之间有并不存在的表面:未测到处被填补,或边缘被加粗。请在相机软件中关闭孔洞填充"
+        "(补洞、插值、膨胀,即 hole filling / gap filling)后重新扫描",
     ),
     "exposed_length_differs.short": Sentence(
         "{about} sticks out {measured_mm:.0f} mm where {expected_mm:.0f} mm are expected ({of}): it is cut off or bent "

@@ -48,7 +48,8 @@ class BarAsBuilt:
     (x, y, top) is where the axis of the core meets the top: the bar's centre. ``bend`` is how far its top is bent
     off the line on which the bar leaves the floor: in a curve from there on, or at a kink ``kinked_at`` below the top.
     ``cap`` is the thickness of a plastic cap that covers the top and 25 mm of the bar below it. ``burr`` is what
-    shearing pushed out at the top: all around, or most towards ``burr_direction``. ``rust`` is the share of the top that returns no light, a sector about
+    shearing pushed out at the top: all around, or most towards ``burr_direction``. ``rust`` is the share of the
+    top that returns no light, a sector about
     ``rust_direction``; ``missing_top`` the depth of a piece broken off its +x side.
     """
 

@@ -121,8 +121,8 @@ SITE: Mapping[str, Change] = MappingProxyType(
 
 ``rough`` feet washed to 6 to 8 mm, ``keyed`` ones with pockets, both up to the mouths; ``spalls`` beside a quarter of
 the mouths; ``taped-spalls``, where that quarter is under tape as well; ``proud-rings`` 2 mm before the face; ``plugs``
-10 mm inside; ``burrs`` of 0.6 to 1.4 mm on one side of half of the bars; ``caps`` of plastic on a quarter; ``kinks`` of a
-quarter; ``leans`` of 3 degrees of a quarter; ``two-heights``, every other bar 30 to 80 mm longer.
+10 mm inside; ``burrs`` of 0.6 to 1.4 mm on one side of half of the bars; ``caps`` of plastic on a quarter; ``kinks``
+of a quarter; ``leans`` of 3 degrees of a quarter; ``two-heights``, every other bar 30 to 80 mm longer.
 """
 
 

@@ -18,7 +18,7 @@ UNIT_FACTORS = (10.0, 0.1, 100.0, 0.01, 25.4, 1.0 / 25.4)
 """By which lengths of scans have been too large: slips of a decimal, inches. A thousand is refused when it is read."""
 
 FOCAL_FACTORS = (0.5, 2.0, 1.11, 0.9, 1.25, 0.8, 1.43, 0.7)
-"""Of what the job says to what the camera has: a picture of half the resolution, and steps of what a size may be off."""
+"""Of what the job says to what the camera has: a picture of half the resolution, and steps of a hole's play."""
 
 _USUAL_DISTANCE_MM = (250.0, 4000.0)  # of cameras that see a sleeve by the tenth of a millimetre
 
