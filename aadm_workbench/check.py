@@ -132,7 +132,7 @@ def check_column(
     seen = {kind: Seen(_seen(design, kind, scans, measured[kind]), scans.of(kind)[0]) for kind in measured}
     rng = np.random.default_rng([settings.seed, 4])
     with stage("assembly"):
-        return with_findings(report, design, seen, method=settings.method, rng=rng, others=scans.others)
+        return with_findings(report, design, seen, method=settings.method, rng=rng, others=scans.others, checks=checks)
 
 
 def _seen(design: ColumnDesign, kind: Kind, scans: ColumnScans, measured: Measured) -> SeenGroup:

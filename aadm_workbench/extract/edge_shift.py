@@ -44,6 +44,7 @@ _OWN_PITCHES, _ERODED_OWN_PITCHES = 0.05, 0.10  # what each disc errs by itself,
 _BEND_SHIFT = 0.09  # of the bend: what narrow bands lose on the side that bends away
 _ALONG_BASE_PITCHES, _ACROSS_BASE_PITCHES = 0.07, 0.05
 _ERODED_BASE = 0.10, 0.28  # pitches a ring, mean and spread: filters see a step where the wall behind it is lit
+_FIRST_RING, _SECOND_RING_PITCHES = 1.2, 0.8  # eroded by more: what the second ring takes hangs on walls behind it
 _BENT_VIEW_MM, _BENT_VIEW_SPREAD_MM = 0.10, 0.15  # per unit of slope, beyond the wall that bands take in
 _ERODED_BENT_VIEW, _ERODED_BENT_FROM = 0.25, 0.6  # the wall near the face goes with the second ring
 _NEARER_TAKES_LESS = 1.3  # seen from nearer, less of the wall is taken in: measured at 0.8 m and at 1.3 m
@@ -54,6 +55,7 @@ _USUAL_STEP_PITCHES = 0.4  # a camera that loses half of the pixels at steps see
 _USUAL_GAP_PITCHES = 2.0  # one to two pixels lie between a top and what passed it; half of them lost, more
 _SHARP_MOUTH_VIEW, _ERODED_MOUTH_VIEW = (-0.08, 0.14), (-0.60, 0.40)
 _SHARP_TOP_VIEW, _BENT_TOP_VIEW, _ERODED_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33), (-0.80, 0.15)
+_ERODED_MOUTH_BASE_PITCHES = 0.45  # a ring: taken where the projector lights the wall, and not in its shadow
 _ERODED_MOUTH_OWN_PITCHES = 0.22  # half rims stand on fewer points, and on fewer points of the bore
 _RADIUS_U_PITCHES = 0.15  # of a radius where no ring is lost
 _SHARED_UNKNOWNS = 3  # a shift, and a part along the view
@@ -180,12 +182,13 @@ def bent_discs(lines: SightLines, centre: Array, radius_mm: float, bend: Bend) -
     moved = mean + taken_in_mm * along_view + _BEND_SHIFT * bend.towards
     moved -= _ERODED_BASE[0] * eroded * pitch_mm * along_base
     own_mm = (_OWN_PITCHES + _ERODED_OWN_PITCHES * eroded) * pitch_mm
+    rings_mm = _SECOND_RING_PITCHES * max(0.0, eroded - _FIRST_RING) * pitch_mm
     own = _COUNTING**2 * np.mean([fit.covariance for fit in fits], axis=0) + own_mm**2 * np.eye(2)
     base_mm = (_ALONG_BASE_PITCHES + _ERODED_BASE[1] * eroded) * pitch_mm
     view_mm = _BENT_VIEW_SPREAD_MM + _ERODED_BENT_VIEW * eroded
     shared = (
         base_mm**2 * np.outer(along_base, along_base)
-        + (_ACROSS_BASE_PITCHES * pitch_mm) ** 2 * np.eye(2)
+        + ((_ACROSS_BASE_PITCHES * pitch_mm) ** 2 + rings_mm**2) * np.eye(2)
         + view_mm**2 * along_view[:, :, None] * along_view[:, None, :]
     )
     radius = middle.radius + side * _OVERHANG_PITCHES * pitch_mm
@@ -251,16 +254,29 @@ def shift_of_mouths(
     lines of sight find the face tells how much. Where the ``centre`` (k, 2) of sleeves and those of what is ``seen``
     differ by more than what all share, nobody knows which is right. ``seen`` is of those that are ``whole`` (k,).
     """
-    eroded = max(0.0, (seen.radius - radius_mm) / bend.pitch_mm - _USUAL_STEP_PITCHES)
-    view_mm = _SHARP_MOUTH_VIEW[0] + _ERODED_MOUTH_VIEW[0] * eroded
-    spread_mm = (_SHARP_MOUTH_VIEW[1] + _ERODED_MOUTH_VIEW[1] * eroded) * max(1.0, bend.pitch_mm / _USUAL_PITCH_MM)
     noise_mm = _NOISE_SHARE * max(0.0, bend.inner_mm - _NOISE_FROM_MM)
     apart_mm = _APART_SHARE * max(
         0.0, _apart_mm(slope[whole], centre[whole] - seen.centre) - _APART_PITCHES * bend.pitch_mm
     )
-    own_mm = float(np.linalg.norm([_ERODED_MOUTH_OWN_PITCHES * eroded * bend.pitch_mm, noise_mm, apart_mm]))
-    shared = own_mm**2 * np.eye(2) + spread_mm**2 * slope[:, :, None] * slope[:, None, :]
-    return Shift(view_mm * slope, shared, _radius_u_mm(bend.pitch_mm, eroded))
+    own_mm = float(np.hypot(noise_mm, apart_mm))
+    return _shift_of_eroded(slope, (seen.radius - radius_mm) / bend.pitch_mm, bend.pitch_mm, own_mm)
+
+
+def shift_of_rims(slope: Array, rims: Outlines, centre: Array, radius_mm: float, pitch_mm: float) -> Shift:
+    """The same where no mouth is whole, which lines of sight could tell of: by the rims (k, bins) themselves."""
+    behind_mm = (rims.distance(centre) - radius_mm)[rims.seen]
+    pitches = float(np.median(behind_mm)) / pitch_mm if len(behind_mm) else 0.0
+    return _shift_of_eroded(slope, pitches, pitch_mm, 0.0)
+
+
+def _shift_of_eroded(slope: Array, behind_pitches: float, pitch_mm: float, own_mm: float) -> Shift:
+    """The shift where rims stand so far behind the edge; ``own_mm`` is what each centre may be off besides."""
+    eroded = max(0.0, behind_pitches - _USUAL_STEP_PITCHES)
+    view_mm = _SHARP_MOUTH_VIEW[0] + _ERODED_MOUTH_VIEW[0] * eroded
+    spread_mm = (_SHARP_MOUTH_VIEW[1] + _ERODED_MOUTH_VIEW[1] * eroded) * max(1.0, pitch_mm / _USUAL_PITCH_MM)
+    ring_mm = float(np.hypot(_ERODED_MOUTH_OWN_PITCHES, _ERODED_MOUTH_BASE_PITCHES)) * eroded * pitch_mm
+    shared = (ring_mm**2 + own_mm**2) * np.eye(2) + spread_mm**2 * slope[:, :, None] * slope[:, None, :]
+    return Shift(view_mm * slope, shared, _radius_u_mm(pitch_mm, eroded))
 
 
 def _apart_mm(slope: Array, apart: Array) -> float:

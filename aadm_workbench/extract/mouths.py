@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.extract.circle import settled_centres
+from aadm_workbench.extract.circle import agreeing_shares, settled_centres
+from aadm_workbench.extract.foot_face import FACE_BAND_MM, RIM_DEPTH_MM, FootFace
 from aadm_workbench.extract.outlines import Outlines, bins_for, outlines
 from aadm_workbench.extract.patches import Patches
 from aadm_workbench.extract.plan_points import PlanPoints, in_rows, thinned_rows
@@ -18,13 +19,12 @@ REACH_MM = 4.0
 WALL_DEPTH_MM = (2.0, 120.0)
 """Where behind the face a bore is looked for."""
 
-_FACE_BAND_MM = 1.5
-_RIM_DEPTH_MM = 2.5  # a chamfer ends less far behind the face
 _RIM_ZONE = 0.5  # of the radius
 _UPPER_WALL_MM = (1.0, 12.0)
 _WALL_BAND_MM = 2.0  # about the nominal radius
 _WALL_POINTS_MAX = 350
 _SECTORS, _OPEN_SECTORS, _CLOSED_SHARE, _INSIDE = 12, 4, 0.15, (0.2, 0.75)
+_FLOOR_MM, _SPALL_MM, _PLUG_ROUND = 15.0, 5.0, 0.6  # plugs sit deeper than spalls, and their rims are round
 _OPPOSITE_COSINE = 0.3
 _COVERAGE_MIN = 0.35
 
@@ -55,20 +55,27 @@ class Mouths:
 
 
 def mouths_in(
-    patches: Patches, places: Array, radius_mm: float, pitch_mm: float, others_mm: tuple[float, ...] = ()
+    patches: Patches,
+    places: Array,
+    radius_mm: float,
+    pitch_mm: float,
+    others_mm: tuple[float, ...] = (),
+    face: FootFace | None = None,
 ) -> Mouths:
     """The open mouths of a radius among patches around places (k, 2) mm of the face, but for those of other radii."""
+    low_mm, high_mm = (-RIM_DEPTH_MM, FACE_BAND_MM) if face is None else (face.low_mm, face.high_mm)
     bins = bins_for(radius_mm, pitch_mm)
     near = patches.x * patches.x + patches.y * patches.y < (radius_mm + 2 * REACH_MM) ** 2
-    front = near & (patches.height > -_RIM_DEPTH_MM)
-    rim = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front & (patches.height < _FACE_BAND_MM)))
+    front = near & (patches.height > low_mm)
+    rim = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front & (patches.height < high_mm)))
     zone_mm = _RIM_ZONE * radius_mm, radius_mm + REACH_MM
     start = np.zeros((len(places), 2))
     centre, other = settled_centres(rim, start, radius_mm, bins, zone_mm, innermost=True, others_mm=others_mm)
     close = rim.where(np.abs(rim.distance(centre) - radius_mm) < _WALL_BAND_MM + 1.0)
     shape = outlines(close, centre, bins, innermost=True)
-    inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front & ~_ghosts(patches, front)))
+    inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front & ~_ghosts(patches, front, high_mm)))
     kept = ~other & (shape.coverage >= _COVERAGE_MIN) & ~_closed(inside, centre, radius_mm, pitch_mm)
+    kept &= ~_is_shallow(patches, near & ~front, shape, centre, radius_mm, pitch_mm)
     bores = _bores(patches, centre, radius_mm, near)
     upper = (bores.depth > _UPPER_WALL_MM[0]) & (bores.depth < _UPPER_WALL_MM[1])
     rims = shape.only(~_shown(bores.points.where(upper), centre, bins))
@@ -79,9 +86,9 @@ def mouths_in(
     )
 
 
-def _ghosts(patches: Patches, front: BoolArray) -> BoolArray:
+def _ghosts(patches: Patches, front: BoolArray, high_mm: float) -> BoolArray:
     """Which points (k, n) hang in the air before the face, as before unlit walls: they close no mouth."""
-    above = np.flatnonzero(front & (patches.height > _FACE_BAND_MM))
+    above = np.flatnonzero(front & (patches.height > high_mm))
     ghosts = np.zeros(front.size, bool)
     ghosts[above] = ~patches.borne(above)
     return ghosts.reshape(front.shape)
@@ -142,13 +149,37 @@ def _closed(inside: PlanPoints, centre: Array, radius_mm: float, pitch_mm: float
 
     A tape over half of a mouth leaves whole sectors of it open; a plug leaves none.
     """
+    return _filled_sectors(inside, centre, radius_mm, pitch_mm) > _SECTORS - _OPEN_SECTORS
+
+
+def _filled_sectors(inside: PlanPoints, centre: Array, radius_mm: float, pitch_mm: float) -> IntArray:
+    """How many (k,) sectors of the inner part of each mouth hold points."""
     radius = inside.distance(centre)
     low, high = _INSIDE
     inside = inside.where((radius > low * radius_mm) & (radius < high * radius_mm))
     cells = inside.owner * _SECTORS + inside.bins(centre, _SECTORS)
     counts = np.bincount(cells, minlength=inside.features * _SECTORS).reshape(-1, _SECTORS)
     expected = np.pi * (high**2 - low**2) * (radius_mm / pitch_mm) ** 2 / _SECTORS
-    return np.asarray((counts > _CLOSED_SHARE * expected).sum(axis=1) > _SECTORS - _OPEN_SECTORS)
+    return np.asarray((counts > _CLOSED_SHARE * expected).sum(axis=1))
+
+
+def _is_shallow(
+    patches: Patches, behind: BoolArray, shape: Outlines, centre: Array, radius_mm: float, pitch_mm: float
+) -> BoolArray:
+    """Where (k,) a floor shows a few mm behind the face, and no plug has it: spalls and keys, which are no mouths."""
+    at = np.flatnonzero(behind & (patches.height > -_FLOOR_MM))
+    if not len(at):
+        return np.zeros(len(centre), bool)
+    floor = PlanPoints.of(patches.x, patches.y, at)
+    floored = _filled_sectors(floor, centre, radius_mm, pitch_mm) > _SECTORS - _OPEN_SECTORS
+    if not floored.any():
+        return floored
+    depth, inner = -patches.height.ravel()[at], floor.distance(centre) < _INSIDE[1] * radius_mm
+    middle_mm = np.array(
+        [np.median(depth[inner & (floor.owner == k)]) if floored[k] else 0.0 for k in range(len(centre))]
+    )
+    unlike_plug = agreeing_shares(shape, centre, radius_mm) < _PLUG_ROUND
+    return np.asarray(floored & ((middle_mm < _SPALL_MM) | unlike_plug))
 
 
 def _shown(points: PlanPoints, centre: Array, bins: int, reach: int = 2) -> BoolArray:

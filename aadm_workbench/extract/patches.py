@@ -6,7 +6,7 @@ is); without a viewpoint by its plan position.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -45,6 +45,21 @@ class Patches:
         eye = None if self.eye is None else self.eye[chosen]
         seen = (None if part is None else part[chosen] for part in (self.seen_x, self.seen_y))
         return Patches(self.x[chosen], self.y[chosen], self.height[chosen], eye, self.columns, *seen)
+
+    def raised(self, rise_mm: Array) -> Patches:
+        """The patches over planes that lie so much (k,) above their own, along the normal."""
+        rise = rise_mm[:, None].astype(np.float32)
+        if self.eye is None:
+            return replace(self, height=self.height - rise)
+        eye = self.eye - np.column_stack([np.zeros((len(rise_mm), 2)), rise_mm])
+        if self.seen_x is None or self.seen_y is None:
+            return replace(self, height=self.height - rise, eye=eye)
+        share = (rise_mm / self.eye[:, 2])[:, None].astype(np.float32)
+        seen = (
+            part + share * (self.eye[:, axis : axis + 1].astype(np.float32) - part)
+            for axis, part in enumerate((self.seen_x, self.seen_y))
+        )
+        return Patches(self.x, self.y, self.height - rise, eye, self.columns, *seen)
 
     def borne(self, chosen: IntArray) -> BoolArray:
         """Which of some points (m,) - indices into the flattened patches - have others beside them at a like depth.

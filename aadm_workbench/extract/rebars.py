@@ -14,7 +14,8 @@ from scipy.special import expit
 
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
-from aadm_workbench.extract.edge_shift import BLURRED, Bend, bend_at_edges, eroded_rings, no_bend, shift_of_tops
+from aadm_workbench.extract.edge_shift import Bend, bend_at_edges, eroded_rings, no_bend, shift_of_tops
+from aadm_workbench.extract.filter_signs import filter_signs
 from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
 from aadm_workbench.extract.plane import in_plane
@@ -130,8 +131,10 @@ def _measured(
         return f"no bar of {sizes_mm[0]:g} mm has a top that could be measured"
     lines = _lines(patches, planes, tops)
     bend = _bend(lines, tops, radius_mm)
-    if bend.blurred:
-        return BLURRED
+    pitch_mm = float(np.median(tops.pitch_mm))
+    signs = filter_signs(patches.of(tops.kept), tops.centre, radius_mm, pitch_mm, -1.0)
+    if reason := signs.reason(blurred=bend.blurred):
+        return reason
     if bend.bent:
         wide = tops_in(patches, centres, radius_mm, rng, tuple(others_mm), beside, planes, BENT_TOP_BAND_MM)
         if len(wide.place):

@@ -9,6 +9,7 @@ import numpy as np
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Scan
 
 _CELLS_MAX = 4_000_000
+_LIKE_MM, _COMPANY, _ALONE = 20.0, 1, 4.0  # seen steeply, the side of a bar falls by so much between thinned pixels
 _CELL_MM, _ENOUGH = 12.0, 20_000
 
 
@@ -30,6 +31,31 @@ class Thinned:
         """Row and column (m, 2) of each point of an organised scan."""
         assert self.taken is not None
         return np.argwhere(self.taken) * self.stride
+
+
+def in_company(sample: Thinned, height: FloatArray, chosen: BoolArray) -> BoolArray:
+    """Which of the chosen points (m,) have others beside them at a like height (m,); the rest hang in the air alone."""
+    at = np.flatnonzero(chosen)
+    kept = np.zeros(len(height), bool)
+    if sample.taken is None:
+        kept[at] = _near_others(sample.points[at])
+        return kept
+    grid = np.full(np.add(sample.taken.shape, 2), np.nan, height.dtype)
+    grid[1:-1, 1:-1][sample.taken] = height
+    rows, columns = (part[at] + 1 for part in np.nonzero(sample.taken))
+    beside = [(down, right) for down in (-1, 0, 1) for right in (-1, 0, 1) if down or right]
+    like = sum(np.abs(grid[rows + down, columns + right] - height[at]) < _LIKE_MM for down, right in beside)
+    kept[at] = np.asarray(like) >= _COMPANY
+    return kept
+
+
+def _near_others(points: FloatArray) -> BoolArray:
+    from scipy.spatial import cKDTree
+
+    if len(points) <= _COMPANY:
+        return np.zeros(len(points), bool)
+    distance = cKDTree(points).query(points, k=_COMPANY + 1)[0][:, -1]
+    return np.asarray(distance < _ALONE * np.median(distance))
 
 
 def thinned(scan: Scan, wanted: int, rng: np.random.Generator) -> Thinned:

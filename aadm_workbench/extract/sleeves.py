@@ -12,22 +12,29 @@ import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM
 from aadm_workbench.extract.edge_law import BracketLaw, RimLaw
-from aadm_workbench.extract.edge_shift import BLURRED, BentDiscs, bend_at_edges, bent_discs, shift_of_mouths
+from aadm_workbench.extract.edge_shift import (
+    BentDiscs,
+    Shift,
+    bend_at_edges,
+    bent_discs,
+    shift_of_mouths,
+    shift_of_rims,
+)
+from aadm_workbench.extract.filter_signs import filter_signs
+from aadm_workbench.extract.foot_face import FACE_BAND_MM, FootFace, face_with_holes, level_with_rings
 from aadm_workbench.extract.found_points import found_points, seen_lengths
-from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouths_in
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
-from aadm_workbench.extract.plane import facing, find_planes, from_plane, in_plane, near, turned_over
+from aadm_workbench.extract.plane import from_plane, in_plane, turned_over
 from aadm_workbench.extract.pooled import Evidence, PooledFit, fit_pooled, settled
 from aadm_workbench.extract.pooled_system import PUSH, WALL, Priors, State
-from aadm_workbench.extract.sample import Thinned, point_pitch_mm, thinned
+from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.extract.seen_disc import SeenDiscs, seen_discs
 from aadm_workbench.extract.sight_lines import SightLines, sight_lines_on_face
 from aadm_workbench.extract.witnesses import Rims, Walls, WallTerms
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, Kind, Plane, Scan
 
 _SAMPLE = 90_000
-_FACE_BAND_MM = 1.5
 _WALL_COUNT_MIN = 20
 _WALL_LAW = BracketLaw(0.08, 0.4)  # many points lie on ribs, which only ever stand inwards
 _TAIL_PITCHES, _TAIL_TO_KEPT, _USUALLY_KEPT = 6.0, 1.5, 0.7
@@ -41,6 +48,7 @@ _RIM_TO_WALL_PITCHES = 0.05
 _BENT_PRIORS = Priors(radius=0.15, push=0.6, own_push=0.4)  # light that bounces pushes each bore's wall its own way
 _FIT_SHARE = 0.8  # the fit's own covariance has neighbours share more of their errors than they do
 _WEAR_PITCHES = 0.04  # how far rims may be worn away unnoticed; it shifts centres along the view
+_ROUGH_U_MM = 0.1  # grains at the rim of a roughened foot, each mouth by itself
 _FOREIGN = 0.01  # share of outline points that are flying pixels or dirt
 _SOUND_SHARE = 0.3
 _RADIUS_MISFIT = 0.08  # relative: a hole this much larger or smaller than nominal is no sleeve
@@ -74,10 +82,11 @@ def extract_sleeves(
         With an empty ``points`` and a ``reason`` where no face or no hole was found.
     """
     sample = thinned(scan, _SAMPLE, rng)
-    found = _face_with_holes(scan, sample, diameter_mm / 2, rng)
+    found = face_with_holes(scan, sample, diameter_mm / 2, rng)
     if found is None:
         return Extraction(Kind.SLEEVE, "refined", (), None, None, reason="no flat foot face was found in the scan")
-    face, centres, pitch_mm = found
+    layer, centres, pitch_mm = found
+    face = layer.plane
     if places is not None and len(places):
         centres = with_places(centres, in_plane(places, face)[:, :2], diameter_mm / 2)
     if len(centres) == 0:
@@ -85,28 +94,15 @@ def extract_sleeves(
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
     if scan.viewpoint is None:
         face, centres = _facing_away_from_walls(face, centres, sample, diameter_mm / 2)
+        layer = (
+            layer if face is layer.plane else replace(layer, plane=face, low_mm=-layer.high_mm, high_mm=-layer.low_mm)
+        )
     patches = patches_around(scan, sample, face, centres, diameter_mm / 2 + REACH_MM)
-    mouths = mouths_in(patches, centres, diameter_mm / 2, pitch_mm, tuple(other / 2 for other in others_mm))
-    return _measured(mouths, patches, face, diameter_mm, pitch_mm)
-
-
-def _face_with_holes(
-    scan: Scan, sample: Thinned, radius_mm: float, rng: np.random.Generator
-) -> tuple[Plane, Array, float] | None:
-    """The plane with most holes of the right size among the largest ones."""
-    best: tuple[Plane, Array, float] | None = None
-    for plane in find_planes(sample.points, rng, 3):
-        face = plane if scan.viewpoint is None else facing(plane, scan.viewpoint)
-        local = in_plane(sample.points[near(sample.points, face, _FACE_BAND_MM)], face)[:, :2]
-        pitch_mm = point_pitch_mm(sample, local)
-        spacing_mm = pitch_mm / np.sqrt(sample.share)
-        raster = rastered(local, max(radius_mm / 12, 1.3 * spacing_mm), 3 * radius_mm)
-        centres, _ = find_discs(raster, radius_mm, holes=True)
-        if best is None or len(centres) > len(best[1]):
-            best = (face, centres, pitch_mm)
-        if len(centres) >= 3:
-            break
-    return best
+    if not layer.rough:
+        patches, ringed = level_with_rings(patches, diameter_mm / 2)
+        layer = replace(layer, flat=not ringed)
+    mouths = mouths_in(patches, centres, diameter_mm / 2, pitch_mm, tuple(other / 2 for other in others_mm), layer)
+    return _measured(mouths, patches, layer, diameter_mm, pitch_mm)
 
 
 def _facing_away_from_walls(face: Plane, centres: Array, sample: Thinned, radius_mm: float) -> tuple[Plane, Array]:
@@ -123,13 +119,19 @@ def _facing_away_from_walls(face: Plane, centres: Array, sample: Thinned, radius
     return over, in_plane(lifted, over)[:, :2]
 
 
-def _measured(mouths: Mouths, patches: Patches, face: Plane, diameter_mm: float, pitch_mm: float) -> Extraction:
+def _measured(mouths: Mouths, patches: Patches, layer: FootFace, diameter_mm: float, pitch_mm: float) -> Extraction:
+    face = layer.plane
     if len(mouths.place) == 0:
         reason = f"no hole of {diameter_mm:g} mm in the face could be measured"
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
-    fit = _fit(mouths, sight_lines_on_face(patches.of(mouths.kept)), diameter_mm, pitch_mm)
-    if fit is None:
-        return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=BLURRED)
+    own = patches.of(mouths.kept)
+    lines = sight_lines_on_face(own) if layer.flat else None  # on what is no plane nobody knows where they end
+    fit = _fit(mouths, lines, diameter_mm, pitch_mm)
+    if fit is not None and not layer.flat:
+        fit = replace(fit, covariance=fit.covariance + _ROUGH_U_MM**2 * np.eye(2))
+    signs = filter_signs(own, mouths.centre, diameter_mm / 2, pitch_mm, 1.0, flat=layer.flat)
+    if fit is None or signs.reason(blurred=False):
+        return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=signs.reason(blurred=fit is None))
     sound = (np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT) & _are_round(mouths, fit, pitch_mm)
     points = tuple(point for point, kept in zip(_points(mouths, fit, face, pitch_mm), sound, strict=True) if kept)
     if not points:
@@ -158,7 +160,8 @@ def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm:
     seen = _seen(lines, mouths.centre, diameter_mm, pitch_mm)
     whole = np.hypot(*(seen.centre - mouths.centre).T) < _WHOLE_WITHIN_MM
     if not whole.any():
-        return _fit_of_sharp(mouths, diameter_mm, pitch_mm)
+        fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
+        return _shifted(fit, shift_of_rims(lines.slope, mouths.rims, fit.centre, diameter_mm / 2, pitch_mm))
     if not whole.all():
         seen = _seen(lines.of(whole), mouths.centre[whole], diameter_mm, pitch_mm)
     bend = bend_at_edges(lines.of(whole), seen.centre, seen.radius, pitch_mm, 1.0)
@@ -168,13 +171,17 @@ def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm:
         discs = bent_discs(lines.of(whole), seen.centre, diameter_mm / 2, bend)
         return _fit_of_bent(mouths, discs, whole, diameter_mm, pitch_mm)
     fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
-    shift = shift_of_mouths(lines.slope, fit.centre, seen, whole, diameter_mm / 2, bend)
+    return _shifted(fit, shift_of_mouths(lines.slope, fit.centre, seen, whole, diameter_mm / 2, bend))
+
+
+def _shifted(fit: PooledFit, shift: Shift) -> PooledFit:
+    """The fit without the shift that all its centres share, as far as that is known."""
     covariance = _FIT_SHARE**2 * fit.covariance + shift.covariance
     return replace(fit, centre=fit.centre - shift.mean, covariance=covariance, radius_u_mm=shift.radius_u_mm)
 
 
 def _seen(lines: SightLines, centre: Array, diameter_mm: float, pitch_mm: float) -> SeenDiscs:
-    return seen_discs(lines, np.abs(lines.height) < _FACE_BAND_MM, centre, diameter_mm / 2, pitch_mm, 1.0)
+    return seen_discs(lines, np.abs(lines.height) < FACE_BAND_MM, centre, diameter_mm / 2, pitch_mm, 1.0)
 
 
 def _fit_of_bent(mouths: Mouths, discs: BentDiscs, whole: BoolArray, diameter_mm: float, pitch_mm: float) -> PooledFit:

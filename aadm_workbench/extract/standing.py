@@ -8,10 +8,11 @@ import numpy as np
 
 from aadm_workbench.extract.holes import find_discs, rastered
 from aadm_workbench.extract.plane import axes_on, find_planes
-from aadm_workbench.extract.sample import Thinned, counts_in_cells
+from aadm_workbench.extract.sample import Thinned, counts_in_cells, in_company
 from aadm_workbench.model import Array, FloatArray, Plane
 
 _FLOOR_SHARE = 0.2  # of the points: less is no floor
+_FLOOR_COVERED, _ENOUGH = 0.6, 20_000
 _ABOVE_FLOOR_MM = 15.0
 _TOP_COUNT_MIN = 20
 _HIGH = 0.9  # of the points of a disc lie lower than its top
@@ -36,8 +37,9 @@ def find_standing(
 ) -> Standing | None:
     """Find upright discs of a radius: above the floor, or without one along the direction of the view."""
     best: Standing | None = None
-    for floor in _floors(sample, viewpoint, rng):
-        above = sample.points[floor.height(sample.points) > _ABOVE_FLOOR_MM]
+    for floor in _floors(sample, viewpoint, radius_mm, rng):
+        height = floor.height(sample.points)
+        above = sample.points[in_company(sample, height, height > _ABOVE_FLOOR_MM)]
         centres = _discs(above, floor.normal, sample, radius_mm)
         if len(centres) and (best is None or len(centres) > len(best.centres)):
             best = Standing(floor.normal, floor, centres, _level(above, floor.normal, centres, radius_mm))
@@ -67,10 +69,11 @@ def _level(points: FloatArray, vertical: Array, centres: Array, radius_mm: float
     return float(np.median(tops))
 
 
-def _floors(sample: Thinned, viewpoint: Array | None, rng: np.random.Generator) -> list[Plane]:
+def _floors(sample: Thinned, viewpoint: Array | None, radius_mm: float, rng: np.random.Generator) -> list[Plane]:
     floors = []
     for plane in find_planes(sample.points, rng, 2):
-        if (np.abs(plane.height(sample.points)) < 3.0).mean() < _FLOOR_SHARE:
+        on_plane = np.abs(plane.height(sample.points)) < 3.0
+        if on_plane.mean() < _FLOOR_SHARE or _covered(sample.points[on_plane], plane, radius_mm) < _FLOOR_COVERED:
             continue
         towards = plane.normal @ viewpoint - plane.offset if viewpoint is not None else None
         if towards is None or towards >= 0:
@@ -78,6 +81,13 @@ def _floors(sample: Thinned, viewpoint: Array | None, rng: np.random.Generator) 
         if towards is None or towards < 0:
             floors.append(Plane(-plane.normal, -plane.offset, plane.residual_mm))
     return floors
+
+
+def _covered(points: FloatArray, plane: Plane, cell_mm: float) -> float:
+    """Share of the rectangle about points (n, 3) of a plane in which they lie: tops of bars leave most of it empty."""
+    some = points[:: len(points) // _ENOUGH + 1] @ axes_on(plane)[:2].T.astype(points.dtype)
+    sides_mm = np.ptp(np.percentile(some, (1.0, 99.0), axis=0), axis=0)
+    return float(len(counts_in_cells(some, cell_mm)) * cell_mm**2 / max(float(np.prod(sides_mm + cell_mm)), 1e-9))
 
 
 def _towards(sample: Thinned, viewpoint: Array | None) -> Array:

@@ -37,16 +37,73 @@ FINDING_SENTENCES: dict[str, Sentence] = {
         "the core; sizes that would fit: {seems}",
         "设计为 {design_mm:g} mm 钢筋,而扫描中的钢筋芯部实测 {measured_mm:.1f} mm;相符的规格:{seems}",
     ),
+    "diameter_differs.other_sleeves": Sentence(
+        "sleeves of {design_mm:g} mm are designed, but the mouths on their places measure {measured_mm:.1f} mm",
+        "设计为 {design_mm:g} mm 套筒,而各位置上的套筒口实测 {measured_mm:.1f} mm",
+    ),
     "scale_differs.group": Sentence(
         "the pattern of the {group} is {scale:.4f} times as large as designed (±{U:.4f}): the intrinsics of the camera "
-        "or the unit are wrong, or the template was; no position in this scan is to be trusted before that is settled",
-        "{group} 的布置尺寸为设计的 {scale:.4f} 倍(±{U:.4f}):相机内参或单位有误,或模板有误;"
+        "(focal length fx, fy in [camera]) or the unit are wrong, or the template was; no position in this scan is to "
+        "be trusted before that is settled",
+        "{group} 的布置尺寸为设计的 {scale:.4f} 倍(±{U:.4f}):相机内参([camera] 中的焦距 fx、fy)或单位有误,或模板有误;"
         "查明之前,该扫描的位置均不可信",
+    ),
+    "scale_differs.camera": Sentence(
+        "the patterns of sleeves and rebars are both {scale:.4f} times as large as designed (±{U:.4f}): the intrinsics "
+        "of the camera (focal length fx, fy in [camera]) or the unit are wrong; no position in these scans is to be "
+        "trusted before that is settled",
+        "套筒与钢筋的布置尺寸同为设计的 {scale:.4f} 倍(±{U:.4f}):相机内参([camera] 中的焦距 fx、fy)或单位有误;"
+        "查明之前,这些扫描的位置均不可信",
+    ),
+    "scale_differs.focal": Sentence(
+        "the {group} lie on their design, with their sizes, once the focal length is taken as {times:.2g} times what "
+        "the job says: fx and fy in [camera] are those of another camera, or of another resolution; take the "
+        "intrinsics that the camera's software exports with the scans",
+        "只有把焦距取为任务所给的 {times:.2g} 倍时,{group} 的位置和尺寸才与设计吻合:[camera] 中的 fx、fy "
+        "是另一台相机或另一分辨率的内参;请采用相机软件随扫描导出的内参",
+    ),
+    "scale_differs.unit": Sentence(
+        "the {group} lie on their design, with their sizes, once all lengths of the scan are divided by {factor:.3g}: "
+        "the depth scale (depth_scale_mm in [camera]) or the unit is wrong; write what the camera's software states",
+        "只有把扫描的全部长度除以 {factor:.3g} 时,{group} 的位置和尺寸才与设计吻合:"
+        "深度比例([camera] 中的 depth_scale_mm)或单位有误;请按相机软件给出的值填写",
     ),
     "scale_differs.column": Sentence(
         "the patterns of sleeves and rebars differ in scale by {difference:.4f} (±{U:.4f}): one of the two scans, or "
         "one of the two templates, is too large",
         "套筒与钢筋的布置比例相差 {difference:.4f}(±{U:.4f}):两个扫描之一或两个模板之一偏大",
+    ),
+    "common_lean.camera": Sentence(
+        "all sleeves lean by {sleeves_deg:.1f}° and all bars by {rebars_deg:.1f}° towards the same side of their "
+        "images: the principal point of the camera (cx, cy in [camera]) is not that of these scans, or the image was "
+        "cropped; take the intrinsics that the camera's software exports with the scans",
+        "全部套筒倾斜 {sleeves_deg:.1f}°、全部钢筋倾斜 {rebars_deg:.1f}°,且朝向图像同一侧:"
+        "相机主点([camera] 中的 cx、cy)与扫描不符,或图像被裁剪过;请采用相机软件随扫描导出的内参",
+    ),
+    "common_lean.sleeve": Sentence(
+        "all sleeves lean alike by {lean_deg:.1f}° against the foot's face: they are cast in so, the face is not "
+        "square to the column, or the principal point of the camera (cx, cy) is wrong: measure one with a square",
+        "全部套筒相对柱底面同向倾斜 {lean_deg:.1f}°:可能预埋如此,或柱底面与柱轴线不垂直,"
+        "或相机主点(cx、cy)有误:请用角尺量一个",
+    ),
+    "common_lean.rebar": Sentence(
+        "all bars lean alike by {lean_deg:.1f}° against the floor: they stand so, the floor is not level, or the "
+        "principal point of the camera (cx, cy) is wrong: hold a spirit level to one of them",
+        "全部钢筋相对楼面同向倾斜 {lean_deg:.1f}°:可能确实如此,或楼面不平,或相机主点(cx、cy)有误:请用水平尺量一根",
+    ),
+    "smoothed": Sentence(
+        "the scan of the {group} was smoothed: its noise is shared by neighbouring pixels, and edges run into each "
+        "other. Turn smoothing off in the camera's software (surface smoothing, Gaussian, median or spatial filter) "
+        "and scan again",
+        "{group} 的扫描被平滑过:相邻像素的噪声相同,边缘相互渗混。请在相机软件中关闭平滑(表面平滑、高斯、中值或空间滤波,"
+        "即 smoothing / spatial filter)后重新扫描",
+    ),
+    "gaps_filled": Sentence(
+        "the scan of the {group} has surfaces where nothing is, between edges and what lies behind them: what was not "
+        "measured was filled in, or edges were fattened. Turn hole filling off in the camera's software (gap filling, "
+        "interpolation, dilation) and scan again",
+        "{group} 的扫描在边缘与其后方之间有并不存在的表面:未测到处被填补,或边缘被加粗。请在相机软件中关闭孔洞填充"
+        "(补洞、插值、膨胀,即 hole filling / gap filling)后重新扫描",
     ),
     "exposed_length_differs.short": Sentence(
         "{about} sticks out {measured_mm:.0f} mm where {expected_mm:.0f} mm are expected ({of}): it is cut off or bent "

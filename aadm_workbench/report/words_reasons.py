@@ -106,6 +106,14 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
         r"move the camera to its working distance, or focus it, and scan again",
         "图像失焦:表面边缘在数个像素内弯曲;请将相机移至工作距离或重新对焦后再扫描",
     ),
+    (
+        r"the camera smoothed this scan: its surfaces run into each other at their edges",
+        "相机平滑了该扫描:表面在边缘相互渗混",
+    ),
+    (
+        r"the camera filled in what it did not measure: surfaces lie where nothing is",
+        "相机填补了未测到之处:出现并不存在的表面",
+    ),
     (r"no opening: the mouth is plugged or covered", "没有开口:套筒口被堵塞或遮盖"),
     (r"too little of the mouth's rim is seen to measure it", "套筒口边缘可见部分太少,无法测量"),
     (r"outside of what the scan shows of the foot", "在扫描到的柱底范围之外"),

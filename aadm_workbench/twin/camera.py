@@ -56,19 +56,25 @@ def turned_about(axis: Array, angle: float) -> Array:
 DEPTH_SCALE_MM = 0.03
 """Step of the depth maps: 65,535 of them reach 1.9 m, beyond the floor under the bars."""
 
-CAPTURE_TABLES = f"""\
+
+def capture_tables(camera: Camera, depth_scale_mm: float) -> str:
+    """What a job says of a virtual camera and of its depth maps."""
+    return f"""\
 [camera]
-fx = {PRO_M.fx}
-fy = {PRO_M.fy}
-cx = {PRO_M.cx}
-cy = {PRO_M.cy}
-width = {PRO_M.width}
-height = {PRO_M.height}
-depth_scale_mm = {DEPTH_SCALE_MM}
-scale_error = {PRO_M.scale_error}
+fx = {camera.fx}
+fy = {camera.fy}
+cx = {camera.cx}
+cy = {camera.cy}
+width = {camera.width}
+height = {camera.height}
+depth_scale_mm = {depth_scale_mm:g}
+scale_error = {camera.scale_error}
 
 [capture]
 operator = "virtual camera"
 settings = "synthetic scans, no real camera was used"
 """
+
+
+CAPTURE_TABLES = capture_tables(PRO_M, DEPTH_SCALE_MM)
 """What a job says of the virtual camera's scans."""

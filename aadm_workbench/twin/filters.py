@@ -181,7 +181,7 @@ def _median(depth: Depth, side: int) -> Depth:
         measured = np.isfinite(depth[rows])
         part = padded[start : start + measured.shape[0] + 2 * reach]
         windows = np.lib.stride_tricks.sliding_window_view(part, (2 * reach + 1, 2 * reach + 1))
-        result[rows][measured] = _middle(windows[measured].reshape(int(measured.sum()), -1))
+        result[rows][measured] = _middle(windows[measured].reshape(int(measured.sum()), (2 * reach + 1) ** 2))
     return result
 
 

@@ -12,10 +12,13 @@ import numpy as np
 from aadm_workbench.model import Array
 from aadm_workbench.twin.objects import object_surface
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, SleeveAsBuilt, axis_of
+from aadm_workbench.twin.roughness import rough_block
 from aadm_workbench.twin.surface import BAR, CONCRETE, DARK, FLOOR, SLEEVE_WALL, TAPE, Surface, joined, one_kind
 
 _RIB_INCLINATION = np.radians(60.0)  # of transverse ribs against the bar's axis; 45 to 70 degrees are usual
 _SHIFT_DEPTHS_MM = (1.5, 2.0)
+_RING_WIDTH_MM, _RING_ROOT_MM = 4.0, 20.0
+_CAP_LENGTH_MM = 25.0
 SEGMENTS = 256  # of a bore's outline: the chord stays within 0.003 mm of a 36 mm circle
 
 
@@ -28,8 +31,10 @@ def foot_surface(foot: Foot) -> Surface:
     """Mesh of the foot with its bores, plugs, chips, tapes and grout, and of what stands beside it."""
     import manifold3d
 
-    block = manifold3d.Manifold.cube([*foot.size, foot.height]).translate([-foot.size[0] / 2, -foot.size[1] / 2, 0.0])
-    block = block.as_original()
+    block = _block(foot).as_original()
+    rings = [_ring(sleeve) for sleeve in foot.sleeves if sleeve.proud > 0]
+    if rings:
+        block = manifold3d.Manifold.batch_boolean([block, *rings], manifold3d.OpType.Add)
     bores = [_bore(sleeve).as_original() for sleeve in foot.sleeves]
     cutters = list(bores)
     cutters += [_chip(sleeve) for sleeve in foot.sleeves if sleeve.chip > 0]
@@ -42,6 +47,24 @@ def foot_surface(foot: Foot) -> Surface:
     surfaces += [_tape(sleeve, number) for number, sleeve in enumerate(foot.sleeves) if sleeve.taped > 0]
     surfaces += [object_surface(thing) for thing in foot.beside]
     return joined(surfaces)
+
+
+def _block(foot: Foot) -> Any:
+    import manifold3d
+
+    if foot.roughness is not None:
+        return rough_block(foot.size, foot.height, foot.roughness)
+    block = manifold3d.Manifold.cube([*foot.size, foot.height])
+    return block.translate([-foot.size[0] / 2, -foot.size[1] / 2, 0.0])
+
+
+def _ring(sleeve: SleeveAsBuilt) -> Any:
+    """The end of the sleeve's own body, out of the face."""
+    import manifold3d
+
+    height = sleeve.proud + _RING_ROOT_MM
+    ring = manifold3d.Manifold.cylinder(height, sleeve.diameter / 2 + _RING_WIDTH_MM, circular_segments=SEGMENTS)
+    return ring.translate([sleeve.x, sleeve.y, -sleeve.proud])
 
 
 def bars_surface(group: BarGroup) -> Surface:
@@ -57,7 +80,7 @@ def _bore_profile(sleeve: SleeveAsBuilt) -> list[tuple[float, float]]:
     radius, chamfer = sleeve.diameter / 2, sleeve.chamfer
     depth = sleeve.depth if sleeve.plugged_at is None else max(sleeve.plugged_at, 0.05)
     profile = [(0.0, -15.0), (radius + chamfer, -15.0)]
-    profile += [(radius + chamfer, 0.0), (radius, chamfer)] if chamfer > 0 else []
+    profile += [(radius + chamfer, -sleeve.proud), (radius, chamfer - sleeve.proud)] if chamfer > 0 else []
     profile += [(radius, depth_mm) for depth_mm in _SHIFT_DEPTHS_MM if sleeve.wall_shift != (0.0, 0.0)]
     if sleeve.rib_height > 0:
         for start in np.arange(sleeve.rib_start, depth - 10.0, sleeve.rib_pitch):
@@ -159,11 +182,13 @@ def _bar(bar: BarAsBuilt, number: int, foot_z: float) -> Surface:
     below_top = np.arange(0.0, length + 0.8, 0.8)
     radius = bar.core_diameter / 2 + _rib_profile(bar, angles, below_top)
     radius[:2] += _burr(bar, angles)
+    if bar.cap > 0:
+        radius[below_top < _CAP_LENGTH_MM] = bar.core_diameter / 2 + bar.rib_height + bar.cap
     x, y = radius * np.cos(angles), radius * np.sin(angles)
     cut = bar.slant[0] * x[0] + bar.slant[1] * y[0] - bar.missing_top * (x[0] > 0.2 * bar.core_diameter)
     fade = np.clip(1.0 - below_top / (0.6 * length), 0.0, 1.0)
     z = -below_top[:, None] + fade[:, None] * cut[None, :]
-    bent = ((1.0 - below_top / length) ** 2 - 1.0)[:, None]
+    bent = _bent(bar, below_top, length)[:, None]
     x, y = x + bent * bar.bend[0], y + bent * bar.bend[1]
     rows, columns = radius.shape
     local = np.stack([x, y, z], -1).reshape(-1, 3)
@@ -178,6 +203,13 @@ def _bar(bar: BarAsBuilt, number: int, foot_z: float) -> Surface:
     away = np.abs(np.mod(angles - bar.rust_direction + np.pi, 2 * np.pi) - np.pi)
     surface.kind[-columns:][away < np.pi * bar.rust] = DARK
     return surface
+
+
+def _bent(bar: BarAsBuilt, below_top: Array, length: float) -> Array:
+    """Share (rows,) of the bend by which each height is off the top, 0 to -1."""
+    if bar.kinked_at is None:
+        return np.asarray((1.0 - below_top / length) ** 2 - 1.0)
+    return np.asarray(-np.minimum(below_top / bar.kinked_at, 1.0))
 
 
 def _burr(bar: BarAsBuilt, angles: Array) -> Array:

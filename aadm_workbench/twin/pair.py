@@ -15,13 +15,15 @@ from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.pattern import inline_design, label_order
 from aadm_workbench.model import AssemblyPoint, ColumnDesign
 from aadm_workbench.scan.write import write_depth_tiff, write_pcd, write_ply
-from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM
+from aadm_workbench.twin.camera import DEPTH_SCALE_MM, PRO_M, capture_tables
 from aadm_workbench.twin.cameras import CAMERAS, with_filters
 from aadm_workbench.twin.filters import NO_FILTERS, Filters
 from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot
 from aadm_workbench.twin.scene import TrueScan
 from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_foot, random_pose
+from aadm_workbench.twin.site import left_by_site
+from aadm_workbench.twin.slips import NO_SLIP, Slip, seen_with, told_camera
 from aadm_workbench.twin.truth import true_verdicts
 
 _DECIMALS = 4
@@ -49,12 +51,15 @@ SETTINGS: Mapping[str, Setting] = MappingProxyType({setting.name: setting for se
 class Taken:
     """How a pair is scanned: a camera of :data:`~aadm_workbench.twin.cameras.CAMERAS` and its filters.
 
-    ``words`` are what the command line says of both, for the job's first line.
+    ``words`` are what the command line says of it all, for the job's first line. ``site`` names what was done to foot
+    and bars, ``slip`` what is wrong with the scans and with what the job says of them.
     """
 
     camera: str = "ray"
     filters: Filters = NO_FILTERS
     words: str = ""
+    site: tuple[str, ...] = ()
+    slip: Slip = NO_SLIP
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +97,7 @@ def make_pair(folder: Path, setting: Setting, seed: int, scan_format: str, taken
     write(folder / f"foot.{scan_format}", pair.sleeves)
     write(folder / f"bars.{scan_format}", pair.rebars)
     write_atomically(folder / "truth.json", (json.dumps(_truth(pair, seed), indent=1) + "\n").encode())
-    write_atomically(folder / "job.toml", _job_text(setting, seed, scan_format, taken.words).encode())
+    write_atomically(folder / "job.toml", _job_text(setting, seed, scan_format, taken).encode())
     return pair
 
 
@@ -103,10 +108,12 @@ def simulated_pair(setting: Setting, rng: np.random.Generator, taken: Taken | No
     foot = replace(foot, sleeves=tuple(foot.sleeves[k] for k in order))
     bars = replace(bars, bars=tuple(bars.bars[k] for k in order))
     taken = taken or Taken()
+    foot, bars = left_by_site(taken.site, foot, bars, rng)
     noise = CameraNoise.drawn(rng)
     shoot = with_filters(CAMERAS[taken.camera](setting.distance, noise), taken.filters)
     sleeves = shoot(foot, random_pose(setting, True, rng), rng)
     rebars = shoot(bars, random_pose(setting, False, rng), rng)
+    sleeves, rebars = seen_with(sleeves, taken.slip, rng, is_foot=True), seen_with(rebars, taken.slip, rng)
     return Pair(setting, inline_design(_column_id(setting), _design_table(setting)), foot, bars, sleeves, rebars)
 
 
@@ -158,21 +165,23 @@ def _scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, 
     }
 
 
-def _job_text(setting: Setting, seed: int, scan_format: str, made_with: str) -> str:
+def _job_text(setting: Setting, seed: int, scan_format: str, taken: Taken) -> str:
+    slip, made_with = taken.slip, taken.words
+    foot, bars = ("bars", "foot") if slip.swapped else ("foot", "bars")
     design = "".join(f"{key} = {value}\n" for key, value in _design_table(setting).items())
     command = f"aadm simulate pair --setting {setting.name} --seed {seed}{made_with}"
     return f"""# Synthetic scans of a virtual camera: {command}
 schema = 1
 name = "Simulated pair, {setting.name} setting"
-units = "mm"
+units = "{slip.unit}"
 tolerances = "cn"
 
-{CAPTURE_TABLES}
+{capture_tables(told_camera(PRO_M, slip), DEPTH_SCALE_MM * slip.lengths)}
 [[columns]]
 id = "{_column_id(setting)}"
-sleeves = "foot.{scan_format}"
-rebars = "bars.{scan_format}"
-up = "+y"
+sleeves = "{foot}.{scan_format}"
+rebars = "{bars}.{scan_format}"
+up = "{"-y" if slip.up_deg else "+y"}"
 
 [columns.design]
 {design}"""

@@ -6,6 +6,7 @@ Lengths in mm, angles in radians. A lean ``(lx, ly)`` tilts the axis to the dire
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -17,7 +18,8 @@ class SleeveAsBuilt:
     """One grouting sleeve: a leaning bore with chamfer and inner ribs, open at the foot face (z = 0).
 
     ``plugged_at`` is the depth of a plug behind the face (0: flush with it); None for an open sleeve.
-    ``taped`` is the part of the mouth covered by tape, 0..1. ``chip`` is the reach of a spalled rim.
+    ``taped`` is the part of the mouth covered by tape, 0..1. ``chip`` is the reach of a spalled rim. ``proud`` is how
+    far the sleeve's own ring, 4 mm wide, stands out of the face.
     ``wall_shift`` is how far light that bounces inside makes the wall appear beside its place, from 2 mm behind
     the face on.
     """
@@ -36,6 +38,7 @@ class SleeveAsBuilt:
     chip: float = 0.0
     chip_direction: float = 0.0
     wall_shift: tuple[float, float] = (0.0, 0.0)
+    proud: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -43,8 +46,10 @@ class BarAsBuilt:
     """One connecting rebar: a ribbed cylinder whose top ends at ``top`` with a cut of some slant.
 
     (x, y, top) is where the axis of the core meets the top: the bar's centre. ``bend`` is how far its top is bent
-    off the line on which the bar leaves the floor. ``burr`` is what shearing pushed out at the top: all around, or
-    most towards ``burr_direction``. ``rust`` is the share of the top that returns no light, a sector about
+    off the line on which the bar leaves the floor: in a curve from there on, or at a kink ``kinked_at`` below the top.
+    ``cap`` is the thickness of a plastic cap that covers the top and 25 mm of the bar below it. ``burr`` is what
+    shearing pushed out at the top: all around, or most towards ``burr_direction``. ``rust`` is the share of the
+    top that returns no light, a sector about
     ``rust_direction``; ``missing_top`` the depth of a piece broken off its +x side.
     """
 
@@ -65,6 +70,22 @@ class BarAsBuilt:
     bend: tuple[float, float] = (0.0, 0.0)
     rust: float = 0.0
     rust_direction: float = 0.0
+    kinked_at: float | None = None
+    cap: float = 0.0
+
+
+@dataclass(frozen=True)
+class Roughness:
+    """A foot's face roughened by order (6 mm and more): it lies between z = 0 and ``depth`` inside the foot.
+
+    ``washed``: the mortar is washed off, grains of about ``grain`` mm stand out; else ``keyed``, pockets that are so
+    wide and so far apart. The same ``seed`` gives the same face. Either reaches up to the mouths.
+    """
+
+    depth: float = 6.0
+    grain: float = 10.0
+    law: Literal["washed", "keyed"] = "washed"
+    seed: int = 0
 
 
 @dataclass(frozen=True)
@@ -106,6 +127,7 @@ class Foot:
     height: float = 400.0
     grout: tuple[Grout, ...] = ()
     beside: tuple[Box | Hose, ...] = ()
+    roughness: Roughness | None = None
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,10 @@ example:
 
   a camera that projects fringes, minutes per scan, and one that drops what is at depth steps:
   aadm simulate pair --setting field --out fringe --camera fringe
-  aadm simulate pair --setting field --out rings --filter rings=1 --filter median=3"""
+  aadm simulate pair --setting field --out rings --filter rings=1 --filter median=3
+
+  a roughened foot with plugged sleeves, and a job with half of the camera's focal length:
+  aadm simulate pair --setting lab --out site --site rough --site plugs --slip focal-half"""
 _CAMERA = (
     "ray: rays and a law of noise (default); pixel: the same with pixels that have a size; fringe: fringe projection, "
     "path-traced, minutes per scan"
@@ -30,6 +33,14 @@ _CAMERA = (
 _FILTER = (
     "what the camera does to its depth maps, again for each: edge-mask=0..1 (of the brightest neighbour, camera fringe "
     "alone), outliers=N (of 24 neighbours), and in pixels rings=0..3, fatten=N, gaps=N, median=N, gaussian=SIGMA"
+)
+_SITE = (
+    "what the site did, again for each: rough, keyed (feet), spalls, taped-spalls, proud-rings, plugs, burrs, caps, "
+    "kinks, leans, two-heights"
+)
+_SLIP = (
+    "what goes wrong between camera and job, again for each: focal-half, focal-double, focal-2-percent, "
+    "principal-point, depth-x10, depth-by-10, unit, up, swapped (of the job); outliers, no-floor (of the scans)"
 )
 _JOBS = {
     "floor": "the sample floor: scans, truth.json and job.toml of eight columns; the job wants floor3.ifc beside it",
@@ -56,6 +67,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     pair.add_argument("--format", choices=("tiff", "ply", "pcd"), default="tiff", help="of the scans (default: tiff)")
     pair.add_argument("--camera", choices=("ray", "pixel", "fringe"), default="ray", help=_CAMERA)
     pair.add_argument("--filter", action="append", default=[], metavar="NAME=AMOUNT", help=_FILTER)
+    pair.add_argument("--site", action="append", default=[], metavar="NAME", help=_SITE)
+    pair.add_argument("--slip", action="append", default=[], metavar="NAME", help=_SLIP)
     add_switches(pair, prints_json=None)
     pair.set_defaults(run=_simulate_pair)
     for name, summary in _JOBS.items():
@@ -77,20 +90,23 @@ def _simulate_pair(options: argparse.Namespace) -> int:
     from aadm_workbench.errors import AadmError
     from aadm_workbench.twin.filters import filters_of
     from aadm_workbench.twin.pair import SETTINGS, Taken, make_pair
+    from aadm_workbench.twin.site import known_site
+    from aadm_workbench.twin.slips import slip_of
 
     from ..terminal import show
 
-    filters = filters_of(options.filter)
+    filters, slip = filters_of(options.filter), slip_of(options.slip)
+    known_site(options.site)
     if options.camera == "fringe":
         _require_renderer()
     elif filters.edge_mask:
         raise AadmError("--filter edge-mask wants the brightness of the scan: use --camera fringe")
     _prepare(options)
     words = "" if options.camera == "ray" else f" --camera {options.camera}"
-    words += "".join(f" --filter {word}" for word in options.filter)
-    make_pair(
-        options.out, SETTINGS[options.setting], options.seed, options.format, Taken(options.camera, filters, words)
-    )
+    for switch in ("filter", "site", "slip"):
+        words += "".join(f" --{switch} {word}" for word in getattr(options, switch))
+    taken = Taken(options.camera, filters, words, tuple(options.site), slip)
+    make_pair(options.out, SETTINGS[options.setting], options.seed, options.format, taken)
     if not options.quiet:
         names = (f"foot.{options.format}", f"bars.{options.format}", "truth.json", "job.toml")
         show(f"Wrote {', '.join(names)} to {options.out}", f"Check it: aadm check {options.out / 'job.toml'}")

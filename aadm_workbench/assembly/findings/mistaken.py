@@ -5,35 +5,25 @@ Asked only of a group that does not lie on its design: then it is worth the time
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from aadm_workbench.assembly.findings.diameters import CORE_ABOVE, CORE_BELOW, sizes_in_words
 from aadm_workbench.assembly.findings.group import SeenGroup
+from aadm_workbench.assembly.findings.lengths import length_findings
 from aadm_workbench.assembly.findings.make import make_finding
-from aadm_workbench.assembly.match import match_extraction
+from aadm_workbench.assembly.findings.named_scan import FEWEST, FITS_SHARE, NamedScan, fits
 from aadm_workbench.design.bar_sizes import OVER_RIBS_MM
-from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Finding, Kind
+from aadm_workbench.extract.edge_shift import BLURRED
+from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
+from aadm_workbench.model import AssemblyPoint, ColumnDesign, Finding, Kind
 
-FITS_SHARE = 0.75
-"""Of the points of a design: with so many on their places a scan shows it. Half may lie on some pattern by chance."""
-
-_FEWEST = 4
+_BADLY_BUILT_MM = 3.0  # root mean square: a half more than the limit of every single point
 _LOOKS = 3  # in one scan, for other columns' sizes: each takes as long as a check
+_UNFIT_REASONS = (SMOOTHED, GAPS_FILLED, BLURRED)
+_NEXT_BORE = 1.15  # sleeves for the next bar are 2 to 6 mm wider; found are those within 8 %
 _SIZES_EACH_WAY = 2  # bars two sizes off have been delivered; more would be seen from afar
-
-Look = Callable[[Kind, Sequence[float]], Extraction]
-"""Looks for points of a kind, of some diameters, mm, in one scan."""
-
-
-@dataclass(frozen=True, eq=False)
-class NamedScan:
-    """The first scan of a group: its file as the job names it, and how to look for other things in it."""
-
-    source: str
-    look: Look
 
 
 def mistaken_findings(
@@ -49,21 +39,43 @@ def mistaken_findings(
     others
         The other columns of the job, for a scan that fits one of them.
     """
-    lost = [kind for kind, group in groups.items() if not group.match and not group.match.contradiction]
+    lost = [kind for kind, group in groups.items() if _is_lost(group)]
     crossed = [kind for kind in lost if _shows(design, scans[kind], _other(kind))]
     if len(crossed) == 2:
         yield make_finding("swapped", ["sleeves", "rebars"])
         return
+    unexplained = []
     for kind in lost:
         if kind in crossed:
             names = {"group": kind.plural, "others": _other(kind).plural, "source": scans[kind].source}
             yield make_finding("swapped.one", [kind.plural], **names)
             continue
         found = _of_another_column(groups[kind], scans[kind], others)
-        if found is None and kind is Kind.REBAR:
-            found = _of_other_sizes(groups[kind], scans[kind])
+        found = found or _of_other_sizes(groups[kind], scans[kind])
         if found is not None:
             yield found
+        else:
+            unexplained.append((groups[kind], scans[kind]))
+    yield from length_findings(unexplained)
+    for kind in (kind for kind, group in groups.items() if _hardly_fits(group)):
+        found = _of_another_column(groups[kind], scans[kind], others)
+        if found is not None:
+            yield found
+
+
+def _is_lost(group: SeenGroup) -> bool:
+    """Whether nothing explains yet that a group lies nowhere."""
+    explained = group.match.contradiction or any(reason in group.extraction.reason for reason in _UNFIT_REASONS)
+    return not group.match and not explained
+
+
+def _hardly_fits(group: SeenGroup) -> bool:
+    """Whether a group lies on its design only in part, and farther off than anything is built."""
+    if not group.match:
+        return False
+    placement, points = group.match.placements[0], len(group.extraction.points)
+    few = placement.found < FITS_SHARE * min(points, len(group.design))
+    return few or placement.rms_mm > _BADLY_BUILT_MM
 
 
 def _other(kind: Kind) -> Kind:
@@ -73,15 +85,7 @@ def _other(kind: Kind) -> Kind:
 def _shows(design: ColumnDesign, scan: NamedScan, kind: Kind) -> bool:
     """Whether a scan shows the sleeves, or the rebars, of a design."""
     points = design.points(kind)
-    return bool(points) and _fits(points, scan.look(kind, [point.diameter_mm for point in points]))
-
-
-def _fits(points: Sequence[AssemblyPoint], extraction: Extraction) -> bool:
-    match = match_extraction(points, extraction)
-    needed = max(_FEWEST, FITS_SHARE * len(points))
-    if match.contradiction == "mirrored":
-        return True
-    return bool(match) and match.placements[0].found >= needed
+    return bool(points) and fits(points, scan.look(kind, [point.diameter_mm for point in points]))
 
 
 def _of_another_column(group: SeenGroup, scan: NamedScan, others: Sequence[ColumnDesign]) -> Finding | None:
@@ -90,11 +94,11 @@ def _of_another_column(group: SeenGroup, scan: NamedScan, others: Sequence[Colum
     for other in sorted(others, key=lambda design: _sizes(design.points(group.kind)) not in seen):
         points = other.points(group.kind)
         sizes = _sizes(points)
-        if len(points) < _FEWEST or (sizes not in seen and len(seen) > _LOOKS):
+        if len(points) < FEWEST or (sizes not in seen and len(seen) > _LOOKS):
             continue
         if sizes not in seen:
             seen[sizes] = scan.look(group.kind, sizes)
-        if _fits(points, seen[sizes]):
+        if fits(points, seen[sizes]):
             name = group.kind.plural
             return make_finding("other_column", [name], group=name, column=other.id)
     return None
@@ -105,15 +109,24 @@ def _sizes(points: Sequence[AssemblyPoint]) -> tuple[float, ...]:
 
 
 def _of_other_sizes(group: SeenGroup, scan: NamedScan) -> Finding | None:
-    """Bars of another size that stand where those of the design should."""
+    """Bars, or sleeves, of another size that stand where those of the design should."""
     designed_mm = _sizes(group.design)
-    for size_mm in _sizes_about(designed_mm):
+    for size_mm in _sizes_about(designed_mm) if group.kind is Kind.REBAR else _bores_about(designed_mm):
         extraction = scan.look(group.kind, [size_mm])
-        if _fits(group.design, extraction):
-            core_mm = float(np.median([point.diameter_mm for point in extraction.points]))
-            values = {"design_mm": designed_mm[0], "measured_mm": core_mm, "seems": sizes_in_words([core_mm])}
-            return make_finding("diameter_differs.others", [group.kind.plural], **values)
+        if fits(group.design, extraction):
+            seen_mm = float(np.median([point.diameter_mm for point in extraction.points]))
+            values: dict[str, object] = {"design_mm": designed_mm[0], "measured_mm": seen_mm}
+            if group.kind is Kind.SLEEVE:
+                return make_finding("diameter_differs.other_sleeves", [group.kind.plural], **values)
+            return make_finding(
+                "diameter_differs.others", [group.kind.plural], **values, seems=sizes_in_words([seen_mm])
+            )
     return None
+
+
+def _bores_about(designed_mm: Sequence[float]) -> list[float]:
+    """Bores that no sleeve of the design can be taken for: the next sizes to either side."""
+    return [designed_mm[0] / _NEXT_BORE, designed_mm[-1] * _NEXT_BORE]
 
 
 def _sizes_about(designed_mm: Sequence[float]) -> list[float]:

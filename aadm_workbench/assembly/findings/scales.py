@@ -41,21 +41,36 @@ class Scale:
         """Half-width of the range that holds the true scale in all but one of ten thousand cases."""
         return student_quantile(self.freedom) * self.u
 
+    @property
+    def differs(self) -> bool:
+        """Whether it is another than designed, beyond chance and play."""
+        return abs(self.value - 1.0) > PLAY + self.expanded
+
 
 def scale_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
     """Findings on the scale of each group by itself, and of the two against each other."""
     scales = [(group, found) for group in groups if (found := pattern_scale(group)) is not None]
-    for group, scale in scales:
-        if abs(scale.value - 1.0) > PLAY + scale.expanded:
-            name = group.kind.plural
-            yield make_finding("scale_differs.group", [name], group=name, scale=scale.value, U=scale.expanded)
+    differing = [(group, scale) for group, scale in scales if scale.differs]
+    for group, scale in differing:
+        name = group.kind.plural
+        yield make_finding("scale_differs.group", [name], group=name, scale=scale.value, U=scale.expanded)
     if len(scales) == 2:
+        both = _pooled([scale for _, scale in scales])
+        if not differing and both.differs:
+            yield make_finding("scale_differs.camera", ["sleeves", "rebars"], scale=both.value, U=both.expanded)
         (_, first), (_, second) = scales
         u = math.hypot(first.u, second.u)
         expanded = student_quantile(first.freedom + second.freedom) * u
         difference = abs(first.value - second.value)
         if difference > PLAY + expanded:
             yield make_finding("scale_differs.column", ["sleeves", "rebars"], difference=difference, U=expanded)
+
+
+def _pooled(scales: Sequence[Scale]) -> Scale:
+    """The scale of one camera, that all of the patterns were scanned with: small ones tell it together."""
+    weight = np.array([scale.u**-2 for scale in scales])
+    value = float(weight @ [scale.value for scale in scales] / weight.sum())
+    return Scale(value, float(weight.sum() ** -0.5), sum(scale.freedom for scale in scales))
 
 
 def pattern_scale(group: SeenGroup) -> Scale | None:

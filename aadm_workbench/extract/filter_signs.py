@@ -1,0 +1,116 @@
+"""What a camera's filters leave behind in a depth map: ramps in the air, noise that neighbours share.
+
+Where a surface ends, a camera returns the next one, nothing, or single points between the two. A surface that falls
+evenly from pixel to pixel through the air was made by a filter: one that smooths over the step, or one that fills what
+was not measured. Organised scans alone can tell; the signs of a cloud are zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.extract.edge_shift import BLURRED
+from aadm_workbench.extract.patches import Patches
+from aadm_workbench.model import Array, BoolArray, FloatArray
+
+_FALL_MM = (1.0, 60.0)  # from pixel to pixel on a ramp
+_EVEN = 6.0  # the steepest fall of three over the flattest
+_OFF_WALL_MM, _OFF_LEAN = 2.5, 0.08  # ribs and chamfers stay nearer to a wall; bars that lean by four degrees do
+_BELOW_MM = 3.0  # of the surface that a feature lies in
+_WITHIN_MM = 1.5  # of it, where its noise is looked at
+_OWN_NOISE = 0.55  # noise of which half is shared over a pixel and more comes to 0.7, a median of three to 0.5
+_RAMPED, _RAMPED_UNLOST = 0.1, 0.03  # slips of the fringe order and flying pixels come to 0.02
+_UNLOST = 1e-4  # a camera loses one pixel in a thousand at least
+
+SMOOTHED = "the camera smoothed this scan: its surfaces run into each other at their edges"
+GAPS_FILLED = "the camera filled in what it did not measure: surfaces lie where nothing is"
+"""Reasons of what is not measured: what a filter made of an edge nobody knows."""
+
+_KEPT = 0.9  # of second differences; strays and edges make the largest
+_FEWEST = 300  # points of a surface whose noise is looked at
+
+
+@dataclass(frozen=True)
+class FilterSigns:
+    """Signs of filters about the features of one scan.
+
+    ``ramps``: places of even fall through the air, for each pixel of the features' outlines. ``fine``: second
+    differences of heights over one pixel against those over two, squared; 1 for noise that every pixel has of its own,
+    0 for what is smooth. ``lost``: share of pixels without a point among such with points on all
+    sides.
+    """
+
+    ramps: float = 0.0
+    fine: float = 1.0
+    lost: float = 0.0
+
+    def reason(self, *, blurred: bool) -> str:
+        """Why nothing is to be measured in such a scan; empty where neither a filter shows nor a blur."""
+        if self.fine < _OWN_NOISE:
+            return SMOOTHED
+        if self.lost < _UNLOST and self.ramps > _RAMPED_UNLOST:
+            return GAPS_FILLED
+        if blurred:
+            return BLURRED
+        return SMOOTHED if self.ramps > _RAMPED else ""
+
+
+def filter_signs(
+    patches: Patches, centre: Array, radius_mm: float, pitch_mm: float, side: float, *, flat: bool = True
+) -> FilterSigns:
+    """The signs about features at ``centre`` (k, 2) of their patches; ``side`` +1 for mouths, -1 for tops of bars.
+
+    Of a surface that is not ``flat`` the noise is not looked at.
+    """
+    if not patches.columns or not len(centre):
+        return FilterSigns()
+    x, y = patches.x - centre[:, :1].astype(np.float32), patches.y - centre[:, 1:].astype(np.float32)
+    inside = np.float32(side) * (np.float32(radius_mm) - np.sqrt(x * x + y * y))
+    shape = (len(centre), -1, patches.columns)
+    height = patches.height.reshape(shape)
+    off_wall = inside > np.float32(_OFF_WALL_MM) - np.float32(_OFF_LEAN) * patches.height
+    in_air = (off_wall & (patches.height < -_BELOW_MM)).reshape(shape)
+    on_surface = ((inside < -2.0 * pitch_mm) & (np.abs(patches.height) < _WITHIN_MM)).reshape(shape)
+    ramps = sum(_ramps(h, a) for h, a in ((height, in_air), (height.swapaxes(1, 2), in_air.swapaxes(1, 2))))
+    outline = len(centre) * 2.0 * np.pi * radius_mm / pitch_mm
+    first, second = (_roughness(height, on_surface, step) if flat else None for step in (1, 2))
+    return FilterSigns(float(ramps / outline), _ratio(first, second), _lost(height))
+
+
+def _ramps(height: FloatArray, in_air: BoolArray) -> int:
+    """Runs of four pixels along the last axis that fall evenly, those in the middle in the air."""
+    middle = in_air[..., 1:-2] & in_air[..., 2:-1]
+    at = np.nonzero(middle)
+    if not len(at[0]):
+        return 0
+    run = np.stack([height[at[0], at[1], at[2] + step] for step in range(4)])
+    fall = np.diff(run, axis=0)
+    fall = np.where(fall[1] < 0, -fall, fall)
+    low, high = fall.min(axis=0), fall.max(axis=0)
+    return int(((low > _FALL_MM[0]) & (high < _FALL_MM[1]) & (high < _EVEN * low)).sum())
+
+
+def _roughness(height: FloatArray, on_surface: BoolArray, step: int) -> float | None:
+    """Mean square of the smaller second differences over so many pixels, mm²; None where too little is seen.
+
+    Rounded heights have few different ones: a median would say nothing.
+    """
+    at = np.nonzero(on_surface[..., : -2 * step] & on_surface[..., step:-step] & on_surface[..., 2 * step :])
+    if len(at[0]) < _FEWEST:
+        return None
+    before, own, behind = (height[at[0], at[1], at[2] + shift] for shift in (0, step, 2 * step))
+    bend = np.abs(before - 2 * own + behind)
+    widest = np.partition(bend, int(_KEPT * len(bend)))[int(_KEPT * len(bend))]
+    return float(np.mean(np.minimum(bend, widest) ** 2))
+
+
+def _ratio(one: float | None, other: float | None) -> float:
+    return 1.0 if one is None or not other else one / other
+
+
+def _lost(height: FloatArray) -> float:
+    there = np.isfinite(height)
+    around = there[:, :-2, 1:-1] & there[:, 2:, 1:-1] & there[:, 1:-1, :-2] & there[:, 1:-1, 2:]
+    return float((around & ~there[:, 1:-1, 1:-1]).sum() / max(int(around.sum()), 1))

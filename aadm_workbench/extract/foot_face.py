@@ -1,0 +1,116 @@
+"""The face of a foot in a scan: the plane with the mouths in it, and how far the concrete lies before and behind it.
+
+Feet are roughened by order (6 mm and more, washed or with keys): then the face is a layer and no plane, and only what
+reaches through the layer is a hole.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.extract.holes import find_discs, rastered
+from aadm_workbench.extract.patches import Patches
+from aadm_workbench.extract.plane import facing, find_planes, in_plane, refined_plane
+from aadm_workbench.extract.sample import Thinned, point_pitch_mm
+from aadm_workbench.model import Array, FloatArray, Plane, Scan
+
+FACE_BAND_MM = 1.5
+"""About the plane of a face that is smooth."""
+
+RIM_DEPTH_MM = 2.5
+"""A chamfer ends less far behind the face."""
+
+_LAYER_MM = 12.0  # what is roughened lies within, what stands before a foot or far behind does not
+_OUTER_PERCENT = 4.0, 96.0
+_ROUGH_MM, _ROUGH_NOISES = 3.0, 8.0  # rings and splashes of grout are thinner; noise alone comes to 3.5
+_MARGIN_MM = 1.0
+_EVERY = 16
+_ROUGH_INLIER_MM = 3.0
+_RING_MM = 1.0, 3.0  # beyond a mouth's edge: there the sleeve's own ring ends, or the concrete begins
+_RISE_MM = 1.0, 5.0  # of rings before the face, from where on it counts
+
+
+@dataclass(frozen=True, eq=False)
+class FootFace:
+    """``plane``; what lies between ``low_mm`` (negative: inside of the foot) and ``high_mm`` over it is the face.
+
+    ``rough``: it is a layer; ``flat``: neither that, nor do rings stand out of it.
+    """
+
+    plane: Plane
+    low_mm: float = -RIM_DEPTH_MM
+    high_mm: float = FACE_BAND_MM
+    rough: bool = False
+    flat: bool = True
+
+
+def face_with_holes(
+    scan: Scan, sample: Thinned, radius_mm: float, rng: np.random.Generator
+) -> tuple[FootFace, Array, float] | None:
+    """The face with most holes of a radius among the largest planes, their centres (k, 2) mm and the points' pitch."""
+    best: tuple[FootFace, Array, float] | None = None
+    noise_mm = _noise_mm(scan)
+    for plane in find_planes(sample.points, rng, 3):
+        face = _layer(plane if scan.viewpoint is None else facing(plane, scan.viewpoint), sample, noise_mm)
+        local = in_plane(sample.points[_on_face(sample, face)], face.plane)[:, :2]
+        pitch_mm = point_pitch_mm(sample, local)
+        spacing_mm = pitch_mm / np.sqrt(sample.share)
+        raster = rastered(local, max(radius_mm / 12, 1.3 * spacing_mm), 3 * radius_mm)
+        centres, _ = find_discs(raster, radius_mm, holes=True)
+        if best is None or len(centres) > len(best[1]):
+            best = (face, centres, pitch_mm)
+        if len(centres) >= 3:
+            break
+    return best
+
+
+def _on_face(sample: Thinned, face: FootFace) -> Array:
+    height = face.plane.height(sample.points)
+    low_mm, high_mm = (face.low_mm, face.high_mm) if face.rough else (-FACE_BAND_MM, _RISE_MM[1])
+    return np.asarray((height > low_mm) & (height < high_mm))
+
+
+def _layer(plane: Plane, sample: Thinned, noise_mm: float) -> FootFace:
+    some = sample.points[::_EVERY]
+    low, high = _outer(plane, some)
+    if high - low < max(_ROUGH_MM, _ROUGH_NOISES * noise_mm):
+        return FootFace(plane)
+    middle = refined_plane(some, plane, _ROUGH_INLIER_MM)
+    low, high = _outer(middle, some)
+    return FootFace(
+        middle, min(-RIM_DEPTH_MM, low - _MARGIN_MM), max(FACE_BAND_MM, high + _MARGIN_MM), rough=True, flat=False
+    )
+
+
+def _outer(plane: Plane, points: FloatArray) -> tuple[float, float]:
+    height = plane.height(points)
+    layer = height[np.abs(height) < _LAYER_MM]
+    if not len(layer):
+        return 0.0, 0.0
+    low, high = np.percentile(layer, _OUTER_PERCENT)
+    return float(low), float(high)
+
+
+def _noise_mm(scan: Scan) -> float:
+    """Of heights of neighbouring pixels against each other; 0 for clouds, whose neighbours nobody knows."""
+    if not scan.organised:
+        return 0.0
+    depth = scan.points[::_EVERY, :, 2]
+    bend = np.abs(depth[:, :-2] - 2.0 * depth[:, 1:-1] + depth[:, 2:])
+    bend = bend[np.isfinite(bend)]
+    return float(1.4826 * np.median(bend) / np.sqrt(6.0)) if len(bend) else 0.0
+
+
+def level_with_rings(patches: Patches, radius_mm: float) -> tuple[Patches, bool]:
+    """Patches about mouths whose rings stand out of the face, each as if the ring's own end was it; and if any does."""
+    squares = patches.x * patches.x + patches.y * patches.y
+    low, high = ((radius_mm + part) ** 2 for part in _RING_MM)
+    about = np.where((squares > low) & (squares < high), patches.height, np.nan)
+    about[np.abs(about) > _RISE_MM[1]] = np.nan
+    seen = np.isfinite(about).any(axis=1)
+    rise = np.zeros(len(about))
+    rise[seen] = np.nanmedian(about[seen], axis=1)
+    rise[rise < _RISE_MM[0]] = 0.0
+    return (patches.raised(rise), True) if rise.any() else (patches, False)
