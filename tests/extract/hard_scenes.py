@@ -14,14 +14,14 @@ import numpy as np
 
 from aadm_workbench.extract.method import extract
 from aadm_workbench.extract.missing import explain_missing
-from aadm_workbench.model import Array, Camera, Extraction, Kind
+from aadm_workbench.model import Array, Extraction, Kind
 from aadm_workbench.twin.camera import PRO_M, facing
 from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose, SleeveAsBuilt
 from aadm_workbench.twin.scene import TrueScan, scan_of
 from aadm_workbench.twin.scenes import FIELD, LAB, UP, Setting, random_bars, random_foot, random_pose
+from tests.scenes import WARP_PERIOD, window
 
-WARP_PERIOD = PRO_M.width / 3  # of the whole image, not of the window
 SEEN_DEPTH_MM = 130.0  # of a bore: nothing behind is seen, and ribs there only cost triangles
 FALSE_BEYOND_MM = 3.0
 
@@ -74,17 +74,6 @@ class Outcome:
     def distance_mm(self) -> Array:
         """Errors (n,) in the plane."""
         return np.hypot(*self.error_mm.T)
-
-
-def window(camera: Camera, T_column_scan: Array, reach_mm: float) -> Camera:
-    """The part of a camera's image that shows what lies within a reach of the column's axis at z = 0."""
-    T = np.linalg.inv(T_column_scan)
-    corners = np.array([[x, y, 0.0] for x in (-reach_mm, reach_mm) for y in (-reach_mm, reach_mm)])
-    seen = corners @ T[:3, :3].T + T[:3, 3]
-    u, v = camera.fx * seen[:, 0] / seen[:, 2] + camera.cx, camera.fy * seen[:, 1] / seen[:, 2] + camera.cy
-    left, right = np.clip([u.min(), u.max()], 0, camera.width).astype(int).tolist()
-    top, bottom = np.clip([v.min(), v.max()], 0, camera.height).astype(int).tolist()
-    return replace(camera, cx=camera.cx - left, cy=camera.cy - top, width=right - left, height=bottom - top)
 
 
 @cache
