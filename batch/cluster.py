@@ -66,8 +66,7 @@ def load_distributed() -> Any:
     try:
         return import_module("distributed")
     except ImportError as error:
-        install = "pip install 'aadm-workbench[batch]'"
-        raise MissingDependencyError("distributed", "Checking columns in several processes", install) from error
+        raise MissingDependencyError("distributed", "Checking columns in several processes") from error
 
 
 def cores() -> int:

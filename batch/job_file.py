@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Literal, cast
 
 from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.design.model_units import MM_PER_UNIT
 from aadm_workbench.errors import CameraError, JobError, ScanError
 from aadm_workbench.model import Camera, Profile
 from aadm_workbench.scan.file import load
@@ -148,7 +149,7 @@ def _model(top: JobTable) -> JobModel | None:
         return None
     table.allow(_MODEL)
     table.require("path", 'path = "floor3.ifc", or remove the table where every column has a [columns.design]')
-    units = table.one_of("units", ("mm", "cm", "m", "inch", "foot"), "mm")
+    units = table.one_of("units", tuple(MM_PER_UNIT), "mm")
     columns, sleeves, rebars = (table.text(key) for key in _MODEL[1:4])
     return JobModel(table.text("path") or "", columns, sleeves, rebars, units)
 

@@ -84,12 +84,16 @@ from aadm_workbench.model.shipment import (
     ShipmentReport,
 )
 from aadm_workbench.model.verdicts import (
+    SUMMED,
+    WORST_FIRST,
     Kind,
     Verdict,
     worst,
 )
 
 __all__ = [
+    "SUMMED",
+    "WORST_FIRST",
     "AbsolutePoint",
     "AbsolutePosition",
     "Array",

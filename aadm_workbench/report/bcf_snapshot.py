@@ -34,7 +34,7 @@ def foot_picture(finding: Finding) -> bytes:
     """
     image = np.full((_SIZE_PX + _HEAD_PX + _LEGEND_PX, _SIZE_PX, 3), 255, np.uint8)
     view = _View(finding.column)
-    _outline(image, finding.column, view)
+    _outline(image, view)
     for group in groups(finding.column):
         for point in group["points"]:
             _point(image, point, view, blamed=int(point["label"][1:]) in finding.numbers)
@@ -67,7 +67,7 @@ class _View:
         return round(float(value_px) * (1 << _SUBPIXEL_BITS))
 
 
-def _outline(image: Any, column: Document, view: _View) -> None:
+def _outline(image: Any, view: _View) -> None:
     """The foot's edge, and the column frame's axes in a corner."""
     if view.half_mm.all():
         low, high = view.at(-view.half_mm), view.at(view.half_mm)

@@ -19,7 +19,7 @@ from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.ifc import read_ifc
 from aadm_workbench.design.ifc_file import OpenedIfc, open_ifc
 from aadm_workbench.errors import ReportError
-from aadm_workbench.model import Array
+from aadm_workbench.model import WORST_FIRST, Array, Verdict
 from aadm_workbench.report import ifc_sets
 from aadm_workbench.report.ifc_addition import Addition
 from aadm_workbench.report.ifc_assign import Assigner
@@ -248,8 +248,8 @@ def _write_element(
 
 
 def _badness(point: dict[str, Any]) -> tuple[int, float]:
-    rank = ("not_assessed", "pass", "inconclusive", "not_measured", "fail", "error").index(point["verdict"])
-    return rank, point["deviation_mm"] or 0.0
+    rank = (*WORST_FIRST, Verdict.NOT_ASSESSED).index(point["verdict"])
+    return -rank, point["deviation_mm"] or 0.0
 
 
 def _element(file: Any, global_id: str | None) -> Any:

@@ -18,6 +18,7 @@ from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.report.fonts import FONT_FILE
 from aadm_workbench.report.sketch import STYLES, Anchor, Circle, Label, Link, Polyline, Shape, Sketch, arrowhead
+from aadm_workbench.report.words import INK
 
 FONT = "AADM"
 MM = 72.0 / 25.4
@@ -42,7 +43,7 @@ def reportlab(module: str, needed_for: str = "a PDF report") -> Any:
     try:
         return import_module(f"reportlab.{module}")
     except ImportError as error:
-        raise MissingDependencyError("reportlab", needed_for, "pip install 'aadm-workbench[reports]'") from error
+        raise MissingDependencyError("reportlab", needed_for) from error
 
 
 @cache
@@ -128,7 +129,7 @@ def write(
     text: str,
     size: float,
     *,
-    colour: str = "#1d2730",
+    colour: str = INK,
     bold: bool = False,
     anchor: Anchor = "start",
 ) -> None:
@@ -155,7 +156,7 @@ def write_lines(
     size: float,
     width: float,
     *,
-    colour: str = "#1d2730",
+    colour: str = INK,
     bold: bool = False,
     most: int | None = None,
 ) -> float:

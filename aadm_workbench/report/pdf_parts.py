@@ -6,7 +6,7 @@ from typing import Any
 
 from aadm_workbench.report.pdf_canvas import draw_sketch, lines_of, reportlab, write
 from aadm_workbench.report.sketch import Sketch
-from aadm_workbench.report.words import COLOUR
+from aadm_workbench.report.words import COLOUR, INK
 
 
 def _flowable() -> Any:
@@ -17,7 +17,7 @@ def paragraph(
     text: str,
     size: float = 9.0,
     *,
-    colour: str = "#1d2730",
+    colour: str = INK,
     bold: bool = False,
     indent: float = 0.0,
     after: float = 3.0,

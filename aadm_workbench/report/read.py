@@ -98,7 +98,7 @@ def _first_slip(document: Any) -> str | None:
         jsonschema = import_module("jsonschema")
     except ImportError as error:
         message = "reading report.json"
-        raise MissingDependencyError("jsonschema", message, "pip install 'aadm-workbench[reports]'") from error
+        raise MissingDependencyError("jsonschema", message) from error
     validator = jsonschema.Draft202012Validator(report_schema())
     found = max(_slips(validator.iter_errors(document)), key=lambda slip: len(slip.absolute_path), default=None)
     if found is None:

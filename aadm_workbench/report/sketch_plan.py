@@ -64,7 +64,7 @@ def _placed(columns: Sequence[dict[str, Any]], anchors: dict[str, str]) -> Sketc
     inset = (WIDTH - span[0] * scale) / 2.0
     at = [(inset + (x - low[0]) * scale, _MARGIN + (y - low[1]) * scale) for x, y in places]
     half = min(_LARGEST, max(_SMALLEST, 0.3 * _nearest(at))) / 2.0
-    shapes: list[Shape] = [*_grid_lines(columns, at, (WIDTH, height))]
+    shapes: list[Shape] = [*_grid_lines(columns, at)]
     for column, place in zip(columns, at, strict=True):
         shapes.append(_column(column, place, half, anchors))
     return Sketch(WIDTH, height, tuple(shapes))
@@ -106,7 +106,7 @@ def _column(column: dict[str, Any], at: Point, half: float, anchors: dict[str, s
     return Link(anchors[column["id"]], column["id"], shapes)
 
 
-def _grid_lines(columns: Sequence[dict[str, Any]], at: Sequence[Point], frame: Point) -> Iterator[Shape]:
+def _grid_lines(columns: Sequence[dict[str, Any]], at: Sequence[Point]) -> Iterator[Shape]:
     """A line through the columns of each axis that at least two of them stand on."""
     members: dict[str, list[Point]] = defaultdict(list)
     for column, place in zip(columns, at, strict=True):

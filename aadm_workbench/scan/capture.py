@@ -14,14 +14,13 @@ import numpy as np
 from aadm_workbench.errors import CameraError, ScanError
 from aadm_workbench.model import Camera
 from aadm_workbench.scan.camera import LARGEST_INTRINSICS_BYTES, LARGEST_PIXEL_OFFSET, read_camera
-from aadm_workbench.scan.file import Declared, load
+from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, Declared, load
 from aadm_workbench.scan.picture_size import picture_size
 
 MOST_FILES = 1000
+"""The folder of a capture holds a dozen files; a folder of a whole day is no capture."""
 
-_PICTURES = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp")
-_DEPTH_MAPS = (".tif", ".tiff", ".png", ".npz")
-_CLOUDS = (".ply", ".pcd", ".ptx", ".pts", ".xyz", ".e57", ".las", ".laz")
+_PICTURES = (*DEPTH_MAPS, ".jpg", ".jpeg", ".bmp")
 _INTRINSICS = (".toml", ".json", ".yaml", ".yml", ".xml", ".txt", ".ini")
 _DEPTH_SCALE = re.compile(r"depth_scale_mm\b[\"']?\s*[:=]\s*([0-9]{1,12}(?:\.[0-9]{0,12})?(?:[eE][-+]?[0-9]{1,3})?)")
 _DEPTH_WORDS = ("depth", "range", "tiefe", "深度")
@@ -69,7 +68,7 @@ def find_capture(folder: Path, name: str, declared: Declared) -> Capture:
     files = _files(folder, name)
     scan = _scan(files, name)
     intrinsics, camera, notes = _camera(files, scan, declared)
-    clouds = _of(files, _CLOUDS)
+    clouds = _of(files, CLOUDS)
     if camera is None and scan not in clouds and len(clouds) == 1:
         notes.append(f"{clouds[0].name} was taken: {scan.name} has no intrinsics beside it")
         scan = clouds[0]
@@ -102,10 +101,10 @@ def _with(files: Sequence[Path], words: Sequence[str]) -> list[Path]:
 
 def _scan(files: Sequence[Path], name: str) -> Path:
     """Return the depth map, else the cloud."""
-    maps = [path for path in _of(files, _DEPTH_MAPS) if path not in _with(files, _NO_MEASUREMENT_WORDS)]
+    maps = [path for path in _of(files, (*DEPTH_MAPS, ".npz")) if path not in _with(files, _NO_MEASUREMENT_WORDS)]
     named = _with(maps, _DEPTH_WORDS)
     unnamed = [path for path in maps if path.suffix.lower() != ".png" and path not in _with(maps, _PICTURE_WORDS)]
-    clouds = _of(files, _CLOUDS)
+    clouds = _of(files, CLOUDS)
     plain_clouds = [path for path in clouds if path not in _with(clouds, (*_PICTURE_WORDS, *_NO_MEASUREMENT_WORDS))]
     for candidates in (named, unnamed, plain_clouds, clouds):
         if len(candidates) > 1:
