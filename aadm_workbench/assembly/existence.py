@@ -29,6 +29,7 @@ from aadm_workbench.assembly.upright import turn
 from aadm_workbench.model import Array, BoolArray, IntArray
 
 SAMPLES = 1000
+"""Draws: a probability of 95 % is then known to 0.7 %."""
 
 _FIRST = 200
 """Where so many draws all say the same, no more are made: the probability is then known to 1.5 %."""
@@ -45,7 +46,7 @@ _HOPELESS_SIGMAS = 8.0
 _LARGEST_BIAS = 1.0
 """The bias counts up to this many spreads of r: beyond, the scatter hides what is measured, and nothing is known."""
 
-_SAFE_SIGMAS = 4.0
+_SAFE_SIGMAS = 4.0  # of the root of both variances: the disc then holds all but one in nine million
 
 _GAP = 1e-4
 """Share to which a squared ratio has to be known: some hundred times finer than the spread of the draws."""

@@ -20,8 +20,8 @@ from aadm_workbench.model import PairResult, PoseWindow, Profile, RuleResult, Tr
 QUANTITY = "sleeve_rebar_distance"
 NO_POSE = "no pose brings every rebar into its sleeve"
 
-_MOST_RESCANNED = 2
-_OF_THE_WORST = 0.5
+_MOST_RESCANNED = 2  # a person scans again once or twice, and then sees further
+_OF_THE_WORST = 0.5  # of the worst one's share: the second counts as long as it is about as bad
 
 
 def collisions(pose: TrialPose) -> tuple[str, ...]:

@@ -17,8 +17,8 @@ LARGEST_BYTES = 8 * 2**30
 PACKED_RATIO = 200
 """Shapes and XML pack to a tenth or a fiftieth; what packs more than this was made to burst."""
 
-_SMALL_BYTES = 64 * 2**20
-_PIECE_BYTES = 2**20
+_SMALL_BYTES = 64 * 2**20  # what unpacks to less may be packed as tightly as it likes
+_PIECE_BYTES = 2**20  # bounds the memory, not the time
 _MAIN = "Document.xml"
 
 

@@ -22,7 +22,7 @@ from aadm_workbench.model import Array
 
 Part = TypeVar("Part")
 
-_FEWEST_SIDES = 4
+_FEWEST_SIDES = 4  # FreeCAD draws circles with four
 _SAME_MM = 1e-4
 """Vertices that differ by less are drawn alike."""
 

@@ -12,7 +12,7 @@ import numpy as np
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
-_GLOBAL_ID_LENGTH = 22
+_GLOBAL_ID_LENGTH = 22  # 22 characters (IFC): a name that long is one
 _SHOWN = 8
 """Names in a message before it stops counting them up."""
 

@@ -8,12 +8,13 @@ from aadm_workbench.scan.file import ScanFile
 
 _PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _TIFF_SIGNATURES = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
-_TIFF_WIDTH, _TIFF_HEIGHT = 256, 257
+_TIFF_WIDTH, _TIFF_HEIGHT = 256, 257  # tags of TIFF 6.0
 _TIFF_VALUE_FORMATS = {3: "H", 4: "I", 16: "Q"}
-_MOST_TIFF_ENTRIES = 4096
+_MOST_TIFF_ENTRIES = 4096  # a directory has twenty; so many take no time
 _JPEG_SIGNATURE, _BMP_SIGNATURE = b"\xff\xd8\xff", b"BM"
+# markers that begin a frame, without those of tables (ITU-T T.81, table B.1)
 _JPEG_FRAMES = {*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC}
-_MOST_JPEG_SEGMENTS = 10_000
+_MOST_JPEG_SEGMENTS = 10_000  # a picture has some dozen before its frame; so many take no time
 
 
 def depth_map_size(file: ScanFile) -> tuple[int, int]:

@@ -13,6 +13,7 @@ from aadm_workbench.model import Array
 from aadm_workbench.scan.file import ScanFile
 
 LONGEST_LINE_BYTES = 2**20
+"""A row of numbers takes some hundred bytes: what has no end in a megabyte is no text of points."""
 
 
 def parse_rows(

@@ -9,7 +9,7 @@ from aadm_workbench.scan.file import Cloud, Declared, ScanFile
 from aadm_workbench.scan.records import check_room
 from aadm_workbench.scan.rows import LONGEST_LINE_BYTES, parse_rows
 
-_LONGEST_PREAMBLE_LINES = 200
+_LONGEST_PREAMBLE_LINES = 200  # exporters write up to some dozen lines before the table
 _COMMENTS = ("#", "//", "%")
 _LINE = re.compile(rb"[^\r\n]*")
 _LINE_END = re.compile(rb"\r\n|\r|\n")

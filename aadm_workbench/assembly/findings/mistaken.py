@@ -20,7 +20,7 @@ from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Findin
 FITS_SHARE = 0.75
 """Of the points of a design: with so many on their places a scan shows it. Half may lie on some pattern by chance."""
 
-_FEWEST = 4
+_FEWEST = 4  # three points lie on some pattern by chance
 _LOOKS = 3  # in one scan, for other columns' sizes: each takes as long as a check
 _SIZES_EACH_WAY = 2  # bars two sizes off have been delivered; more would be seen from afar
 
