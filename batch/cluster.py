@@ -17,7 +17,7 @@ from aadm_workbench.errors import JobError, MissingDependencyError
 from .local_workers import LocalWorkers
 from .remote_workers import RemoteWorkers
 
-_CONNECT_S = 10.0
+_CONNECT_S = 10.0  # a scheduler that is there answers at once: a slow network has seconds
 _LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")
 
 _SETTINGS: dict[str, Any] = {

@@ -8,7 +8,7 @@ from aadm_workbench.scan.read import MM_PER_UNIT
 from .job_table import JobTable
 
 _KEYS = ("name", "model", "column", "scan", "u_mm")
-_FEWEST = 2
+_FEWEST = 2  # one point gives a place and no turn
 
 
 def read_control_points(column: JobTable, *, units: str, has_own_design: bool) -> tuple[ControlPoint, ...]:

@@ -27,7 +27,7 @@ from .printable import steering_character
 LARGEST_JOB_BYTES = 64 * 2**20
 """A job of a thousand columns with designs of their own takes about one."""
 
-_MOST_PARTS_OF_A_KEY = 64
+_MOST_PARTS_OF_A_KEY = 64  # keys of a job have three; tables nested a thousand deep end the parser's stack
 _DOTTED = re.compile(r"[\w\"'-][ \t]*\.")
 
 CHECKS = ("sleeves", "rebars", "trial")

@@ -16,7 +16,7 @@ from importlib import import_module
 from .one_thread import calculate_in_one_thread
 
 _HERE = "127.0.0.1"
-_SET_SIGNAL_OF_PARENTS_DEATH = 1
+_SET_SIGNAL_OF_PARENTS_DEATH = 1  # PR_SET_PDEATHSIG of prctl(2)
 
 
 def main(address: str, folder: str, parent: str) -> None:

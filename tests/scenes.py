@@ -26,6 +26,7 @@ from aadm_workbench.twin.scenes import (
 
 SETTINGS = {"lab": LAB, "field": FIELD}
 WARP_PERIOD = PRO_M.width / 3  # of the whole image, not of a window
+SEEN_DEPTH_MM = 130.0  # of a bore: nothing behind is seen, and ribs there only cost triangles
 BESIDE_MM = 44.0  # the pattern: face around the outermost mouths, floor around the outermost bars
 
 
@@ -59,6 +60,8 @@ def lab_scan(part: Foot | BarGroup, seed: int = 5, setting: Setting = LAB) -> Tr
     rng = np.random.default_rng(seed)
     pose = random_pose(setting, isinstance(part, Foot), rng)
     noise = replace(quiet_noise(), warp_period=WARP_PERIOD)
+    if isinstance(part, Foot):
+        part = replace(part, sleeves=tuple(replace(sleeve, depth=SEEN_DEPTH_MM) for sleeve in part.sleeves))
     return scan_of(part, pose, noise, rng, window(PRO_M, pose, setting.half_width + BESIDE_MM, even=True))
 
 

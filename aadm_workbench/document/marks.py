@@ -14,10 +14,10 @@ from aadm_workbench.report.shown_pose import shown_pose
 SHOWN = ("position", "minimax", "least_squares")
 """Against the design; in the trial assembly, laid on in the one way or the other."""
 
-_SIDES = 48
+_SIDES = 48  # no corner is seen at the size of a screen
 _LABELLED_FIRST = (*WORST_FIRST[:-1], Verdict.NOT_ASSESSED, Verdict.PASS)  # a pass says least
-_ARROW_SHARE = 0.6
-_FACTORS = (1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 500.0)
+_ARROW_SHARE = 0.6  # of the distance of neighbours: arrows do not reach into the next mark
+_FACTORS = (1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 500.0)  # magnifications that a person can divide by
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,6 +12,7 @@ from typing import Any
 from aadm_workbench.errors import ReportError
 
 SCHEMA = 1
+"""As of :mod:`aadm_workbench.report.json`."""
 
 
 def load_report(path: Path) -> dict[str, Any]:

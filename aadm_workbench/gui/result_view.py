@@ -44,7 +44,7 @@ translate = FreeCAD.Qt.translate
 
 LABELLED = ("What fails", "All", "None")
 _GOOD = frozenset({"pass", "not_assessed"})
-_EMPTY = np.zeros((0, 3))
+_EMPTY = np.zeros((0, 3))  # no points
 _LEAST_PITCH_PX = 25.0
 """Where neighbours are closer on the screen than this, points are not labelled."""
 

@@ -15,7 +15,7 @@ from aadm_workbench.report.words import COLOUR, FAINT, HEAD, INK, WARN, Language
 
 _LIGHT = {"green": COLOUR["pass"], "amber": "#e0a100", "red": COLOUR["fail"]}
 _ON_LIGHT = {"green": "#ffffff", "amber": INK, "red": "#ffffff"}
-_LEFT, _RIGHT = 15.0 * MM, 195.0 * MM
+_LEFT, _RIGHT = 15.0 * MM, 195.0 * MM  # margins of 15 mm on A4: printers reach as far
 _WIDTH = _RIGHT - _LEFT
 
 

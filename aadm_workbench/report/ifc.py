@@ -29,7 +29,7 @@ from aadm_workbench.report.ifc_removal import Stripped, keep_book, without_resul
 from aadm_workbench.report.ifc_step import step_text
 from aadm_workbench.report.read import Report
 
-_SHORT_HASH = 12
+_SHORT_HASH = 12  # 48 bits: no two states of a model share them
 
 
 @dataclass(frozen=True)

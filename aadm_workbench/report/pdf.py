@@ -23,8 +23,9 @@ from aadm_workbench.report.tables import narrowed
 from aadm_workbench.report.words import COLOUR, FAINT, Language, Phrase, phrase, verdict_words
 from aadm_workbench.report.words_reasons import in_both_languages
 
-_MARGIN = 14.0 * MM
+_MARGIN = 14.0 * MM  # printers reach as far
 WIDTH = A4[0] - 2.0 * _MARGIN
+"""Between the margins."""
 
 
 def write_pdf(report: Report, path: Path, language: Language = "en") -> None:

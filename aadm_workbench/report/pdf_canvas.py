@@ -22,9 +22,11 @@ from aadm_workbench.report.words import INK
 
 FONT = "AADM"
 MM = 72.0 / 25.4
+"""Points of a millimetre."""
 A4 = (210.0 * MM, 297.0 * MM)
+"""Width and height, points (ISO 216)."""
 
-_BOLD_STROKE = 0.028
+_BOLD_STROKE = 0.028  # of the size: letters are drawn with an outline of that width, since the font has no bold cut
 _CHINESE = r"[\u2e80-\u9fff\uf900-\ufaff\uff00-\uffef\u3000-\u303f]"
 _NEVER_FIRST = "。,、;:!?)》」』】〕%"
 _TOKEN = re.compile(rf"{_CHINESE}|[^\s\u2e80-\u9fff\uf900-\ufaff\uff00-\uffef\u3000-\u303f]+|\s+")

@@ -13,8 +13,9 @@ from aadm_workbench.report.words import COLOUR, HEAD, Language, phrase, verdict_
 from aadm_workbench.report.words_reasons import in_both_languages
 
 SIZE = 7.0
-_PADDING = 2.6
-_NARROWEST = 30.0
+"""Of the letters, points: the smallest that is read on paper."""
+_PADDING = 2.6  # points: between text and line
+_NARROWEST = 30.0  # points: a column of a word of five letters
 _STRIPE, _LINE, _FAIL_FILL = "#f6f8f9", "#d5dbe0", "#fbe3d7"
 
 

@@ -19,7 +19,7 @@ Report: TypeAlias = dict[str, Any]
 LARGEST_REPORT_BYTES = 2**30
 """A column takes 50 KB: this is twenty thousand of them."""
 
-_SHOWN_CHARACTERS = 80
+_SHOWN_CHARACTERS = 80  # of what a file holds: a line
 _HALF_CHARACTER = re.compile(r"\\u[dD][89a-fA-F]")
 
 

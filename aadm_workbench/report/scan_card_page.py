@@ -19,11 +19,11 @@ from aadm_workbench.report.scan_card import (
 from aadm_workbench.report.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow, rectangle
 from aadm_workbench.report.words import FAINT, MOVE, Language, Phrase, phrase
 
-_LEFT, _RIGHT = 15.0 * MM, 195.0 * MM
+_LEFT, _RIGHT = 15.0 * MM, 195.0 * MM  # margins of 15 mm on A4: printers reach as far
 _WIDTH = _RIGHT - _LEFT
-_SIDE = 200.0
-_MARGIN = 22.0
-_PART_HEIGHT = 111.0 * MM
+_SIDE = 200.0  # of the drawing, in its own units
+_MARGIN = 22.0  # about the pattern: its labels
+_PART_HEIGHT = 111.0 * MM  # half of what head and foot leave of A4
 
 
 def write_scan_cards(cards: Sequence[ScanCard], path: Path, language: Language = "zh", *, title: str = "") -> None:

@@ -11,9 +11,10 @@ from aadm_workbench.report.sketch import Label, Link, Point, Polyline, Shape, Sk
 from aadm_workbench.report.words import SIGN
 
 WIDTH = 1000.0
-_MARGIN = 70.0
-_SMALLEST, _LARGEST = 12.0, 44.0
-_HIGHEST = 620.0
+"""Of the drawing, in its own units; the page gives it its size."""
+_MARGIN = 70.0  # about the columns: tags of the axes
+_SMALLEST, _LARGEST = 12.0, 44.0  # of a column's square: still clicked, and not larger than its name needs
+_HIGHEST = 620.0  # of the drawing: a long floor leaves room on the page
 
 
 @dataclass(frozen=True)

@@ -36,9 +36,9 @@ _FILLS = {
 }
 # A fixed date, so that the same report gives the same bytes.
 _CREATED = datetime(2020, 1, 1)  # noqa: DTZ001 - the format holds no zone
-_WIDEST, _NARROWEST = 60, 9
+_WIDEST, _NARROWEST = 60, 9  # characters: a sentence that is broken, a number with its unit
 _FORBIDDEN_IN_SHEET_NAMES = str.maketrans(dict.fromkeys("[]:*?/\\", " "))
-_LONGEST_CELL = 32_767
+_LONGEST_CELL = 32_767  # characters of a cell, Excel's own bound
 
 
 def write_xlsx(report: Report, path: Path, language: Language = "en") -> None:
