@@ -3,7 +3,7 @@
 import FreeCAD
 
 FreeCAD.addImportType(
-    "AADM: structured-light scan (*.ply *.pcd *.xyz *.pts *.asc *.npz *.tif *.tiff)",
+    "AADM: structured-light scan (*.ply *.pcd *.xyz *.pts *.ptx *.las *.laz *.e57 *.asc *.npz *.tif *.tiff)",
     "aadm_workbench.document.open_scan",
 )
 FreeCAD.addImportType("AADM: report of a check (*.json)", "aadm_workbench.document.open_report")

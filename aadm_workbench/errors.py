@@ -6,6 +6,8 @@ What a scan cannot support (a plugged sleeve, a bar out of view) is no error: it
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 
 class AadmError(Exception):
     """Base of all errors that this product raises on purpose."""
@@ -34,9 +36,72 @@ class ReportError(AadmError):
 class MissingDependencyError(AadmError):
     """A package that this command needs is not installed; the message holds the command that installs it."""
 
-    def __init__(self, package: str, needed_for: str, install: str) -> None:
+    def __init__(self, package: str, needed_for: str, install: str = "") -> None:
+        install = install or package_called(package).install
         super().__init__(
             f"{needed_for} needs the package {package}, which is not installed. Install it with: {install}"
         )
         self.package = package
         self.install = install
+
+
+@dataclass(frozen=True)
+class Package:
+    """A package by the name it is imported by and by the one that pip knows; ``needed_for`` what.
+
+    ``extra`` is the one of this project that brings it; without one the project itself does. ``others`` are names
+    that it may be installed under, too.
+    """
+
+    module: str
+    pip_name: str
+    needed_for: str
+    extra: str = ""
+    others: tuple[str, ...] = ()
+
+    @property
+    def install(self) -> str:
+        """The command that installs it."""
+        return install_of(self.extra) if self.extra else f"pip install '{self.pip_name}'"
+
+
+PACKAGES = (
+    Package("numpy", "numpy", "all arithmetic"),
+    Package("scipy", "scipy", "robust fits"),
+    Package(
+        "cv2",
+        "opencv-python-headless",
+        "circles, depth maps",
+        others=("opencv-python", "opencv-contrib-python-headless", "opencv-contrib-python", "opencv"),
+    ),
+    Package("ifcopenshell", "ifcopenshell", "IFC models"),
+    Package("rich", "rich", "tables in the terminal"),
+    Package("jinja2", "jinja2", "report.html", "reports"),
+    Package("fontTools", "fonttools", "Chinese in report.html", "reports"),
+    Package("reportlab", "reportlab", "report.pdf, crew pages, scan cards", "reports"),
+    Package("xlsxwriter", "xlsxwriter", "report.xlsx", "reports"),
+    Package("jsonschema", "jsonschema", "reading report.json", "reports"),
+    Package("lzf", "python-neo-lzf", "compressed PCD files", "formats"),
+    Package("lazrs", "lazrs", "LAZ files", "formats"),
+    Package("pye57", "pye57", "E57 files", "formats"),
+    Package("tifffile", "tifffile", "TIFF of half floats and of X, Y, Z", "formats"),
+    Package("imagecodecs", "imagecodecs", "TIFF packed with ZSTD, LZMA or LERC", "formats"),
+    Package("psutil", "psutil", "check --jobs N", "batch"),
+    Package("distributed", "distributed", "check --scheduler", "batch"),
+    Package("open3d", "open3d", "virtual camera, methods of the literature", "twin", ("open3d-cpu",)),
+    Package("manifold3d", "manifold3d", "virtual camera", "twin"),
+    Package("trimesh", "trimesh", "models as meshes, virtual camera", "mesh"),
+    Package("mitsuba", "mitsuba", "virtual fringe camera", "physics"),
+    Package("matplotlib", "matplotlib", "plots of studies", "twin"),
+)
+"""All packages that any part of this project imports, and how each is installed; pyproject.toml names the same."""
+
+
+def package_called(pip_name: str) -> Package:
+    """The package that pip knows by a name."""
+    return next(package for package in PACKAGES if package.pip_name == pip_name)
+
+
+def install_of(extra: str) -> str:
+    """The command that installs what one extra of this project brings."""
+    return f"pip install 'aadm-workbench[{extra}]'"

@@ -18,7 +18,7 @@ from aadm_workbench.errors import JobError, MissingDependencyError
 
 from .remote_workers import RemoteWorkers
 
-_CONNECT_S = 10.0
+_CONNECT_S = 10.0  # a scheduler that is there answers at once: a slow network has seconds
 _LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")
 
 
@@ -50,8 +50,7 @@ def load_distributed() -> Any:
     try:
         return import_module("distributed")
     except ImportError as error:
-        install = "pip install 'aadm-workbench[batch]'"
-        raise MissingDependencyError("distributed", "Checking columns on a cluster", install) from error
+        raise MissingDependencyError("distributed", "Checking columns on a cluster") from error
 
 
 @contextmanager

@@ -44,8 +44,8 @@ _GRACE_S = 30.0
 _LAST_WORKER_S = 90.0
 """So long is waited for a worker where there is none."""
 
-_RESULT_S = 30.0
-_EXIT_S = 8.0
+_RESULT_S = 30.0  # a result is sent within a second: what has not come by then has gone with its worker
+_EXIT_S = 8.0  # a scheduler hears of a worker's end by its next heartbeats
 
 Ship = Callable[[Any], tuple[ShippedFile, ...]]
 Say = Callable[[str], None]

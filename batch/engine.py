@@ -13,7 +13,6 @@ from typing import Any, Protocol, TypeVar
 
 Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
-Lost = Callable[[Task, str], Outcome]
 
 MOST_DEATHS = 3
 """So many processes may a column cost before it is given up."""

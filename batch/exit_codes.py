@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from aadm_workbench.model import Verdict
 
-ALL_PASS = 0
-BAD_USAGE = 2
-FAILS = 10
-UNDECIDED = 11
-ERRORS = 12
-INTERNAL = 70
-INTERRUPTED = 130
+ALL_PASS = 0  # success
+BAD_USAGE = 2  # as argparse ends, too
+FAILS = 10  # from ten on the numbers are this command's own: neither shells nor libraries use them
+UNDECIDED = 11  # better than a fail
+ERRORS = 12  # worse than a fail
+INTERNAL = 70  # EX_SOFTWARE of sysexits.h
+INTERRUPTED = 130  # 128 + SIGINT, as shells say it
 
 _OF_VERDICT = {
     "pass": ALL_PASS,

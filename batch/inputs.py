@@ -15,7 +15,7 @@ from .column_files import files_of
 from .exact_json import to_exact_json
 from .task import ColumnTask
 
-_CHUNK_BYTES = 1 << 20
+_CHUNK_BYTES = 1 << 20  # bounds the memory, not the time
 
 
 def task_key(task: ColumnTask, program: str) -> str:

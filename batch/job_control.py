@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from aadm_workbench.model import ControlPoint, Vector3
+from aadm_workbench.scan.read import MM_PER_UNIT
 
 from .job_table import JobTable
 
 _KEYS = ("name", "model", "column", "scan", "u_mm")
-_FEWEST = 2
-_MM_PER_UNIT = {"mm": 1.0, "m": 1000.0}
+_FEWEST = 2  # one point gives a place and no turn
 
 
 def read_control_points(column: JobTable, *, units: str, has_own_design: bool) -> tuple[ControlPoint, ...]:
@@ -35,7 +35,7 @@ def read_control_points(column: JobTable, *, units: str, has_own_design: bool) -
         raise column.wrong("control_points", "one control point gives no position: add two more that span a triangle")
     points: list[ControlPoint] = []
     for table in tables:
-        point = _control_point(table, _MM_PER_UNIT[units], has_own_design)
+        point = _control_point(table, MM_PER_UNIT[units], has_own_design)
         if any(other.name == point.name for other in points):
             raise table.wrong("name", f'two control points have the name "{point.name}"')
         points.append(point)

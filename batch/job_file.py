@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Literal, cast
 
 from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.design.model_units import MM_PER_UNIT
 from aadm_workbench.errors import CameraError, JobError, ScanError
 from aadm_workbench.model import Camera, Profile
 from aadm_workbench.scan.file import load
@@ -26,7 +27,7 @@ from .printable import steering_character
 LARGEST_JOB_BYTES = 16 * 2**20
 """A job of a thousand columns with designs of their own takes a megabyte."""
 
-_MOST_PARTS_OF_A_KEY = 64
+_MOST_PARTS_OF_A_KEY = 64  # keys of a job have three; tables nested a thousand deep end the parser's stack
 _DOTTED = re.compile(r"[\w\"'-][ \t]*\.")
 
 CHECKS = ("sleeves", "rebars", "trial")
@@ -155,7 +156,7 @@ def _model(top: JobTable) -> JobModel | None:
         return None
     table.allow(_MODEL)
     table.require("path", 'path = "floor3.ifc", or remove the table where every column has a [columns.design]')
-    units = table.one_of("units", ("mm", "cm", "m", "inch", "foot"), "mm")
+    units = table.one_of("units", tuple(MM_PER_UNIT), "mm")
     columns, sleeves, rebars = (table.text(key) for key in _MODEL[1:4])
     return JobModel(table.path("path") or "", columns, sleeves, rebars, units)
 

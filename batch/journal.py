@@ -28,7 +28,7 @@ PREVIOUS_NAME = "journal.previous.jsonl"
 _FIRST_LINE = b'{"aadm_journal":1}\n'
 _LAST_LINE = b'{"finished":true}\n'
 _STOPPED_LINE = b'{"stopped":true}\n'
-_SECONDS_BETWEEN_FLUSHES = 1.0
+_SECONDS_BETWEEN_FLUSHES = 1.0  # so much work is lost at most in a power failure
 _PIECE_BYTES = 2**20
 
 LONGEST_LINE_BYTES = 2**26

@@ -15,7 +15,7 @@ import sys
 from .one_thread import calculate_in_one_thread
 from .pipes import answer, own_ends, receive, send
 
-_SET_SIGNAL_OF_PARENTS_DEATH = 1
+_SET_SIGNAL_OF_PARENTS_DEATH = 1  # PR_SET_PDEATHSIG of prctl(2)
 
 
 def main(parent: str) -> None:

@@ -20,8 +20,8 @@ from .worker import last_words, read_log
 MOST_FALSE_STARTS = 10
 """So many workers in a row may end by themselves within ``_START_S`` before it is clear that none can be started."""
 
-_START_S = 3.0
-_CLOSE_S = 5.0
+_START_S = 3.0  # a worker that starts takes one or two
+_CLOSE_S = 5.0  # one that does not end by then is killed
 _ENVIRONMENT = {"OMP_NUM_THREADS": "1"}
 
 

@@ -29,8 +29,7 @@ def load_psutil() -> Any:
     try:
         return import_module("psutil")
     except ImportError as error:
-        install = "pip install 'aadm-workbench[batch]'"
-        raise MissingDependencyError("psutil", "Checking columns in several processes", install) from error
+        raise MissingDependencyError("psutil", "Checking columns in several processes") from error
 
 
 def cores() -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from time import monotonic
 
-_STEPS = 50
+_STEPS = 50  # columns: a mean of so many is steady, and follows what changes in an hour
 
 
 class Pace:

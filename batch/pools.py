@@ -124,7 +124,9 @@ def _is_for_here(options: PoolOptions, columns: int, say: Callable[[str], None])
     if columns <= MOST_COLUMNS_HERE and not options.apart:
         return True
     if find_spec("psutil") is None:
+        from aadm_workbench.errors import install_of
+
         if options.processes is None and columns > MOST_COLUMNS_HERE:
-            say("one column at a time, all in one process: pip install 'aadm-workbench[batch]' to use every core")
+            say(f"one column at a time, all in one process: {install_of('batch')} to use every core")
         return True
     return False

@@ -25,13 +25,12 @@ FORMATS = {
 """By the name of their switch: file, and what it is."""
 
 _PACKAGES = {
-    "html": ("jinja2", "fontTools"),
+    "html": ("jinja2", "fonttools"),
     "pdf": ("reportlab",),
     "xlsx": ("xlsxwriter",),
     "crew": ("reportlab",),
     "scan_card": ("reportlab",),
 }
-_NAMES = {"fontTools": "fonttools"}
 
 
 def add_format_switches(parser: argparse.ArgumentParser, *, also: str = "") -> None:
@@ -60,13 +59,12 @@ def require_packages(formats: Sequence[str]) -> None:
     MissingDependencyError
         Naming the first package that is missing.
     """
-    from aadm_workbench.errors import MissingDependencyError
+    from aadm_workbench.errors import MissingDependencyError, package_called
 
     for name in formats:
-        for package in _PACKAGES.get(name, ()):
-            if find_spec(package) is None:
-                shown = _NAMES.get(package, package)
-                raise MissingDependencyError(shown, FORMATS[name][0], "pip install 'aadm-workbench[reports]'")
+        for package in map(package_called, _PACKAGES.get(name, ())):
+            if find_spec(package.module) is None:
+                raise MissingDependencyError(package.pip_name, FORMATS[name][0])
 
 
 def write_reports(

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .exit_codes import ALL_PASS
+from .job_command import METHODS
 from .one_thread import calculate_in_one_thread
 from .switches import add_switches, whole_number
 
 if TYPE_CHECKING:
     from aadm_workbench.twin.study.hoisting import HoistingStudy
 
-METHODS = ("refined", "fusion", "pointcloud", "image")
 _STUDIES = {
     "distance": "hoisting: errors over the distance of the camera (Table 3, Fig. 16)",
     "height": "hoisting: errors over the height of the foot above the bars (Table 4, Fig. 17)",

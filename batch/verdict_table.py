@@ -7,12 +7,10 @@ from collections.abc import Iterator
 from rich.table import Table
 from rich.text import Text
 
-from aadm_workbench.model import ColumnReport, JobReport, Verdict
+from aadm_workbench.model import WORST_FIRST, ColumnReport, JobReport, Verdict
 
 from .terminal import in_words, new_table, verdict_text
 from .worst_point import Comparison, worst_comparison
-
-_WORST_FIRST = (Verdict.ERROR, Verdict.FAIL, Verdict.NOT_MEASURED, Verdict.INCONCLUSIVE, Verdict.PASS)
 
 
 def verdict_table(report: JobReport) -> Table:
@@ -35,7 +33,7 @@ def verdict_table(report: JobReport) -> Table:
 
 def worst_first(columns: tuple[ColumnReport, ...]) -> list[ColumnReport]:
     """Columns by verdict, the worst first; those of one verdict in the order of the job."""
-    return sorted(columns, key=lambda column: _WORST_FIRST.index(column.verdict))
+    return sorted(columns, key=lambda column: WORST_FIRST.index(column.verdict))
 
 
 def summary_line(report: JobReport) -> str:

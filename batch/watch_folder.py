@@ -7,9 +7,9 @@ from pathlib import Path
 
 from aadm_workbench.scan.read import supported_formats
 
-_STEADY_LOOKS = 2
-_MOST_KNOWN = 2_000
-_PATIENCE_LOOKS = 8
+_STEADY_LOOKS = 2  # in a row with the same size: a file that grows changes between them
+_MOST_KNOWN = 2_000  # frames of some hours; names of older ones are forgotten
+_PATIENCE_LOOKS = 8  # a second or so, until a file of full size also has its content
 
 
 @dataclass

@@ -22,7 +22,8 @@ from .watch_folder import FolderWatch
 from .watch_state import frame_line, state_document
 
 LOOK_EVERY_S = 0.15
-_PATIENCE_S = 3.0
+"""A person sees no delay, and a listing of a folder costs nothing."""
+_PATIENCE_S = 3.0  # a file that is not whole by then is said to be broken
 
 
 @dataclass(frozen=True)

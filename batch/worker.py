@@ -22,7 +22,7 @@ from .program import difference, program_versions
 _LOG_BYTES = 16_384
 """So much of what a column writes is kept."""
 
-_LAST_LINES = 4
+_LAST_LINES = 4  # the first ones of a fault, or the last ones of anything else, say what happened
 TOO_LONG = "Timeout ("
 """What :mod:`faulthandler` writes first where the time limit is up."""
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 
 from aadm_workbench.extract.plane import axes_on
-from aadm_workbench.model import Array, Extraction, Plane, Scan
+from aadm_workbench.model import Array, Camera, Extraction, Plane, Scan
+from aadm_workbench.twin.camera import PRO_M
 from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.parts import BarGroup, Foot
 from aadm_workbench.twin.scene import TrueScan, scan_of
@@ -23,6 +25,9 @@ from aadm_workbench.twin.scenes import (
 )
 
 SETTINGS = {"lab": LAB, "field": FIELD}
+WARP_PERIOD = PRO_M.width / 3  # of the whole image, not of a window
+SEEN_DEPTH_MM = 130.0  # of a bore: nothing behind is seen, and ribs there only cost triangles
+BESIDE_MM = 44.0  # the pattern: face around the outermost mouths, floor around the outermost bars
 
 
 @cache
@@ -51,9 +56,29 @@ def lab_bars(seed: int = 3) -> BarGroup:
 
 
 def lab_scan(part: Foot | BarGroup, seed: int = 5, setting: Setting = LAB) -> TrueScan:
-    """Scan a part from a random pose in front of it."""
+    """Scan a part from a random pose in front of it; of the camera's image only what shows the pattern."""
     rng = np.random.default_rng(seed)
-    return scan_of(part, random_pose(setting, isinstance(part, Foot), rng), quiet_noise(), rng)
+    pose = random_pose(setting, isinstance(part, Foot), rng)
+    noise = replace(quiet_noise(), warp_period=WARP_PERIOD)
+    if isinstance(part, Foot):
+        part = replace(part, sleeves=tuple(replace(sleeve, depth=SEEN_DEPTH_MM) for sleeve in part.sleeves))
+    return scan_of(part, pose, noise, rng, window(PRO_M, pose, setting.half_width + BESIDE_MM, even=True))
+
+
+def window(camera: Camera, T_column_scan: Array, reach_mm: float, *, even: bool = False) -> Camera:
+    """The part of a camera's image that shows what lies within a reach of the column's axis at z = 0.
+
+    ``even``: as far to the left of its principal point as to the right, as whole pictures are.
+    """
+    T = np.linalg.inv(T_column_scan)
+    corners = np.array([[x, y, 0.0] for x in (-reach_mm, reach_mm) for y in (-reach_mm, reach_mm)])
+    seen = corners @ T[:3, :3].T + T[:3, 3]
+    u, v = camera.fx * seen[:, 0] / seen[:, 2] + camera.cx, camera.fy * seen[:, 1] / seen[:, 2] + camera.cy
+    if even:
+        u = np.concatenate([u, 2.0 * camera.cx - u])
+    left, right = np.clip([u.min(), u.max()], 0, camera.width).astype(int).tolist()
+    top, bottom = np.clip([v.min(), v.max()], 0, camera.height).astype(int).tolist()
+    return replace(camera, cx=camera.cx - left, cy=camera.cy - top, width=right - left, height=bottom - top)
 
 
 def in_plane_errors(found: Extraction, truth: TrueScan) -> Array:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -29,6 +30,13 @@ def measured(truth: HoistingScan, setting: Setting, **more: object) -> HoistingM
     return measure_hoisting(truth.frame.scan(), design_of(setting), near=scenes.NEAR, settings=SETTINGS, **more)  # type: ignore[arg-type]
 
 
+@cache
+def plain(case: str) -> HoistingMeasurement:
+    """A frame measured with nothing but its design, once for all tests that look at it."""
+    truth, setting = CASES[case]
+    return measured(truth(), setting)
+
+
 def lab_design(**changes: object) -> ColumnDesign:
     table: dict[str, object] = {
         "sleeve_diameter": 26.0,
@@ -41,8 +49,8 @@ def lab_design(**changes: object) -> ColumnDesign:
 
 @pytest.mark.parametrize("case", CASES)
 def test_every_seen_pair_is_measured_to_a_tenth_of_a_millimetre(case: str) -> None:
-    truth, setting = CASES[case][0](), CASES[case][1]
-    found = measured(truth, setting)
+    truth = CASES[case][0]()
+    found = plain(case)
     errors = scenes.distance_errors(found, truth)
     assert len(errors) >= 7
     assert errors.mean() < 0.15
@@ -52,8 +60,8 @@ def test_every_seen_pair_is_measured_to_a_tenth_of_a_millimetre(case: str) -> No
 
 @pytest.mark.parametrize("case", CASES)
 def test_uncertainties_cover_the_errors_of_seen_and_of_inferred_pairs(case: str) -> None:
-    truth, setting = CASES[case][0](), CASES[case][1]
-    found = measured(truth, setting)
+    truth = CASES[case][0]()
+    found = plain(case)
     off = scenes.offset_errors(found, truth)
     squared = np.einsum("ki,kij,kj->k", off, np.linalg.inv(found.covariances), off)
     assert (squared < 5.991).sum() >= len(off) - 1
@@ -66,8 +74,8 @@ def test_uncertainties_cover_the_errors_of_seen_and_of_inferred_pairs(case: str)
 
 @pytest.mark.parametrize("case", CASES)
 def test_the_correction_is_that_of_the_true_centres(case: str) -> None:
-    truth, setting = CASES[case][0](), CASES[case][1]
-    move = measured(truth, setting).report.correction
+    truth = CASES[case][0]()
+    move = plain(case).report.correction
     assert move is not None
     over = [k for k, pair in enumerate(truth.pairs) if pair.sleeve in move.over]
     places = np.array([truth.T_bars_scan[:3, :3] @ pair.sleeve_scan_mm for pair in truth.pairs])
@@ -82,7 +90,7 @@ def test_the_correction_is_that_of_the_true_centres(case: str) -> None:
 
 def test_the_correction_brings_the_column_to_its_bars() -> None:
     truth = scenes.turned_and_aside()
-    found = measured(truth, LAB)
+    found = plain("turned")
     move = found.report.correction
     assert move is not None
     assert found.report.verdict is Verdict.FAIL
@@ -107,12 +115,12 @@ def test_half_of_the_mouths_under_tape() -> None:
 def test_scans_from_before_hoisting_make_all_pairs_known() -> None:
     truth = scenes.usual()
     sleeves, rebars = scenes.before(truth.foot, 0.05, 0), scenes.before(truth.bars, 0.05, 1)
-    plain = measured(truth, LAB)
+    alone = plain("usual")
     known = measured(truth, LAB, sleeves_before=sleeves, rebars_before=rebars)
     everything = scenes.distance_errors(known, truth, seen=False)
-    assert not all(pair.seen for pair in plain.report.pairs)
+    assert not all(pair.seen for pair in alone.report.pairs)
     assert everything.mean() < 0.15
-    assert everything.max() < scenes.distance_errors(plain, truth, seen=False).max()
+    assert everything.max() < scenes.distance_errors(alone, truth, seen=False).max()
     assert len(known.report.correction.over) == 12  # type: ignore[union-attr]
 
 
@@ -139,7 +147,7 @@ def test_any_faithful_scan_of_the_frame_will_do(kind: str) -> None:
 
 
 def test_bars_in_plain_sight_are_seen_and_the_keys_are_the_papers() -> None:
-    report = measured(scenes.usual(), LAB).report
+    report = plain("usual").report
     assert report.keys == ("S1", "S4", "S10")
     assert report.orientation == "declared"
     assert [pair.sleeve for pair in report.pairs] == [f"S{k}" for k in range(1, 13)]
@@ -154,13 +162,12 @@ def test_without_near_a_square_pattern_is_ambiguous_and_says_so() -> None:
     found = measure_hoisting(truth.frame.scan(), design_of(LAB), near=None, settings=SETTINGS)
     assert found.report.orientation == "ambiguous"
     by_size = sorted(pair.distance_mm or 0.0 for pair in found.report.pairs if pair.seen)
-    declared = sorted(pair.distance_mm or 0.0 for pair in measured(truth, LAB).report.pairs if pair.seen)
+    declared = sorted(pair.distance_mm or 0.0 for pair in plain("usual").report.pairs if pair.seen)
     assert by_size == pytest.approx(declared, abs=0.1)
 
 
 def test_the_same_frame_gives_the_same_numbers() -> None:
-    first, second = (measured(scenes.usual(), LAB).report for _ in range(2))
-    assert first == second
+    assert measured(scenes.usual(), LAB).report == plain("usual").report
 
 
 def spoilt(kind: str) -> Scan:

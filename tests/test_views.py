@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from aadm_workbench.assembly.tolerances import load_profile
@@ -50,11 +52,17 @@ def wall(seed: int) -> Foot:
     return Foot((1180.0, 200.0), tuple(sleeves))
 
 
-def checked_wall(foot: Foot, *middles_mm: float) -> tuple[ColumnReport, Array]:
-    """A wall seen from 900 mm, a picture about each of some places; and its true centres in the first picture."""
+@cache
+def wall_seen(middle_mm: float, seed: int) -> TrueScan:
+    """The wall from 900 mm, about a place along it."""
     across, up = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
-    poses = [facing(np.array([x, 0.0, 0.0]), across, up, 900.0, (0.02, 0.01), 0.0) for x in middles_mm]
-    scans = [scan_of(foot, pose, quiet_noise(), np.random.default_rng(k)) for k, pose in enumerate(poses)]
+    pose = facing(np.array([middle_mm, 0.0, 0.0]), across, up, 900.0, (0.02, 0.01), 0.0)
+    return scan_of(wall(2), pose, quiet_noise(), np.random.default_rng(seed))
+
+
+def checked_wall(*middles_mm: float) -> tuple[ColumnReport, Array]:
+    """The wall by a picture about each of some places; and its true centres in the first picture."""
+    scans = [wall_seen(x, seed) for seed, x in enumerate(middles_mm)]
     design = inline_design("W-1", {"centres": WALL, "sleeve_diameter": 36.0, "size": [1180.0, 200.0]})
     named = tuple(scan.scan(f"view {k}") for k, scan in enumerate(scans))
     report = check_column(design, ColumnScans(named, sleeves_up_deg=90.0), CheckSettings(load_profile("cn")))
@@ -62,7 +70,7 @@ def checked_wall(foot: Foot, *middles_mm: float) -> tuple[ColumnReport, Array]:
 
 
 def test_a_part_of_a_row_is_ambiguous_and_says_how_its_labels_may_be() -> None:
-    report, _ = checked_wall(wall(2), -200.0)
+    report, _ = checked_wall(-200.0)
     assert report.verdict is Verdict.NOT_MEASURED
     assert report.sleeves is not None
     assert report.sleeves.fit is not None
@@ -77,7 +85,7 @@ def test_a_part_of_a_row_is_ambiguous_and_says_how_its_labels_may_be() -> None:
 
 
 def test_two_views_of_a_row_are_joined_where_they_overlap() -> None:
-    report, true = checked_wall(wall(2), -200.0, 200.0)
+    report, true = checked_wall(-200.0, 200.0)
     assert report.sleeves is not None
     assert report.sleeves.fit is not None
     assert (report.sleeves.found, report.sleeves.fit.orientation) == (9, "declared")

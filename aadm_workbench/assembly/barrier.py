@@ -10,13 +10,14 @@ import numpy as np
 
 from aadm_workbench.model import Array, BoolArray
 
+# of the gap that is left, which a step aims at: well below it, and not at once at the rim; a choice, not tuned since
 _CENTRING = 0.08
-_STEP = 0.99
-_LEVEL_ROUNDS = 3
-_HALVINGS = 10
-_SMALLEST_AIM = 1e-12
-_SMALLEST_SLACK = 1e-15
-_RIDGE = 1e-13
+_STEP = 0.99  # of the way to where a multiplier would vanish
+_LEVEL_ROUNDS = 3  # Newton on one number, which doubles its digits in each
+_HALVINGS = 10  # a step a thousandth as long that still does not descend is none
+_SMALLEST_AIM = 1e-12  # the gap at which discs.py ends
+_SMALLEST_SLACK = 1e-15  # a few units of the last place of a double
+_RIDGE = 1e-13  # of the trace: some hundred units of the last place
 
 
 def vectors(p: Array, q: Array, z: Array) -> Array:

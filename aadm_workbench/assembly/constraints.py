@@ -22,7 +22,7 @@ from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.upright import turn
 from aadm_workbench.model import Array, IntArray
 
-_SHORTEST_TURNING_MM = 1e-9
+_SHORTEST_TURNING_MM = 1e-9  # keeps a division: points that all coincide turn into nothing
 
 _CERTAIN_SIGMAS = 5.0
 """A room that holds with so many standard uncertainties to spare, whatever the pose, is left out."""

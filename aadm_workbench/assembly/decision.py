@@ -21,11 +21,13 @@ from aadm_workbench.model import Array, Verdict
 DecisionRule: TypeAlias = Literal["guarded", "simple"]
 
 PASS_PROBABILITY = 0.95
+"""Probability from which on a deviation is within its limit: the default of ISO 14253-1:2017."""
 FAIL_PROBABILITY = 0.05
+"""Probability up to which it is beyond it: the same, for the other side."""
 
-_TAIL_SIGMAS = 9.0
+_TAIL_SIGMAS = 9.0  # beyond lie 2e-19 of a normal law, less than a double can add to one
 _SURE_SIGMAS = 2.5  # exp(-2.5²/2) is 4.4 %, Q(2.5) far less: both within what a pass and a fail need
-_NODES = 160
+_NODES = 160  # of Gauss and Legendre: nine to each of 18 standard deviations
 
 
 @dataclass(frozen=True)

@@ -20,10 +20,12 @@ from aadm_workbench.assembly.drift_laws import f_exceeded, holm, t_quantile
 from aadm_workbench.model import Array, BoolArray
 
 SIGNIFICANT = 0.05
+"""Of sound moulds one in twenty is called a drifting one; for all sleeves of a mould together (Holm)."""
 CONFIDENCE = 0.95
+"""Of the intervals that are given: the usual 95 %."""
 
-_NO_FREEDOM = 1e-6
-_NO_SCATTER_MM2 = 1e-18
+_NO_FREEDOM = 1e-6  # of one dimension that a fit leaves of a point: what is less is rounding
+_NO_SCATTER_MM2 = 1e-18  # keeps a division: a nanometre, squared
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ import numpy as np
 
 from aadm_workbench.model import Array, Vector2
 
-_NO_VARIANCE = 1e-18
+_NO_VARIANCE = 1e-18  # mm²: a nanometre, squared, is no scatter
 
 
 def f_exceeded(between: float, within: float, between_freedom: float, within_freedom: float) -> float:

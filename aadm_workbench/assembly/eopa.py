@@ -19,6 +19,7 @@ COLLINEAR_RATIO = 1e-6
 """Points whose second extent is below this part of the first lie on a line, and leave a turn about it open."""
 
 ROBUST_ROUNDS = 50
+"""A cap: weights settle to twelve digits, or creep along where one point is at the bend of its law."""
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,11 @@ from aadm_workbench.assembly.placements import PlanarPlacement, search_placement
 from aadm_workbench.assembly.upright import turn, wrap
 from aadm_workbench.model import Array, IntArray
 
+# half of a quarter turn, at which the next one begins, and a degree for what is measured
 _LARGEST_TURN = np.radians(46.0)
-_SAME_COST_MM = 12.0
-_CONTRADICTS_MM = 30.0
-_FEWEST = 3
+_SAME_COST_MM = 12.0  # 1 mm for each of twelve points: placements that differ by less are told apart by nothing
+_CONTRADICTS_MM = 30.0  # 2.5 mm for each of twelve points: then the declared corner is wrong; a choice, not tuned since
+_FEWEST = 3  # two points lie on every pattern
 
 
 @dataclass(frozen=True, eq=False)

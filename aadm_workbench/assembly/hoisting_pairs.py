@@ -36,9 +36,9 @@ from aadm_workbench.model import (
 )
 
 _NORMAL_U = 1.5e-4  # rad: what the warp of a camera does to the normal of a face
-_WARP_MM = 0.025
-_SCALE_ERROR = 1e-4
-_KNOWN_MM, _FEWEST_DECIDE = 0.25, 3
+_WARP_MM = 0.025  # rms of the reference camera's warp of 0.05 mm
+_SCALE_ERROR = 1e-4  # relative: of the reference camera, where the job tells no other
+_KNOWN_MM, _FEWEST_DECIDE = 0.25, 3  # as well as what is seen (hoisting_bar_fit.py); a pose has three unknowns
 
 
 @dataclass(frozen=True, eq=False)

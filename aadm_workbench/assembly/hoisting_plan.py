@@ -16,13 +16,17 @@ from aadm_workbench.assembly.hoisting_hidden import hidden_shares
 from aadm_workbench.model import Array, BoolArray, Camera, ColumnDesign
 
 AIMED_AT_GAP_SHARE = 0.45
+"""Of the gap under the foot, at which the camera is aimed, as in the scenes that the figures come from."""
 CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
-_MARGIN_PIXELS = 25.0
+"""Signs of x and y, counter-clockwise: each stands beside its neighbours."""
+_MARGIN_PIXELS = 25.0  # half a degree beside the aim, of the reference camera (21 pixels)
 _GRAZING_NONE = 0.075  # of the cosine: cameras return nothing of what they see more along than this
 _HIDDEN_SHARE = 0.55  # of a bar's width behind nearer bars: the rest is too narrow to measure
+# what frames of the virtual camera came to when it was made; the last as in hoisting_pairs.py
 _FLOOR_MM, _OF_PITCH, _NORMAL_U = 0.075, 0.022, 1.5e-4
+# from the first bar: nearer no camera measures, farther none is sharp; in steps that a person can set
 _DISTANCES_MM = (400.0, 3001.0, 50.0)
-_BELOW_MM = (40.0, 60.0, 90.0, 120.0)
+_BELOW_MM = (40.0, 60.0, 90.0, 120.0)  # below the tops: the reference scene's 60, and places about it
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ import numpy as np
 from aadm_workbench.model import Array, HoistingMeasurement
 
 _NOISE_SHARE = 0.5  # of a frame's variance: what differs from frame to frame
-_MOVED_SIGMAS = 4.0
-_MOVED_MIN_MM = 0.25
+_MOVED_SIGMAS = 4.0  # a column at rest seems to move once in 16,000 frames
+_MOVED_MIN_MM = 0.25  # less than a crane moves by, and a twelfth of the limit
 _MOST_FRAMES = 400  # beyond them the mean forgets: memory and weights stay as they are
 
 

@@ -15,13 +15,14 @@ from aadm_workbench.extract.hoisting_frame import HoistingFrame
 from aadm_workbench.extract.pattern_fit import placed
 from aadm_workbench.model import Array, BoolArray
 
-_FEWEST_SEEN = 3
-_SLEEVE_MISFIT, _BAR_MISFIT = 0.08, 0.15
-_OUT_OF_PICTURE_SHARE = 1 / 3
-_RESIDUAL_MM = 6.0
+_FEWEST_SEEN = 3  # a pose has three unknowns, and two points leave nothing to check it by
+_SLEEVE_MISFIT, _BAR_MISFIT = 0.08, 0.15  # relative, as in sleeves.py and rebars.py
+_OUT_OF_PICTURE_SHARE = 1 / 3  # of the sleeves: a foot is aimed at wholly or by half
+_RESIDUAL_MM = 6.0  # twice the limit: what is farther off belongs to no place
+# a tool may stand about; a third of the bars may hide behind hoses and hands: a choice, not tuned since
 _UNEXPECTED_MAX, _ABSENT_SHARE = 1, 0.34
-_STRAY_SHARE = 0.3
-_COVERED_SHARE = 0.5
+_STRAY_SHARE = 0.3  # of the openings: some are those of lifting anchors and vents; a choice, not tuned since
+_COVERED_SHARE = 0.5  # of a bar's width: with less in view nobody can say that it is not there
 
 
 def why_half(frame: HoistingFrame, face: FootFace, foot: FootFit) -> str:

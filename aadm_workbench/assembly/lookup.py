@@ -8,8 +8,8 @@ import numpy as np
 
 from aadm_workbench.model import Array, IntArray
 
-_CELL_MM = 4.0
-_CELLS_PER_SIDE = 128
+_CELL_MM = 4.0  # half the step in which placements are told apart (placements.py)
+_CELLS_PER_SIDE = 128  # 16,000 cells: bounds the memory
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,11 +18,12 @@ from aadm_workbench.assembly.rules import applicable_rules
 from aadm_workbench.model import Capability, ColumnReport, GroupReport, MouldDrift, Profile, Rule, SleeveDrift, Vector2
 
 FEWEST_COLUMNS = 3
+"""Columns of one mould: of two nobody can say what is the mould's and what is scatter."""
 
 _SHARED_UNCERTAINTIES = 2.0
 """A displacement below this many uncertainties of a single centre may be one that all scans share."""
 
-_SMALLEST_SCATTER_MM = 1e-9
+_SMALLEST_SCATTER_MM = 1e-9  # keeps a division: a picometre
 
 
 def assess_moulds(columns: Sequence[ColumnReport], profile: Profile) -> tuple[MouldDrift, ...]:

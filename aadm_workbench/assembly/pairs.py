@@ -35,9 +35,9 @@ are the largest and bores the smallest that the standards permit, so that the pl
 MEASURED_SIZE_U_MM = 0.1
 """Standard uncertainty of an inner diameter from a scan, pooled over the sleeves of one size."""
 
-_LEAST_EMBEDMENT_MM = 10.0
+_LEAST_EMBEDMENT_MM = 10.0  # a design that has its bars end lower does not say how far they go in
 
-_SAME_SIZE_MM = 0.5
+_SAME_SIZE_MM = 0.5  # bars come in steps of 2 mm
 
 
 @dataclass(frozen=True, eq=False)

@@ -37,6 +37,7 @@ from aadm_workbench.model import (
 )
 
 SAMPLES = 1000
+"""As of the trial itself (existence.py)."""
 
 _GRAVEST_FIRST = tuple(reversed(RepairAction))
 

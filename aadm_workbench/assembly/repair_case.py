@@ -23,7 +23,7 @@ from aadm_workbench.model import Array, AssemblyPoint, BoolArray, ColumnDesign, 
 GUARD_SIGMAS = 1.645
 """A limit is narrowed by so many standard uncertainties: what is inside it then is inside it with 95 %."""
 
-_MOST_NARROWED = 0.5
+_MOST_NARROWED = 0.5  # of a limit: where less were left, no bend could be advised at all
 
 
 @dataclass(frozen=True, eq=False)

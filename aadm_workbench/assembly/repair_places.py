@@ -15,8 +15,8 @@ from aadm_workbench.assembly.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.model import Array
 
-_STEPS = 21
-_ROUNDS = 60
+_STEPS = 21  # places along a line of some tenths of a millimetre
+_ROUNDS = 60  # projections onto three discs at most: they settle to a nanometre unless the discs hardly meet
 
 
 @dataclass(frozen=True, eq=False)

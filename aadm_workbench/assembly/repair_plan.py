@@ -14,8 +14,8 @@ from aadm_workbench.assembly.repair_search import FEASIBLE, BarSet, Limits, solv
 from aadm_workbench.assembly.upright import turn
 from aadm_workbench.model import Array
 
-_MOST_SETS = 64
-_REACHED_MM = 1e-6
+_MOST_SETS = 64  # of one size: the best few are alike, and each takes a search of its own
+_REACHED_MM = 1e-6  # a nanometre: rounding
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,11 +21,12 @@ EXACT_BARS = 3
 """Up to so many bars the smallest set is proven; beyond, the best of a search is given."""
 
 FEASIBLE = 1.0 + 1e-9
+"""Squared ratio up to which limits are met: one, and what rounding adds."""
 
-_BEAM = 48
+_BEAM = 48  # sets of a size that are followed on: a choice, not tuned since
 _OFF = 1e-9  # not zero: with two or three pairs left, the problem must keep its curvature
-_SMALLEST_LIMIT_MM = 0.01
-_SUPPORT = 1e-4
+_SMALLEST_LIMIT_MM = 0.01  # keeps a division where a bar is as wide as its sleeve
+_SUPPORT = 1e-4  # of the largest multiplier: what has less holds nothing up, and the bound that is proven says so
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ NOTHING_FOUND = f"no set of bars was found whose bending would let the column in
 
 ADVICE_TO_RESCAN = "rescan closer: at the measured values the column goes in, no bar has to be bent"
 
-_MOST_NAMED = 3
+_MOST_NAMED = 3  # more of them make no line
 _RELEASE = "subject to the engineer's release"
 
 

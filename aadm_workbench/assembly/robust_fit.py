@@ -12,7 +12,7 @@ from aadm_workbench.assembly.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.upright import turn
 from aadm_workbench.model import Array
 
-_ROUNDS = 60
+_ROUNDS = 60  # a cap: a choice, not tuned since
 _SMALLEST_MM = 0.02
 """Distances below this count alike: no scan resolves less, and a weight may not grow without end."""
 

@@ -21,6 +21,7 @@ from aadm_workbench.assembly.trial_pose import evaluate_pose
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, FitCell, Profile
 
 SAME_PLACE_MM = 0.5
+"""Columns of one mark differ by less: a quarter of what a sleeve may stand off."""
 
 NO_ROOM_MARGIN = -1.0
 """Margin of a column one of whose bars is as wide as its sleeve: as of a distance of twice its limit."""

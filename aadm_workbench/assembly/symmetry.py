@@ -11,6 +11,7 @@ from aadm_workbench.assembly.upright import turn, wrap
 from aadm_workbench.model import Array, IntArray
 
 SYMMETRIC_WITHIN_MM = 0.5
+"""A pattern is symmetric where no scan tells its turns apart: a quarter of what a sleeve may stand off."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,8 +22,8 @@ _HARDLY_SEEN = "but what was hardly seen does not pass"
 _TOO_CLOSE = "too close to the limit for the uncertainty"
 NO_POSE = "no pose brings every rebar into its sleeve"
 
-_MOST_RESCANNED = 2
-_OF_THE_WORST = 0.5
+_MOST_RESCANNED = 2  # a person scans again once or twice, and then sees further
+_OF_THE_WORST = 0.5  # of the worst one's share: the second counts as long as it is about as bad
 
 
 def collisions(pose: TrialPose) -> tuple[str, ...]:

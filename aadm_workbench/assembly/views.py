@@ -20,7 +20,7 @@ from aadm_workbench.assembly.overlap import Overlap, View, overlap_of
 from aadm_workbench.assembly.place import moved_point
 from aadm_workbench.model import AssemblyPoint, Extraction
 
-_SHARED_MIN = 3
+_SHARED_MIN = 3  # a pose has three unknowns, and two points leave nothing to check it by
 _APART_MM = 1.0  # two views of one point may differ by this much; beyond it the views do not belong together
 _APART_SIGMAS = 4.0  # or by this much where they are known worse
 

@@ -14,9 +14,9 @@ import numpy as np
 from aadm_workbench.assembly.minimax import half_turn_pose, half_turn_vectors
 from aadm_workbench.model import Array, PoseWindow
 
-_UPDATES = 2
-_REDUCTIONS = 8
-_NEWTON_STEPS = 12
+_UPDATES = 2  # a small turn is nearly linear: the second ends in the first's digits
+_REDUCTIONS = 8  # pulls of 1 to 10⁷: an end is then known to a millionth of the window
+_NEWTON_STEPS = 12  # a cap: each pull begins where the last one ended
 
 
 def find_window(source: Array, target: Array, limits_mm: Array) -> PoseWindow | None:

@@ -13,12 +13,12 @@ from aadm_workbench.design.shapes import Mesh, Shape, SweptDisk, scale_across
 from aadm_workbench.design.tubes import tubes
 from aadm_workbench.model import Array
 
-_TOUCHING_MM = 1.0
+_TOUCHING_MM = 1.0  # pieces of one bar end where the next begins: drawn by hand or rounded
 _TOUCHING_RATIO = 0.3
 """Pieces of one bar whose ends are nearer than this part of their diameter go on into each other."""
 
-_HOLLOW_RATIO = 0.3
-_ONE_SIZE_MM = 0.1
+_HOLLOW_RATIO = 0.3  # bore over outer radius: a thread or a centre hole is narrower, a tube wider
+_ONE_SIZE_MM = 0.1  # sizes of bars are whole millimetres; facets and rounding take less than this
 
 
 @dataclass(frozen=True, eq=False)

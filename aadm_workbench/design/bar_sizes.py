@@ -18,7 +18,7 @@ OVER_RIBS_MM = {
 """Diameter over the longitudinal ribs of crescent-ribbed bars by nominal diameter: d1 + 2 h1 of GB/T 1499.2-2018,
 Table 3 (recalled, not verified against the printed standard)."""
 
-_SAME_SIZE_MM = 0.05
+_SAME_SIZE_MM = 0.05  # sizes are whole millimetres
 _LIKELY_OVER_RIBS_MM = 1.2
 """Catalogues round the diameter over the ribs in their own ways (20 mm bars: 22.7 to 23.5)."""
 

@@ -18,7 +18,7 @@ _ROUNDNESS_RATIO = 0.02
 _REGULAR_RATIO = 0.005
 """Sides and spokes of a circle that was drawn with a handful of sides are equal but for rounded coordinates."""
 
-_WIDEST_GAP = math.radians(60.0)
+_WIDEST_GAP = math.radians(60.0)  # of a circle of six corners; where fewer may draw one, theirs decides
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,10 +13,11 @@ from aadm_workbench.design.tubes import Tube
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Array, BoolArray, IntArray
 
-_FEWEST_POINTS = 200
+_FEWEST_POINTS = 200  # a column with a ring of sleeves has thousands
 _PER_MM = 4.0
 """A slab is so thick that a wall shows about so many points on each mm of its outline."""
 
+# of the slabs in which rings are looked for: thin enough for a bar's end, thick enough to hold a ring
 _THICKNESS_MM = (10.0, 100.0)
 _GAP_POINTS = 12.0
 """Along an outline of thousands of random points no gap is wider than so many mean distances."""
@@ -24,19 +25,20 @@ _GAP_POINTS = 12.0
 _GAP_MM = (2.0, 7.0)
 """The narrowest room between a bar and its sleeve is 5 mm on the side; 7 mm keep sleeves of common size apart."""
 
-_CONCRETE_GAP_MM = 60.0
-_RADIUS_MM = (4.0, 80.0)
-_OFF_WALL_MM = 0.6
-_OFF_WALL_RATIO = 0.03
+_CONCRETE_GAP_MM = 60.0  # between points of one body: wider than any spacing of points that still shows a bar
+_RADIUS_MM = (4.0, 80.0)  # from the thinnest bar (8 mm) to beyond the widest sleeve
+_OFF_WALL_MM = 0.6  # points are sampled on facets, and rounded: a choice, not tuned since
+_OFF_WALL_RATIO = 0.03  # of the radius: facets of a circle of 13 sides or more lie within it
+# less than a quarter of its circle may be missing: a plate beside a bore has more missing
 _WIDEST_GAP = np.radians(75.0)
-_FEWEST_ON_RING = 12
-_SAME_AXIS_MM = 3.0
-_ON_FACE_MM = 3.0
-_FACE_WIDTH_MM = 15.0
-_FACE_MM = 0.2
-_FEWEST_ON_FACE = 4
-_LARGEST_SAMPLE = 1_500_000
-_SMALLEST_COLUMN_MM = 150.0
+_FEWEST_ON_RING = 12  # a circle of 12 sides, its corners alone
+_SAME_AXIS_MM = 3.0  # from slab to slab: an axis that leans by two degrees moves as much in 100 mm
+_ON_FACE_MM = 3.0  # about a level: points of a face, and of what is a chamfer's width behind it
+_FACE_WIDTH_MM = 15.0  # around a mouth: less than the cover of a sleeve
+_FACE_MM = 0.2  # of one level: noise and rounding of a model's cloud
+_FEWEST_ON_FACE = 4  # of one level, at a mouth
+_LARGEST_SAMPLE = 1_500_000  # points: bounds the memory
+_SMALLEST_COLUMN_MM = 150.0  # across: no column is thinner, and a bar or a sleeve alone is
 
 
 @dataclass(frozen=True, eq=False)

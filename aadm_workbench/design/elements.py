@@ -14,8 +14,8 @@ from aadm_workbench.design.shapes import Mesh
 from aadm_workbench.design.tubes import Tube, moved
 from aadm_workbench.model import Array
 
-_SAME_SCALE_RATIO = 1e-6
-_FEW_POINTS = 16
+_SAME_SCALE_RATIO = 1e-6  # rounding of a transform that files write with seven digits
+_FEW_POINTS = 16  # all of them are looked at; of more the ends of the box
 _SUBTRACTIONS = frozenset({"IfcOpeningElement", "IfcVoidingFeature", "IfcOpeningStandardCase"})
 _REINFORCING = frozenset(
     {"IfcReinforcingBar", "IfcReinforcingMesh", "IfcTendon", "IfcTendonAnchor", "IfcTendonConduit"}
@@ -170,7 +170,7 @@ def counted_once(elements: Iterable[Element]) -> list[Element]:
     return kept
 
 
-_SAME_PLACE_MM = 0.01
+_SAME_PLACE_MM = 0.01  # what is drawn twice is drawn at the same place, up to rounding
 
 
 def _places(solid: Solid) -> list[tuple[int, ...]]:

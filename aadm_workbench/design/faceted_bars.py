@@ -12,9 +12,9 @@ from aadm_workbench.design.rims import area_mm2, pieces_of, round_ends
 from aadm_workbench.design.shapes import Mesh
 from aadm_workbench.model import Array
 
-_ON_WALL_RATIO = 0.02
-_ONE_LEVEL_MM = 0.05
-_FEWEST_SIDES = 4
+_ON_WALL_RATIO = 0.02  # of the radius: corners are on the circle, up to rounding and a taper
+_ONE_LEVEL_MM = 0.05  # rounding of a level
+_FEWEST_SIDES = 4  # FreeCAD draws circles with four
 
 FacetedBar = tuple[tuple[Leg, ...], float, float]
 """Legs, diameter mm and length mm of a bar."""

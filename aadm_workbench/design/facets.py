@@ -10,6 +10,7 @@ from aadm_workbench.design.shapes import Mesh
 from aadm_workbench.design.tubes import tubes
 from aadm_workbench.model import Array, IntArray
 
+# 30 degrees: neighbouring facets of a circle of 12 sides meet at as much, and are one round face
 _SHARP_COS = float(np.cos(np.radians(30.0)))
 
 

@@ -14,7 +14,7 @@ from aadm_workbench.errors import DesignError
 FCSTD_BOUNDS = ArchiveBounds("FreeCAD document", entries=200_000, entry_bytes=2**31, all_bytes=2**31)
 """Drawings of whole buildings unpack to some hundred megabytes, in a part for each shape."""
 
-_PIECE_BYTES = 2**20
+_PIECE_BYTES = 2**20  # bounds the memory, not the time
 _MAIN = "Document.xml"
 _ENTITY = b"<!ENTITY"
 

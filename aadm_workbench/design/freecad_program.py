@@ -19,6 +19,7 @@ from aadm_workbench.errors import DesignError, MissingDependencyError
 PROGRAM_VARIABLE = "AADM_FREECADCMD"
 SECONDS_VARIABLE = "AADM_FREECAD_SECONDS"
 LIMIT_S = 600.0
+"""For one file: what takes ten minutes has hung."""
 
 _NAMES = ("freecadcmd", "FreeCADCmd", "freecadcmd-daily", "freecadcmd-stable", "freecad.cmd")
 _FOLDERS = (
@@ -51,7 +52,7 @@ _APPIMAGES = (
 )
 _FLATPAK = "org.freecad.FreeCAD"
 _FLATPAK_FOLDERS = ("/var/lib/flatpak/app", "~/.local/share/flatpak/app")
-_OUTPUT_LINES = 4
+_OUTPUT_LINES = 4  # the last ones say what went wrong
 
 # FreeCAD ends with 0 whatever a script did and may run it twice: the script itself says how it went, in a file. Only
 # this package comes from outside, and no other of the Python that started FreeCAD, which may be of another version.

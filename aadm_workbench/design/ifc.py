@@ -29,7 +29,7 @@ from aadm_workbench.design.ifc_walls import ends_in_walls
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
-_SHOWN_PROBLEMS = 6
+_SHOWN_PROBLEMS = 6  # of a sort: more fill a screen and say no more
 
 
 def read_ifc(

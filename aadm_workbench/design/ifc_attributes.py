@@ -18,14 +18,14 @@ _DIAMETER = re.compile(
     r"(nominal|bar|rebar)?[ _-]?(bar)?[ _-]?(diameter|size)|(公称|公稱|钢筋)?直[径徑]|呼び径|鉄筋径|Durchmesser",
     re.IGNORECASE,
 )
-_SAME_RATIO = 0.01
-_SAME_LENGTH_RATIO = 0.02
+_SAME_RATIO = 0.01  # of a unit that was taken for another: those differ tenfold at least
+_SAME_LENGTH_RATIO = 0.02  # cut, bent and rounded lengths differ by less
 _SAME_AREA_RATIO = 0.04
 """Tables round the areas of bars to two or three digits."""
 
-_SAME_DIAMETER_MM = 0.1
-_SHOWN_KINDS = 8
-_SHOWN_ELEMENTS = 12
+_SAME_DIAMETER_MM = 0.1  # sizes are whole millimetres, or tenths in catalogues
+_SHOWN_KINDS = 8  # kinds of contradictions: more fill a screen and say no more
+_SHOWN_ELEMENTS = 12  # of a kind: a ring of twelve
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,11 +21,11 @@ from aadm_workbench.model import Array, AssemblyPoint, Kind
 
 UP = np.array([0.0, 0.0, 1.0])
 
-_UPRIGHT_COS = float(np.cos(np.radians(10.0)))
+_UPRIGHT_COS = float(np.cos(np.radians(10.0)))  # 10 degrees: bars lean by a few, stirrups lie
 _SHORTEST_MM = 100.0
 """A connecting rebar goes eight diameters into its sleeve; a shorter upright end is a hook or a drawing error."""
 
-_HIGHEST_MM = 1.0
+_HIGHEST_MM = 1.0  # rounding of a level: both legs of a U end highest
 _NOT_CONNECTING = frozenset({"LIGATURE", "SHEAR", "STUD", "RING", "SPACEBAR", "PUNCHING"})
 _OTHER_CLASSES = (
     "IfcBuildingElementProxy",
@@ -36,6 +36,7 @@ _OTHER_CLASSES = (
     "IfcFastener",
     "IfcMechanicalFastener",
 )
+# a rod thicker than that is no reinforcing bar: 50 mm is the largest size (GB/T 1499.2), couplers come on top
 _THICKEST_MM = 80.0
 
 

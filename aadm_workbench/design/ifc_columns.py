@@ -27,9 +27,9 @@ _NAMED_CLASSES = ("IfcBuildingElementProxy", "IfcMember", "IfcBeam", "IfcElement
 _THINNEST_MM = 200.0
 """No column is thinner; no sleeve and no bar is thicker."""
 
-_ON_FACE_MM = 1e-3
-_STANDING_COS = 0.7
-_ALONG_COS = 0.7
+_ON_FACE_MM = 1e-3  # rounding
+_STANDING_COS = 0.7  # 45 degrees: beyond, it lies
+_ALONG_COS = 0.7  # 45 degrees: local x runs along the column then, and y gives its x
 _STUBBIEST_RATIO = 0.5
 """A standing column is at least half as high as wide (test pieces are short); what is flatter lies."""
 

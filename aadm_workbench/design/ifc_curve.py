@@ -11,7 +11,7 @@ from aadm_workbench.design.ifc_placement import NothingThereError, Placements, U
 from aadm_workbench.design.paths import Arc, Leg, Straight, arc_through, cut, polyline
 from aadm_workbench.model import Array
 
-_FULL_TURN = 2.0 * math.pi
+_FULL_TURN = 2.0 * math.pi  # rad
 _MOST_TURNS = 100.0
 """The spiral of a column's stirrups has some dozens."""
 

@@ -21,7 +21,7 @@ from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Kind
 _PAIR_LIMIT_MM = 3.0
 """Between the centre lines of a bar and its sleeve: GB/T 51231-2016, 10.4."""
 
-_OFF_AXIS_MM = 1.0
+_OFF_AXIS_MM = 1.0  # between a sleeve and its bar in the design: a third of the limit, and more than rounding
 
 
 def design_of(body: ColumnBody, found: FoundFoot, under: Under, grid: Sequence[Crossing]) -> ColumnDesign:

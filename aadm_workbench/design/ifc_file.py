@@ -141,7 +141,7 @@ def _ifcopenshell() -> Any:
     try:
         import ifcopenshell
     except ImportError as error:
-        raise MissingDependencyError("ifcopenshell", "reading IFC models", "pip install ifcopenshell") from error
+        raise MissingDependencyError("ifcopenshell", "reading IFC models") from error
     return ifcopenshell
 
 

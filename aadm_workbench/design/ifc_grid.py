@@ -18,7 +18,7 @@ from aadm_workbench.model import Array
 FARTHEST_MM = 1500.0
 """Columns stand off their grid lines by part of their own width; one further off belongs to no crossing."""
 
-_PARALLEL_SINE = 0.05
+_PARALLEL_SINE = 0.05  # 3 degrees: axes that meet more flatly cross nowhere near
 
 
 @dataclass(frozen=True, eq=False)

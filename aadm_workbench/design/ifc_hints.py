@@ -13,7 +13,7 @@ from aadm_workbench.design.ifc_search import FoundFoot, SleeveSearch
 from aadm_workbench.design.ifc_sleeves import Candidate
 from aadm_workbench.design.model_design import NotTaken
 
-_SHOWN = 4
+_SHOWN = 4  # of each: more make no sentence
 _RUNNING_NUMBER = re.compile(r"[\s:#_.([-]*\d+[)\]]?$")
 _NUMBER = re.compile(r"#\d+ ")
 _MAY_BE_COLUMNS = ("IfcBuildingElementProxy", "IfcMember", "IfcBeam", "IfcPile", "IfcBuildingElementPart")

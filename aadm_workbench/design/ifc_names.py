@@ -29,7 +29,7 @@ _MACHINE_MADE = re.compile(
 _SAID = (2, 4, 3)
 """Places of Name, ObjectType and Description among the attributes of an object; by name they take thrice as long."""
 
-_TAG = 7
+_TAG = 7  # place of the attribute in IfcElement
 
 
 @dataclass(frozen=True, eq=False)

@@ -165,7 +165,7 @@ def _axes_of(placement: Any) -> Any:
     return optional(placement, "CartesianPosition")
 
 
-_STILL = np.eye(4)
+_STILL = np.eye(4)  # nothing moves
 
 
 def frame(origin: Array, z: Array | None, x: Array | None) -> Array:

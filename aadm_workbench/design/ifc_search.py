@@ -28,7 +28,7 @@ from aadm_workbench.design.ifc_sleeves import (
 from aadm_workbench.design.ifc_under import bars_below
 from aadm_workbench.model import Array
 
-_BEHIND_MM = 5.0
+_BEHIND_MM = 5.0  # beyond this it is said: chamfers and rounding are less
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,7 +24,7 @@ from aadm_workbench.model import Array
 
 Part = TypeVar("Part")
 
-_FEWEST_SIDES = 4
+_FEWEST_SIDES = 4  # FreeCAD draws circles with four
 _MOST_ITEMS = 100_000
 """Pieces of one element; a cage of reinforcement has some thousands."""
 

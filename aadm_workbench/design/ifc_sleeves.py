@@ -23,6 +23,7 @@ BORE_MM = (18.0, 100.0)
 """Inner diameters of grouting sleeves: 23 mm for bars of 12 mm to 80 mm for bars of 40 mm, ducts somewhat wider."""
 
 SHORTEST_MM = 100.0
+"""A bore shorter than this is no grouting sleeve: half sleeves take eight diameters of a bar, 96 mm of the thinnest."""
 SLENDEREST_RATIO = 3.0
 """A sleeve is at least so many bores long; sockets for lifting and bracing are stubbier."""
 
@@ -33,12 +34,13 @@ FEWEST_UNNAMED = 3
 """So many like holes in a foot face are sleeves even without a name; fewer may be vents or sockets."""
 
 SAME_MOUTH_MM = 5.0
+"""Mouths nearer to each other are one sleeve, drawn in parts: two sleeves are their own width apart."""
 
 BESIDE_MM = 100.0
 """What lies further beside a foot face than this has no mouth in it."""
 
-_LONGEST_MM = 6000.0
-_ALONG_COS = float(np.cos(np.radians(5.0)))
+_LONGEST_MM = 6000.0  # above a foot face: sleeves and their tubes end within a storey
+_ALONG_COS = float(np.cos(np.radians(5.0)))  # 5 degrees: sleeves stand along their column
 OPENING_CLASSES = ("IfcFeatureElementSubtraction",)
 _COUPLER_CLASSES = ("IfcMechanicalFastener", "IfcTendonAnchor", "IfcTendonConduit")
 _UNNAMED_CLASSES = (

@@ -14,11 +14,11 @@ from aadm_workbench.design.pattern import pair
 from aadm_workbench.design.rings import smallest_spacing
 from aadm_workbench.model import Array, IntArray
 
-_WIDEST_PAIR_MM = 40.0
+_WIDEST_PAIR_MM = 40.0  # less than half the spacing of sleeves, which the next line narrows where they are closer
 _PAIR_SPACING_RATIO = 0.45
 """A bar nearer to its sleeve than to any other cannot be mistaken for a neighbour's."""
 
-_SAME_BAR_MM = 5.0
+_SAME_BAR_MM = 5.0  # nearer to each other, two tops are one bar, drawn in pieces
 _AT_FOOT_MM = 1.0
 """Some exporters draw only what sticks out of the floor: a bar that begins at the foot face comes from below."""
 

@@ -15,8 +15,8 @@ from aadm_workbench.design.ifc_shapes import Shapes
 from aadm_workbench.design.shapes import edges
 from aadm_workbench.model import Array
 
-_BESIDE_MM = 1.0
-_LEVEL_SINE = 0.1
+_BESIDE_MM = 1.0  # rounding: a dowel may touch the face of its wall
+_LEVEL_SINE = 0.1  # 6 degrees: what runs more steeply is no course of a wall
 
 
 def ends_in_walls(opened: OpenedIfc, shapes: Shapes, ends: Sequence[BarEnd]) -> dict[int, str]:

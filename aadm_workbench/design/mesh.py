@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import perf_counter
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -15,7 +14,7 @@ from aadm_workbench.design.elements import Element, Solid
 from aadm_workbench.design.facets import facet_solid, sharp_edges
 from aadm_workbench.design.mesh_sections import round_walls
 from aadm_workbench.design.model_design import ModelDesign
-from aadm_workbench.design.model_file import sha256_of
+from aadm_workbench.design.model_file import MESHES, sha256_of
 from aadm_workbench.design.model_units import MM_PER_UNIT, check_units
 from aadm_workbench.design.recognise import Origin, Rules, recognise
 from aadm_workbench.design.round_faces import tubes_of
@@ -23,14 +22,12 @@ from aadm_workbench.design.tubes import Tube
 from aadm_workbench.errors import DesignError, MissingDependencyError
 from aadm_workbench.model import Array, ColumnDesign, IntArray
 
-EXTENSIONS = MappingProxyType({".stl": "STL", ".obj": "OBJ", ".ply": "PLY"})
-
 _UP = np.array([0.0, 0.0, 1.0])
-_SAME_VERTEX_RATIO = 1e-7
-_SLENDER_RATIO = 1.5
-_ON_TUBE_MM = 0.5
-_ALONG_COS = float(np.cos(np.radians(10.0)))
-_UPRIGHT_COS = float(np.cos(np.radians(2.0)))
+_SAME_VERTEX_RATIO = 1e-7  # of the largest coordinate: single precision keeps as much
+_SLENDER_RATIO = 1.5  # length over width: a column lies or stands where it is longer
+_ON_TUBE_MM = 0.5  # axes and walls of what is one tube, up to facets and rounding
+_ALONG_COS = float(np.cos(np.radians(10.0)))  # 10 degrees
+_UPRIGHT_COS = float(np.cos(np.radians(2.0)))  # 2 degrees: models stand square
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +58,7 @@ def read_mesh(path: str | Path, rules: Rules | None = None, *, units: str = "mm"
     path = Path(path)
     sha256 = sha256_of(path)
     bodies = mesh_bodies(path, units)
-    origin = Origin(str(path), sha256, EXTENSIONS[path.suffix.lower()])
+    origin = Origin(str(path), sha256, MESHES[path.suffix.lower()])
     found = recognise(_elements(bodies), origin, rules)
     if not found.columns:
         low, high = bounds(bodies)
@@ -90,7 +87,7 @@ def mesh_bodies(path: Path, units: str) -> list[Body]:
     try:
         import trimesh
     except ImportError as error:
-        raise MissingDependencyError("trimesh", "reading meshes", 'pip install "aadm-workbench[mesh]"') from error
+        raise MissingDependencyError("trimesh", "reading meshes") from error
     try:
         with path.open("rb") as stream:
             scene: Any = trimesh.load_scene(stream, file_type=path.suffix[1:].lower(), **_options(path))

@@ -18,16 +18,16 @@ from aadm_workbench.model import Array, BoolArray, IntArray
 _DEPTHS_MM = (1.3, 3.1, 7.3, 13.7, 24.9, 41.3, 77.7, 131.3, 211.7, 303.1)
 """Sections below either end of a body, odd enough to miss its vertices; sleeves are 100 to 600 mm long."""
 
-_PARTS = (0.2371, 0.5137, 0.7713)
-_SAME_POINT_MM = 1e-3
-_FEWEST_FACETS = 6
-_ROUND_RATIO = 0.02
-_ROUND_MM = 0.02
-_WIDEST_GAP = np.radians(75.0)
-_WIDEST_MM = 3000.0
-_STEPS = 4
-_ON_CIRCLE_MM = 0.01
-_MOSTLY = 0.3
+_PARTS = (0.2371, 0.5137, 0.7713)  # odd shares of the height, which no edge of a drawn part happens to lie on
+_SAME_POINT_MM = 1e-3  # ends of neighbouring cuts, up to rounding
+_FEWEST_FACETS = 6  # a hexagon is the coarsest circle that exporters draw as one
+_ROUND_RATIO = 0.02  # of the radius: corners are on the circle, up to rounding and a taper
+_ROUND_MM = 0.02  # rounding of coordinates
+_WIDEST_GAP = np.radians(75.0)  # less than a quarter of its circle may be missing
+_WIDEST_MM = 3000.0  # a radius: a rounded wall of a building is no part of a column
+_STEPS = 4  # of an axis that is straightened by both ends of its facets: each halves what is left at least; a choice
+_ON_CIRCLE_MM = 0.01  # of the outermost corners: rounding
+_MOSTLY = 0.3  # of the corners lie on the circle, where the rest are those of triangles that cut it
 _MIXED = 0.2
 """Where more of a wall's facets look one way and more of them the other, the mesh does not say what is inside."""
 

@@ -13,7 +13,7 @@ import numpy as np
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
-_GLOBAL_ID_LENGTH = 22
+_GLOBAL_ID_LENGTH = 22  # 22 characters (IFC): a name that long is one
 _DASHES = {ord(dash): "-" for dash in "\u2010\u2011\u2012\u2013\u2014\u2015\u2212"}
 _SHOWN = 8
 """Names in a message before it stops counting them up."""

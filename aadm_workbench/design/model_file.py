@@ -1,9 +1,10 @@
-"""A model's file on disk: that it is there, and its hash."""
+"""A model's file on disk: the endings it may have, that it is there, and its hash."""
 
 from __future__ import annotations
 
 import hashlib
 from pathlib import Path
+from types import MappingProxyType
 
 from aadm_workbench.bounded import BoundsError, open_bounded
 from aadm_workbench.errors import DesignError
@@ -11,7 +12,13 @@ from aadm_workbench.errors import DesignError
 LARGEST_MODEL_BYTES = 2**31
 """The largest models that people exchange have one or two gigabytes."""
 
-_PIECE_BYTES = 2**20
+KERNEL = MappingProxyType({".step": "STEP", ".stp": "STEP", ".brep": "BREP", ".brp": "BREP"})
+"""Endings of files that FreeCAD's geometry kernel reads, with their schemas."""
+
+MESHES = MappingProxyType({".stl": "STL", ".obj": "OBJ", ".ply": "PLY"})
+"""Endings of files that hold meshes, with their schemas."""
+
+_PIECE_BYTES = 2**20  # bounds the memory, not the time
 
 
 def sha256_of(path: Path) -> str:

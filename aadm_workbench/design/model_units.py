@@ -11,6 +11,7 @@ from aadm_workbench.model import Array, ColumnDesign
 MM_PER_UNIT = MappingProxyType({"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8})
 
 SMALLEST_MM = 100.0
+"""Largest extent of a model of precast parts: no column is smaller."""
 LARGEST_MM = 1e6
 """Of a model: a test piece is larger, a floor smaller."""
 

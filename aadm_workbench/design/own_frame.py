@@ -9,9 +9,9 @@ import numpy as np
 from aadm_workbench.design.elements import Solid
 from aadm_workbench.model import Array
 
-_PARALLEL_COS = float(np.cos(np.radians(0.1)))
+_PARALLEL_COS = float(np.cos(np.radians(0.1)))  # 0.1 degrees: directions of edges, up to rounding
 _UP = np.array([0.0, 0.0, 1.0])
-_SQUARE_SINE = 0.01
+_SQUARE_SINE = 0.01  # 0.6 degrees: what is square to the axis, up to a slope that is drawn by hand
 
 
 def own_frame(T_model_element: Array, solids: Sequence[Solid]) -> Array:

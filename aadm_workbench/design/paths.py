@@ -12,8 +12,8 @@ import numpy as np
 
 from aadm_workbench.model import Array
 
-_ARC_STEP = math.radians(5.0)
-_NO_LENGTH_MM = 1e-6
+_ARC_STEP = math.radians(5.0)  # facets of 5 degrees lie 0.1 % of the radius within the arc
+_NO_LENGTH_MM = 1e-6  # a nanometre: rounding
 _ONE_DIRECTION_COS = math.cos(math.radians(0.1))
 """Legs whose directions differ by less than 0.1 degrees are one straight leg: exporters cut bars where they please."""
 

@@ -6,13 +6,13 @@ from pathlib import Path
 
 from aadm_workbench.design.ifc import read_ifc
 from aadm_workbench.design.model_design import ModelDesign
+from aadm_workbench.design.model_file import KERNEL, MESHES
 from aadm_workbench.design.recognise import Rules
 from aadm_workbench.errors import DesignError
 
-_KERNEL = (".step", ".stp", ".brep", ".brp")
-_MESHES = (".stl", ".obj", ".ply")
 _IFC = (".ifc", ".ifczip")
-SUPPORTED = (".ifc", ".FCStd", *_KERNEL, *_MESHES, ".pcd", ".ifczip")
+SUPPORTED = (".ifc", ".FCStd", *KERNEL, *MESHES, ".pcd", ".ifczip")
+"""Endings of all files that hold a design; clouds are read by :mod:`aadm_workbench.as_designed`."""
 
 
 def read_model(
@@ -49,11 +49,11 @@ def read_model(
         from aadm_workbench.design.fcstd import read_fcstd
 
         return read_fcstd(path, rules)
-    if suffix.lower() in _KERNEL:
+    if suffix.lower() in KERNEL:
         from aadm_workbench.design.step import read_step
 
         return read_step(path, rules)
-    if suffix.lower() in _MESHES:
+    if suffix.lower() in MESHES:
         from aadm_workbench.design.mesh import read_mesh
 
         return read_mesh(path, rules, units=units)

@@ -26,7 +26,7 @@ from aadm_workbench.design.sound_elements import sound_elements
 from aadm_workbench.design.which import is_column, is_thin, may_hold_sleeves, spoken
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
-_NEAR_MM = 100.0
+_NEAR_MM = 100.0  # beside a foot: bars that are bent off, and no neighbour's
 _WIDEST_PLAN_RATIO = 4.0
 """A body that is wider than so many of its thicknesses is a wall, unless its class or its name says column."""
 

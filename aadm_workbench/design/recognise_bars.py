@@ -17,7 +17,7 @@ from aadm_workbench.model import Array
 DIAMETER_MM = (8.0, 60.0)
 """Of what may be a bar by its shape alone; connecting rebars have 12 to 40 mm."""
 
-_SLENDEREST_RATIO = 4.0
+_SLENDEREST_RATIO = 4.0  # length over diameter: shorter ones are bolts and dowels' heads
 _ROUND_NO_LENGTH = "has no straight round part"
 
 

@@ -15,8 +15,8 @@ from aadm_workbench.design.tubes import Tube
 from aadm_workbench.design.which import described, generic, is_opening, is_rebar, not_a_sleeve, sleeve_word
 from aadm_workbench.model import AssemblyPoint, Kind
 
-_SHORTEST_TUBE_MM = 1.0
-_UPRIGHT_COS = float(np.cos(np.radians(5.0)))
+_SHORTEST_TUBE_MM = 1.0  # a chamfer is shorter
+_UPRIGHT_COS = float(np.cos(np.radians(5.0)))  # 5 degrees: sleeves stand along their column
 
 
 def named_sleeves(elements: Sequence[Element], source: str, rule: str | None) -> tuple[list[Candidate], list[NotTaken]]:

@@ -11,8 +11,8 @@ from aadm_workbench.design.circles import FEWEST_VERTICES, Circle, circle_throug
 from aadm_workbench.design.shapes import Mesh
 from aadm_workbench.model import Array, IntArray
 
-_SAME_VERTEX_MM = 1e-3
-_SAME_PLANE_COS = 1.0 - 1e-7
+_SAME_VERTEX_MM = 1e-3  # corners of neighbouring facets, up to rounding
+_SAME_PLANE_COS = 1.0 - 1e-7  # 0.03 degrees: facets of one plane, up to rounding
 
 
 @dataclass(frozen=True, eq=False)

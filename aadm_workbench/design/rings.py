@@ -8,7 +8,7 @@ import numpy as np
 
 from aadm_workbench.model import Array, BoolArray, IntArray
 
-_ON_OUTLINE_MM = 20.0
+_ON_OUTLINE_MM = 20.0  # points this near to an edge stand in its row; the ratio below narrows it for small patterns
 _ON_OUTLINE_RATIO = 0.1
 """A point belongs to the outline within 20 mm, or within a tenth of the smaller extent of a small pattern: corner bars
 are set in by the bend of the stirrups, bars of unlike diameter in one row stand off a common line."""
@@ -19,7 +19,7 @@ _SAME_CENTRE_RATIO = 0.25
 _BETWEEN_RATIO = 0.99
 """Part of the circle over two neighbours' connecting line in which a third point stands between them."""
 
-_ROUNDING_MM = 1e-6
+_ROUNDING_MM = 1e-6  # a nanometre
 _TIE_MM = 0.01
 """Points whose distances from the corner differ by less are equally near."""
 

@@ -16,12 +16,12 @@ from aadm_workbench.model import Array
 ON_AXIS_MM = 0.01
 """Faces whose axes are nearer than this bound one hole or one bar: halves of a cylinder, chamfers, steps."""
 
-_PARALLEL_COS = math.cos(math.radians(0.05))
-_TOUCHING_MM = 0.5
+_PARALLEL_COS = math.cos(math.radians(0.05))  # 0.05 degrees: faces of one cylinder, up to rounding
+_TOUCHING_MM = 0.5  # faces of one hole end where the next begins, up to a seam
 _ROUND_TURN = math.radians(350.0)
 """Faces that together go less far around their axis are fillets and slots."""
 
-_SLIVER_MM = 0.05
+_SLIVER_MM = 0.05  # a face as narrow is left over by a cut, and bounds nothing
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,12 +6,11 @@ from pathlib import Path
 
 from aadm_workbench.design.kernel import read_with_kernel
 from aadm_workbench.design.model_design import ModelDesign
+from aadm_workbench.design.model_file import KERNEL
 from aadm_workbench.design.recognise import Rules
 from aadm_workbench.errors import DesignError
 
-_HEAD_BYTES = 4096
-_SCHEMAS = {".step": "STEP", ".stp": "STEP", ".brep": "BREP", ".brp": "BREP"}
-EXTENSIONS = tuple(_SCHEMAS)
+_HEAD_BYTES = 4096  # what the format begins and ends with stands in the first, and the last, of them
 
 
 def read_step(path: str | Path, rules: Rules | None = None) -> ModelDesign:
@@ -25,12 +24,12 @@ def read_step(path: str | Path, rules: Rules | None = None) -> ModelDesign:
         Where FreeCAD is not installed.
     """
     path = Path(path)
-    return read_with_kernel(path, _check, rules or Rules(), schema=_SCHEMAS[path.suffix.lower()])
+    return read_with_kernel(path, _check, rules or Rules(), schema=KERNEL[path.suffix.lower()])
 
 
 def _check(path: Path) -> None:
     content = path.read_bytes()
-    if _SCHEMAS[path.suffix.lower()] == "BREP":
+    if KERNEL[path.suffix.lower()] == "BREP":
         if b"CASCADE Topology" not in content[:_HEAD_BYTES]:
             raise DesignError(f"{path} is no BREP file: it does not begin with 'CASCADE Topology'. Export it again.")
         return

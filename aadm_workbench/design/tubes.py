@@ -20,9 +20,9 @@ _ON_AXIS_MM = 0.5
 CHAMFER_MM = 20.0
 """A cone at a mouth that is shorter is a chamfer or a lead-in; a longer one is the sleeve itself."""
 
-_ONE_LEVEL_MM = 0.5
-_SAME_DIAMETER_MM = 0.05
-_PARALLEL_COS = np.cos(np.radians(1.0))
+_ONE_LEVEL_MM = 0.5  # ends at one level, up to rounding and a seam
+_SAME_DIAMETER_MM = 0.05  # rims of one bore, up to rounding
+_PARALLEL_COS = np.cos(np.radians(1.0))  # 1 degree: parts of one tube, up to facets
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,6 +14,7 @@ _GENERIC = frozenset(
 
 _NOT_CONNECTING = frozenset({"LIGATURE", "SHEAR", "STUD", "RING", "SPACEBAR", "PUNCHING"})
 THINNEST_COLUMN_MM = 120.0
+"""A round body thinner than this is a tube or a bar: no precast column is."""
 _NUMBERED = re.compile(r"[A-Za-z]+(0\d\d)?|\d+")
 
 

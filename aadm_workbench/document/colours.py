@@ -24,7 +24,7 @@ VERDICTS: Mapping[str, Rgb] = MappingProxyType(
         "not_assessed": (0.60, 0.60, 0.60),
     }
 )
-DESIGN: Rgb = (0.0, 0.45, 0.70)
+DESIGN: Rgb = (0.0, 0.45, 0.70)  # blue of the same palette: no verdict
 FAR: Rgb = (0.62, 0.62, 0.62)
 """Points further from the design than the scale reaches."""
 

@@ -17,10 +17,11 @@ from aadm_workbench.document.places import global_placement, move_to, placement_
 from aadm_workbench.document.properties import HIDDEN, READ_ONLY, Property, apply_properties
 from aadm_workbench.document.schema import SCHEMA, SCHEMA_PROPERTY, bring_up_to_date
 from aadm_workbench.document.stateless import Stateless
+from aadm_workbench.extract.method import METHODS as RECIPES
 from aadm_workbench.model import ColumnDesign
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
-METHODS = ("refined", "fusion", "pointcloud", "image")
+METHODS = tuple(RECIPES)
 DECISIONS = ("guarded", "simple")
 
 _IDENTITY = "AADM column"

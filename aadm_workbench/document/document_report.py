@@ -8,8 +8,7 @@ from typing import Any
 from aadm_workbench.document.column import columns_in
 from aadm_workbench.document.result import JOB_KEYS, found_of, job_of
 from aadm_workbench.errors import ReportError
-
-_COUNTED = ("pass", "fail", "inconclusive", "not_measured", "error")
+from aadm_workbench.model import SUMMED
 
 
 def report_of(document: Any) -> dict[str, Any]:
@@ -36,7 +35,7 @@ def report_of(document: Any) -> dict[str, Any]:
     counted = Counter(entry["verdict"] for entry in entries)
     return {
         **{key: jobs[0].get(key) for key in JOB_KEYS},
-        "summary": {verdict: counted[verdict] for verdict in _COUNTED},
+        "summary": {verdict.value: counted[verdict] for verdict in SUMMED},
         "columns": entries,
         "mould_drift": [],
     }

@@ -21,8 +21,8 @@ DEFAULT_LIMIT_MM = 3.0
 SIDES = {"-y": 0.0, "+x": 90.0, "+y": 180.0, "-x": -90.0}
 """Where the reader stands, seen from the column; the turn of what is ahead of them against +y, degrees."""
 
-_STILL_MM = 0.3
-_STILL_DEG = 0.03
+_STILL_MM = 0.3  # less than a crane can move by: a tenth of the limit
+_STILL_DEG = 0.03  # 0.2 mm at the corner of a column of 600 mm
 
 
 @dataclass(frozen=True)

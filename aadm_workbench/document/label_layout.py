@@ -8,9 +8,10 @@ from dataclasses import dataclass
 Box = tuple[float, float, float, float]
 """Left, bottom, right, top, in pixels."""
 
-_GAP_PX = 4.0
+_GAP_PX = 4.0  # plates of labels do not touch
+# right and up: beside a point is read first, above and below last
 _SIDES = ((1, 0), (1, 1), (1, -1), (-1, 0), (-1, 1), (-1, -1), (0, 1), (0, -1))
-_REACHES_PX = (10.0, 30.0, 48.0)
+_REACHES_PX = (10.0, 30.0, 48.0)  # beside the mark, then clear of one label, then of two
 
 
 @dataclass(frozen=True)

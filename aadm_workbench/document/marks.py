@@ -8,16 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.model import Array, Kind
+from aadm_workbench.model import WORST_FIRST, Array, Kind, Verdict
 from aadm_workbench.report.shown_pose import shown_pose
 
 SHOWN = ("position", "minimax", "least_squares")
 """Against the design; in the trial assembly, laid on in the one way or the other."""
 
-_SIDES = 48
-_WORST_FIRST = ("error", "fail", "not_measured", "inconclusive", "not_assessed", "pass")
-_ARROW_SHARE = 0.6
-_FACTORS = (1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 500.0)
+_SIDES = 48  # no corner is seen at the size of a screen
+_LABELLED_FIRST = (*WORST_FIRST[:-1], Verdict.NOT_ASSESSED, Verdict.PASS)  # a pass says least
+_ARROW_SHARE = 0.6  # of the distance of neighbours: arrows do not reach into the next mark
+_FACTORS = (1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 50.0, 100.0, 200.0, 500.0)  # magnifications that a person can divide by
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,5 +194,5 @@ def _radius(point: Mapping[str, Any], kind: Kind) -> float:
 
 
 def _label(name: str, place: Array, value_mm: float | None, verdict: str) -> Label:
-    order = _WORST_FIRST.index(verdict) if verdict in _WORST_FIRST else len(_WORST_FIRST)
+    order = _LABELLED_FIRST.index(verdict) if verdict in _LABELLED_FIRST else len(_LABELLED_FIRST)
     return Label(place, name, value_mm, verdict, order * 1000 - round((value_mm or 0.0) * 100))

@@ -10,11 +10,6 @@ def tell(text: str) -> None:
     FreeCAD.Console.PrintMessage(f"AADM: {text}\n")
 
 
-def warn(text: str) -> None:
-    """Something that a person should look at."""
-    FreeCAD.Console.PrintWarning(f"AADM: {text}\n")
-
-
 def complain(text: str) -> None:
     """Something that could not be done, and what to do about it."""
     FreeCAD.Console.PrintError(f"AADM: {text}\n")

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import FreeCAD
 
+from aadm_workbench import errors
 from aadm_workbench.errors import MissingDependencyError
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
@@ -27,24 +28,21 @@ class Package:
     needed_for: str
 
 
-PACKAGES = (
-    Package("numpy", "numpy", QT_TRANSLATE_NOOP("AADM_Packages", "all measuring")),
-    Package("scipy", "scipy", QT_TRANSLATE_NOOP("AADM_Packages", "Check column")),
-    Package("cv2", "opencv-python-headless", QT_TRANSLATE_NOOP("AADM_Packages", "Check column, depth maps")),
-    Package(
-        "ifcopenshell",
-        "ifcopenshell",
-        QT_TRANSLATE_NOOP("AADM_Packages", "Sample design from an IFC file, Write results to an IFC file"),
-    ),
-    Package("rich", "rich", QT_TRANSLATE_NOOP("AADM_Packages", "the command aadm, behind Run job and Report")),
-    Package("jsonschema", "jsonschema", QT_TRANSLATE_NOOP("AADM_Packages", "Report")),
-    Package("jinja2", "jinja2", QT_TRANSLATE_NOOP("AADM_Packages", "Report: HTML")),
-    Package("fontTools", "fonttools", QT_TRANSLATE_NOOP("AADM_Packages", "Report: HTML")),
-    Package("reportlab", "reportlab", QT_TRANSLATE_NOOP("AADM_Packages", "Report: PDF, pages and cards")),
-    Package("xlsxwriter", "xlsxwriter", QT_TRANSLATE_NOOP("AADM_Packages", "Report: Excel workbook")),
-    Package("lzf", "python-neo-lzf", QT_TRANSLATE_NOOP("AADM_Packages", "compressed PCD files")),
-    Package("open3d", "open3d", QT_TRANSLATE_NOOP("AADM_Packages", "methods fusion, pointcloud and image")),
-)
+_NEEDED_FOR = {
+    "numpy": QT_TRANSLATE_NOOP("AADM_Packages", "all measuring"),
+    "scipy": QT_TRANSLATE_NOOP("AADM_Packages", "Check column"),
+    "opencv-python-headless": QT_TRANSLATE_NOOP("AADM_Packages", "Check column, depth maps"),
+    "ifcopenshell": QT_TRANSLATE_NOOP("AADM_Packages", "Sample design from an IFC file, Write results to an IFC file"),
+    "rich": QT_TRANSLATE_NOOP("AADM_Packages", "the command aadm, behind Run job and Report"),
+    "jsonschema": QT_TRANSLATE_NOOP("AADM_Packages", "Report"),
+    "jinja2": QT_TRANSLATE_NOOP("AADM_Packages", "Report: HTML"),
+    "fonttools": QT_TRANSLATE_NOOP("AADM_Packages", "Report: HTML"),
+    "reportlab": QT_TRANSLATE_NOOP("AADM_Packages", "Report: PDF, pages and cards"),
+    "xlsxwriter": QT_TRANSLATE_NOOP("AADM_Packages", "Report: Excel workbook"),
+    "python-neo-lzf": QT_TRANSLATE_NOOP("AADM_Packages", "compressed PCD files"),
+    "open3d": QT_TRANSLATE_NOOP("AADM_Packages", "methods fusion, pointcloud and image"),
+}
+PACKAGES = tuple(Package(errors.package_called(name).module, name, needed) for name, needed in _NEEDED_FOR.items())
 
 
 @contextmanager

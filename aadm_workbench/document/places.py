@@ -9,8 +9,8 @@ import numpy as np
 
 from aadm_workbench.model import Array
 
-_UNMOVED_MM = 1e-7
-_UNTURNED = 1e-14
+_UNMOVED_MM = 1e-7  # a tenth of a nanometre: rounding
+_UNTURNED = 1e-14  # 1 - |q·q'| of unit quaternions: rounding
 
 
 def placement_of(T_to_from: Array) -> FreeCAD.Placement:

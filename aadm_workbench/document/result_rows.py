@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from aadm_workbench.model import Kind
+from aadm_workbench.model import WORST_FIRST, Kind, Verdict
 from aadm_workbench.report.shown_pose import shown_pose
 
 POSITION = "position"
@@ -14,7 +14,7 @@ SPACING = "spacing"
 ABSOLUTE = "position in the building"
 DISTANCE = "distance in the trial"
 
-_ORDER = ("error", "fail", "not_measured", "inconclusive", "pass", "not_assessed")
+_ORDER = (*WORST_FIRST, Verdict.NOT_ASSESSED)
 
 
 @dataclass(frozen=True)

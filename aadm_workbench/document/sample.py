@@ -16,7 +16,7 @@ from aadm_workbench.document.sample_elements import sample_elements
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import ColumnDesign
 
-_SHOWN = 6
+_SHOWN = 6  # of each: more fill a message and say no more
 
 
 def sample_document(

@@ -10,10 +10,10 @@ from aadm_workbench.design.flat_circle import flat_circle, widest_gap
 from aadm_workbench.design.round_faces import Bend, RoundFace
 from aadm_workbench.model import Array
 
-_SAMPLES = 7
-_ROUND_MM = 1e-4
-_ON_WALL_MM = 1e-3
-_SAME_DIAMETER_MM = 0.02
+_SAMPLES = 7  # points along an edge, or across a face: enough to tell a circle from a spline
+_ROUND_MM = 1e-4  # the kernel's own tolerance is 1e-7; files round to this
+_ON_WALL_MM = 1e-3  # points of a spline that stands for a cylinder
+_SAME_DIAMETER_MM = 0.02  # ends of one bend, up to rounding
 _FLAT = frozenset({"Plane"})
 _BENT = frozenset({"Toroid", "SurfaceOfRevolution", "Sphere"})
 

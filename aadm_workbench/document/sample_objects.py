@@ -56,9 +56,9 @@ _SPATIAL = frozenset(
 CLASS_PROPERTIES = ("IfcClass", "Class", "IfcType", "IfcRole")
 """Where programs keep the IFC class of an object, the newest first."""
 
-_DEEPEST = 32
-_LINKED_MATRIX = 6
-_OBJECT = 1
+_DEEPEST = 32  # groups and links in each other: a document that goes on is a circle
+_LINKED_MATRIX = 6  # retType of getSubObject: the transform, with that of what is linked
+_OBJECT = 1  # retType of getSubObject: the object itself
 
 
 @dataclass(frozen=True, eq=False)

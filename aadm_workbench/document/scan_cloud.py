@@ -155,11 +155,6 @@ def make_scan(column: Any, scan: Scan, file: Path, kind: Kind, declared: Mapping
     return cloud
 
 
-def is_scan(obj: Any) -> bool:
-    """Whether an object is a scan of this workbench."""
-    return getattr(getattr(obj, "Proxy", None), "Type", "") == ScanCloud.Type
-
-
 def kind_of(cloud: Any) -> Kind:
     """What a scan shows."""
     return Kind.SLEEVE if cloud.Kind == Kind.SLEEVE.plural else Kind.REBAR

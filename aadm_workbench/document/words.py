@@ -37,10 +37,3 @@ def length_text(value_mm: float | None, *, signed: bool = False) -> str:
         mm_in_unit, unit = 1.0, "mm"
     decimals = max(0, math.ceil(math.log10(mm_in_unit / _FINEST_MM) - 1e-9))
     return f"{value_mm / mm_in_unit:{'+' if signed else ''}.{decimals}f} {unit}"
-
-
-def angle_text(value_deg: float | None, *, signed: bool = False) -> str:
-    """An angle in degrees; a dash for none."""
-    if value_deg is None or not math.isfinite(value_deg):
-        return "–"
-    return f"{value_deg:{'+' if signed else ''}.2f}°"

@@ -11,11 +11,15 @@ from aadm_workbench.model import Array, BoolArray
 AGREES_MM = 0.8
 """Outline points this near to a circle agree with it."""
 
+# a quarter of what the best camera errs by (docs/method.md, 2.5): these circles are only where fits start
 _SETTLED_MM = 5e-3
-_ROUNDS, _STEPS = 3, 8
+_ROUNDS, _STEPS = 3, 8  # caps: an outline is taken anew about each moved centre; circles settle sooner
+# of an outline's points: whole from, worth following from (half a taped mouth has more); half of the fewest bins
 _AGREEING_SHARE, _SOUND_SHARE, _FEWEST = 0.75, 0.3, 12
 _MISFIT_MM = 0.5  # residual at which a point counts half in the first fit
+# most of an outline, within what ribs and noise do to it, says that it has another size: a choice, not tuned since
 _ROUND_WITHIN_MM, _ROUND_SHARE = 0.5, 0.5
+# of each outline; chords over an eighth, a sixth and a quarter of them, so that most stay within its sound part
 _CHORD_POINTS, _CHORD_PARTS = 48, (8, 6, 4)
 
 

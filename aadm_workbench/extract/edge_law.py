@@ -15,7 +15,7 @@ import numpy as np
 from aadm_workbench.model import Array
 
 _STRAY_SHARE = 0.01  # of points that follow no law at all
-_STRAY_SPAN_MM = 4.0
+_STRAY_SPAN_MM = 4.0  # as far as rims are looked for beyond a mouth: within it strays lie anywhere
 
 
 @dataclass(frozen=True)

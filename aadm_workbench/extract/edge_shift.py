@@ -42,6 +42,7 @@ _COUNTING = 1.3  # neighbouring lines share their errors: standard errors are th
 _OVERHANG_PITCHES = 0.25  # a mixed pixel is returned while a quarter of it sees the surface
 _OWN_PITCHES, _ERODED_OWN_PITCHES = 0.05, 0.10  # what each disc errs by itself, and more for each ring lost
 _BEND_SHIFT = 0.09  # of the bend: what narrow bands lose on the side that bends away
+# what all discs err by together: tuned when they were made; on which scans is not recorded
 _ALONG_BASE_PITCHES, _ACROSS_BASE_PITCHES = 0.07, 0.05
 _ERODED_BASE = 0.10, 0.28  # pitches a ring, mean and spread: filters see a step where the wall behind it is lit
 _FIRST_RING, _SECOND_RING_PITCHES = 1.2, 0.8  # eroded by more: what the second ring takes hangs on walls behind it
@@ -53,8 +54,9 @@ _NEARER_TAKES_LESS = 1.3  # seen from nearer, less of the wall is taken in: meas
 _USUAL_PITCH_MM, _FAR_NO_MORE = 0.5, 1.1  # at which they were measured; at 2 m they are no larger than at 1.4 m
 _USUAL_STEP_PITCHES = 0.4  # a camera that loses half of the pixels at steps sees rims that far behind
 _USUAL_GAP_PITCHES = 2.0  # one to two pixels lie between a top and what passed it; half of them lost, more
+# tuned when they were made; on which scans is not recorded
 _SHARP_MOUTH_VIEW, _ERODED_MOUTH_VIEW = (-0.08, 0.14), (-0.60, 0.40)
-_SHARP_TOP_VIEW, _BENT_TOP_VIEW, _ERODED_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33), (-0.80, 0.15)
+_SHARP_TOP_VIEW, _BENT_TOP_VIEW, _ERODED_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33), (-0.80, 0.15)  # docs/method.md, 2.4
 _ERODED_MOUTH_BASE_PITCHES = 0.45  # a ring: taken where the projector lights the wall, and not in its shadow
 _ERODED_MOUTH_OWN_PITCHES = 0.22  # half rims stand on fewer points, and on fewer points of the bore
 _RADIUS_U_PITCHES = 0.15  # of a radius where no ring is lost

@@ -27,23 +27,35 @@ from aadm_workbench.extract.pattern_fit import (
 )
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
 
+# of a bar below its top: the shortest of the settings stick out by 120, and no floor is to be taken in
 _LENGTH_MM = 110.0
-_ABOVE_MM = 14.0
+_ABOVE_MM = 14.0  # how far above the level of all tops one may end: by right they differ by a centimetre or more
+# about the radius, from a first guess of some mm down to what a rib of 0.9 mm stands out by and its noise
 _BANDS_MM = (3.0, 2.0, 1.6, 1.6, 1.6)
-_SETTLED_MM = 0.01
-_LAST_ROUNDS = 2
-_INWARDS_MM = 1.0
-_POINTS_MAX = 300
-_FEWEST = 40
+_SETTLED_MM = 0.01  # a third of the uncertainty's floor below
+_LAST_ROUNDS = 2  # with the scatter that the bars show: all else is settled before
+_INWARDS_MM = 1.0  # ribs only stand outwards: what lies farther inside of the core is a stray
+_POINTS_MAX = 300  # of a side, evenly taken: neighbours share their errors, more of them tell little
+_FEWEST = 40  # points of a side (a choice: ±30 % moves nothing on sound scans)
+# neighbouring points of a side share their errors: standard errors are this much larger; a choice: ±30 % changes what
+# is found
 _CORRELATION = 1.8
+# of the noise that is read from the sides: half to three times that of the reference camera at 1 m (0.10)
 _LAW_WIDTH_MM = (0.05, 0.3)
+# of the points of a side, and how far they stand out on average: ribs of 0.9 mm with slanted flanks; a choice: ±30 %
+# changes what is found
 _RIB_SHARE, _RIB_MM = 0.35, 0.5
+# cores are nominal within half a millimetre across, those of a group alike, and lean by up to twice the usual 0.3
+# degrees
 _RADIUS_SIGMA_MM, _OWN_RADIUS_MM, _LEAN_SIGMA = 0.25, 0.05, 0.010
 _CORE_TO_NOMINAL = 0.965  # of ribbed bars (GB/T 1499.2: 19.3 of 20 mm)
+# 73 degrees to either side of the view: beyond, a side is seen along, and its pixels mix with what is behind
 _FACING_COSINE = 0.30
+# what the warp of a camera leaves (0.025 mm rms of the reference camera), however many points there are
 _FLOOR_MM = 0.03
-_SEEN_MM = 0.25
-_TOP_BIN_MM = 1.0
+_SEEN_MM = 0.25  # known better than this, it has evidence of its own (a choice: ±30 % changes what is found)
+_TOP_BIN_MM = 1.0  # three rows of pixels or more, from 550 to 850 mm away
+# a side falls by 1.1 mm from pixel to pixel where it is still used; three of four neighbours
 _LIKE_DEPTH_MM, _BORNE_BY = 2.5, 3
 _NARROWEST, _WIDE = 0.12, 0.45  # of the diameter: on a narrow strip one rib can stand for the whole bar
 

@@ -17,17 +17,21 @@ from aadm_workbench.extract.hoisting_frame import HoistingFrame
 from aadm_workbench.extract.plane import refined_plane
 from aadm_workbench.model import Array, IntArray, Plane
 
-_SAMPLE_PIXELS = 130_000
-_FITTED_MAX = 250
+_SAMPLE_PIXELS = 130_000  # every fourth row and column of 1920 × 1200
+_FITTED_MAX = 250  # of a bar's front: for a first centre more tell no more
 _GAP_MM = 12.0  # what hangs down less from the foot belongs to it
-_SLICE_MM = 8.0
-_SLICES_MIN = 3
-_CELL_MM = 3.0
-_POINTS_MIN = 20
+_SLICE_MM = 8.0  # of height: five rows of the sample
+_SLICES_MIN = 3  # a bar fills its place over 16 mm of height at least; what is level, or flies, does not
+_CELL_MM = 3.0  # twice the distance of neighbours in the sample: no bar falls apart, and none grows into the next one
+_POINTS_MIN = 20  # of the sample: a bar shows hundreds, fewer carry no circle
+# well below the tops, level within centimetres, and seen over a column's width (a choice: ±30 % moves nothing on
+# sound scans)
 _FLOOR_BELOW_MM, _FLOOR_BAND_MM, _FLOOR_SPAN_MM = 50.0, 20.0, 150.0
+# a plane that most of what is low lies on, within 3.6 degrees of square to the bars (a choice: ±30 % moves nothing on
+# sound scans)
 _FLOOR_POINTS_MIN, _FLOOR_SHARE, _FLOOR_COSINE = 150, 0.6, 0.998
-_MISFIT_MM = 1.2
-_FITTING_SHARE = 0.7
+_MISFIT_MM = 1.2  # ribs stand out by 0.9 mm, noise comes on top
+_FITTING_SHARE = 0.7  # of its points (a choice: ±30 % moves nothing on sound scans)
 _FRONT_SHARE = 0.6  # of the diameter that must be seen of a bar's front
 
 

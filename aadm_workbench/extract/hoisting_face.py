@@ -17,26 +17,32 @@ from aadm_workbench.extract.hoisting_frame import HoistingFrame, LocalAxes
 from aadm_workbench.extract.plane import refined_plane
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane
 
-_SAMPLE_PIXELS = 90_000
+_SAMPLE_PIXELS = 90_000  # every fifth row and column of 1920 × 1200
+# sides of the column, floor and walls have more points than a foot that is seen along (a choice: ±30 % moves nothing
+# on sound scans)
 _PLANES_MAX = 9
+# three points near to each other mostly lie on one plane, so that few are needed (a choice: ±30 % moves centres by up
+# to 0.9 u)
 _HYPOTHESES = 130
-_SCORED = 1_000
-_REFINED_ON, _MEASURED_ON = 2_500, 6_000
-_FEWEST = 60
+_SCORED = 1_000  # to rank them by
+_REFINED_ON, _MEASURED_ON = 2_500, 6_000  # noise averages out long before; what remains is the camera's warp
+_FEWEST = 60  # of the sample, or of the rays about it (a choice: ±30 % moves nothing on sound scans)
+# sides of a triple: so long that noise hardly turns its plane, so short that it stays on one face
 _NEIGHBOURS_MM = (12.0, 160.0)
-_BAND_MM, _BAND_SIGMAS = 1.2, 3.5
-_TAKEN_MM = 2.5
-_CELL_MM, _CELLS_OF_RADIUS = 1.6, 6.0
-_BEHIND_MM = 0.7
+_BAND_MM, _BAND_SIGMAS = 1.2, 3.5  # as in plane.py
+_TAKEN_MM = 2.5  # twice the band about a plane: what the search for the next one leaves out
+_CELL_MM, _CELLS_OF_RADIUS = 1.6, 6.0  # so coarse that rays fill the cells of an opening, and six to its radius
+_BEHIND_MM = 0.7  # a ray that ends less far behind the face may have ended on it: noise and worn rims
 _BEHIND_SHARE = 0.04  # of the diameter
 _DEEPEST = 2.5  # diameters behind the face up to which a ray through a mouth ends
+# of the rays within, of those around (a choice: ±30 % moves centres by up to 0.6 u)
 _OPEN_SHARE, _RING_SHARE = 0.35, 0.45
-_AS_DENSE = 0.25
-_MOUTHS_MIN = 2
-_REGION_PIXELS = 160_000
+_AS_DENSE = 0.25  # half of the returns of a wall may be lost, and half again where a mouth is half hidden
+_MOUTHS_MIN = 2  # one round opening may be a hole in anything
+_REGION_PIXELS = 160_000  # about one ray a cell on a foot of 600 mm
 _STEEPEST_COSINE = 0.62  # of the view against the normal: what is seen more squarely is no foot beside a camera
-_ROUGHEST_MM = 0.8
-_CANDIDATES_MAX = 80
+_ROUGHEST_MM = 0.8  # eight times the noise of the reference camera at 1 m
+_CANDIDATES_MAX = 80  # far more than a foot has sleeves: it only bounds the time
 
 
 @dataclass(frozen=True, eq=False)

@@ -37,21 +37,27 @@ from aadm_workbench.extract.pattern_fit import (
 from aadm_workbench.extract.witnesses import spread, tukey
 from aadm_workbench.model import Array, BoolArray, IntArray
 
-_WALL, _PUSH = range(2)
+_WALL, _PUSH = range(2)  # places of the bores' radius and push among the pooled unknowns
+# about the radius, from a first pose that is right within some mm down to what ribs of 1 mm leave
 _BANDS_MM = (6.0, 4.0, 2.5, 1.5, 1.0, 1.0)
-_LOOSE_FROM_MM = 2.0
+_LOOSE_FROM_MM = 2.0  # in narrower bands bores are found: what then stands far from its place is not to pull the others
 _WALL_FROM_MM = 1.15  # chamfers end before
-_WALL_MAX = 200
-_WALL_FEWEST = 25
+_WALL_MAX = 200  # of a bore, evenly taken: neighbours share their errors, more of them tell little
+_WALL_FEWEST = 25  # points of a bore: as in pooled.py
+# neighbouring wall points share their errors: standard errors are this much larger; a choice: ±30 % moves centres by
+# up to 0.9 u and u by 6 %
 _WALL_CORRELATION = 1.6
-_EDGE_RAYS_MAX = 1_500
+_EDGE_RAYS_MAX = 1_500  # of a mouth: it only bounds the time
 _EDGE_REACH_MM = 2.4  # about the bore as its wall appears: pushes and chamfers are smaller
+# bores are nominal within this; light that bounces pushes walls by up to 0.8 mm (reference camera)
 _RADIUS_SIGMA_MM, _PUSH_SIGMA_MM = 0.4, 0.7
+# 0.3 degrees as cast, and half as much for the face they are told against; sleeves of a foot are alike
 _LEAN_SIGMA, _OWN_RADIUS_MM = 0.008, 0.06
+# floors: no push is known better, whatever the likelihood's curvature says (a choice: ±30 % moves u by 3 %)
 _OWN_PUSH_MIN_MM, _PUSH_FLOOR_PITCHES = 0.02, 0.02
 _OWN_SIGMA_RATIO = 1.5  # of what the likelihood's curvature says: its steps are not smooth
-_FLOOR_MM = 0.02
-_SHOWN_SHARE = 0.3
+_FLOOR_MM = 0.02  # what the warp of a camera leaves over one mouth, however many points there are
+_SHOWN_SHARE = 0.3  # of what returns about most mouths (a choice: ±30 % moves nothing on sound scans)
 _SEEN_MM = 0.35  # what is known better than this has evidence of its own
 
 

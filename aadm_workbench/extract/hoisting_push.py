@@ -16,14 +16,22 @@ import numpy as np
 
 from aadm_workbench.model import Array, IntArray
 
-_PUSH_REACH_MM, _PUSH_STEP_MM = 1.8, 0.3
+_PUSH_REACH_MM, _PUSH_STEP_MM = 1.8, 0.3  # twice the push of the reference camera (0.8 mm) to either side
+# none to one and a half times the largest of the reference camera's scenes (1 mm)
 _CHAMFER_MM, _CHAMFER_STEP_MM = (0.0, 0.4, 0.8, 1.2, 1.6), 0.3
+# times the noise, so that a step of the grid cannot miss the peak; then down to the noise itself
 _BLUR, _FINE_BLURS = 3.0, (2.0, 1.5, 1.0, 1.0)
+# bounds of the time; farther from the edge than two steps of the grid a ray tells nothing
 _COARSE_RAYS, _FINE_RAYS, _NEAR_MM = 1_200, 3_500, 0.7
 _SOFTNESS = 0.03  # of a pixel: an edge is a step, and softer laws lean to where more rays return
-_SOFTNESS_MIN_MM = 0.01
+_SOFTNESS_MIN_MM = 0.01  # finer, single rays make the likelihood jump
+# of a pixel, on the side where the edge is a step in depth and pixels mix: twice as soft; a choice: ±30 % moves
+# centres by up to 1.1 u and u by 3 %
 _STEP_SOFTNESS = 0.06
+# of rays that end neither on the face nor on the wall, anywhere within so much (a choice: ±30 % moves centres by up
+# to 1.0 u)
 _STRAY_SHARE, _STRAY_SPAN_MM = 0.12, 8.0
+# neighbouring rays share their errors: two tell as much as one; a choice: ±30 % moves centres by up to 0.3 u
 _CORRELATION = 2.0
 
 

@@ -12,8 +12,9 @@ from aadm_workbench.model import Array
 
 _EMPTY_DISC = 0.75  # of the radius: this part of a hole holds no face points
 _RING = (1.15, 1.6)  # of the radius: this part around a hole holds face points
+# cells of an empty disc that strays and a tape fill (a choice: ±30 % moves nothing on sound scans)
 _DISC_FILL_MAX = 0.45
-_RING_FILL_MIN = 0.55
+_RING_FILL_MIN = 0.55  # a mouth at an edge of the face has half a ring (a choice: ±30 % moves nothing on sound scans)
 _EXTENT_FROM = 20_000  # points
 
 

@@ -11,7 +11,7 @@ LEAN_MAX = float(np.radians(4.5))
 """What is looked for each way: 60 mm of side then move by 5 mm, nearly the room beside a bar in its patch."""
 
 _LEANS = np.linspace(-LEAN_MAX, LEAN_MAX, 13)  # steps of 0.75 degrees move the end of a side by half of its band
-_TRIED = np.stack(np.meshgrid(_LEANS, _LEANS), axis=-1).reshape(-1, 2).astype(np.float32)
+_TRIED = np.stack(np.meshgrid(_LEANS, _LEANS), axis=-1).reshape(-1, 2).astype(np.float32)  # 13 × 13 leans, mm per mm
 _TRIED = _TRIED[np.argsort((_TRIED**2).sum(axis=1), kind="stable")]
 _SIDE_MM, _HALF_MM = 0.3, 1.5  # about the nominal radius: cores are a little smaller, ribs stand out by 1.5 mm
 _POINTS_MAX = 150  # of a side, for a choice in steps of 0.75 degrees

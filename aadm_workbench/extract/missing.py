@@ -6,10 +6,10 @@ import numpy as np
 
 from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm, thinned
-from aadm_workbench.model import Array, Extraction, Kind, Plane, Scan
+from aadm_workbench.model import Array, Extraction, Kind, Scan
 
-_SAMPLE = 250_000
-_FACE_BAND_MM = 3.0
+_SAMPLE = 250_000  # every third row and column of 1920 × 1200
+_FACE_BAND_MM = 3.0  # twice that of what is measured: a plug may stand a little before the face or behind it
 _BAR_HEIGHT_MM = 10.0  # what stands higher than this below the level of the tops is no bar
 
 
@@ -26,10 +26,10 @@ def explain_missing(
     local = in_plane(sample.points, extraction.plane)
     expected = in_plane(np.atleast_2d(places), extraction.plane)[:, :2]
     explain = _explain_sleeve if extraction.kind is Kind.SLEEVE else _explain_bar
-    return tuple(explain(sample, local, place, diameter_mm / 2, extraction.plane) for place in expected)
+    return tuple(explain(sample, local, place, diameter_mm / 2) for place in expected)
 
 
-def _explain_sleeve(sample: Thinned, local: Array, place: Array, radius_mm: float, plane: Plane) -> str:
+def _explain_sleeve(sample: Thinned, local: Array, place: Array, radius_mm: float) -> str:
     on_face = local[np.abs(local[:, 2]) < _FACE_BAND_MM, :2]
     closed = _filled(sample, on_face, place, 0.0, 0.7 * radius_mm)
     around = _filled(sample, on_face, place, 1.2 * radius_mm, 1.8 * radius_mm)
@@ -40,7 +40,7 @@ def _explain_sleeve(sample: Thinned, local: Array, place: Array, radius_mm: floa
     return "too little of the mouth's rim is seen to measure it"
 
 
-def _explain_bar(sample: Thinned, local: Array, place: Array, radius_mm: float, plane: Plane) -> str:
+def _explain_bar(sample: Thinned, local: Array, place: Array, radius_mm: float) -> str:
     distance = np.hypot(*(local[:, :2] - place).T)
     near = local[distance < 4.0 * radius_mm]
     tops = (np.abs(near[:, 2]) < 4.0 * _BAR_HEIGHT_MM) & (np.hypot(*(near[:, :2] - place).T) < radius_mm)

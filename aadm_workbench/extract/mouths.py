@@ -20,12 +20,17 @@ WALL_DEPTH_MM = (2.0, 120.0)
 """Where behind the face a bore is looked for."""
 
 _RIM_ZONE = 0.5  # of the radius
+# behind a chamfer, and near enough to the rim that a wall which shows here runs into it (a choice: ±30 % moves
+# centres by up to 2.1 u)
 _UPPER_WALL_MM = (1.0, 12.0)
 _WALL_BAND_MM = 2.0  # about the nominal radius
-_WALL_POINTS_MAX = 350
+_WALL_POINTS_MAX = 350  # of a bore, evenly taken: neighbours share their errors, more of them tell little
+# a third of a mouth lets light in, so that a tape over half of it does not close it; of a whole face's points; of the
+# radius
 _SECTORS, _OPEN_SECTORS, _CLOSED_SHARE, _INSIDE = 12, 4, 0.15, (0.2, 0.75)
 _FLOOR_MM, _SPALL_MM, _PLUG_ROUND = 15.0, 5.0, 0.6  # plugs sit deeper than spalls, and their rims are round
-_OPPOSITE_COSINE = 0.3
+_OPPOSITE_COSINE = 0.3  # 73 degrees to either side of where the camera looks
+# of a circle: half a mouth may be taped, and a part of the rest lost; a choice: ±30 % moves nothing on sound scans
 _COVERAGE_MIN = 0.35
 
 

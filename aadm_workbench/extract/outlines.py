@@ -14,6 +14,7 @@ import numpy as np
 from aadm_workbench.extract.plan_points import PlanPoints
 from aadm_workbench.model import Array, BoolArray
 
+# six to a quarter of the smallest circle; half a degree, which is finer than pixels on mouths of up to 50 mm
 _FEWEST_BINS, _MOST_BINS = 24, 720
 
 

@@ -15,10 +15,10 @@ from aadm_workbench.extract.plane import axes_on, from_plane, in_plane
 from aadm_workbench.extract.sample import Thinned
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane, Scan
 
-_LABEL_CELL_MM = 2.0
-_CHUNK = 400_000
+_LABEL_CELL_MM = 2.0  # half of what a patch reaches beyond a mouth
+_CHUNK = 400_000  # points at a time: 10 MB in double precision
 _BORNE_WITHIN_MM = 6.0  # a wall seen along falls by a few mm from pixel to pixel
-_BORNE_BY = 3
+_BORNE_BY = 3  # of eight neighbours: a point on a straight edge has five on its side, one in a corner three
 _HOMOGRAPHY_MIN, _HOMOGRAPHY_POINTS = 200, 4000  # eight unknowns, and lenses that bend the picture must show
 _HOMOGRAPHY_WITHIN = 0.2  # of a pixel: an edge is sought to about a tenth
 

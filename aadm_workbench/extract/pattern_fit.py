@@ -18,10 +18,11 @@ from aadm_workbench.model import Array, BoolArray, IntArray
 OWN = 6
 """Unknowns of a feature: centre x, y; lean x, y; push; radius."""
 
-_POSE = 3
-_LONGEST_STEP_MM = 3.0
+_POSE = 3  # x, y and turn
+_LONGEST_STEP_MM = 3.0  # first poses are right within some mm: a longer step is one that hardly anything holds
+# farther from its place a feature is bent or set wrong, and counts by less (a choice: ±30 % changes what is found)
 _FAR_SIGMAS = 2.0
-_BELIEF_COUNT = 2
+_BELIEF_COUNT = 2  # features: scatter is a belief, which two that are seen outweigh
 _BY_DESIGN_MM = 0.3  # closer than that only a measurement knows a place
 
 

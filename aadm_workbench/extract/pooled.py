@@ -23,8 +23,9 @@ from aadm_workbench.extract.witnesses import EdgeTerms, Rims, Walls, WallTerms, 
 from aadm_workbench.model import Array, BoolArray, IntArray
 
 _DISAGREE_CHI2, _FEW, _ONE_SIDED = 13.8, 25, 1e3  # 0.1 % of chi-squared with two degrees of freedom
+# a state that begins at rest still takes its first steps; what goes on for longer swings
 _ROUNDS_MIN, _ROUNDS_MAX = 3, 30
-_SETTLED_MM = 4e-3
+_SETTLED_MM = 4e-3  # a fifth of what the best camera errs by (docs/method.md, 2.5)
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,9 +18,9 @@ POOLED = 4
 
 WALL, BEYOND, RIM, PUSH = range(POOLED)
 _EDGE = np.array([0, 1, 5])  # what an edge depends on
-_OWN_PUSH, _OWN_RADIUS = 4, 5
-_STEP_MAX = 2.0
-_JUST_SOLVABLE = 1e-9
+_OWN_PUSH, _OWN_RADIUS = 4, 5  # places among a feature's own unknowns
+_STEP_MAX = 2.0  # mm: first centres are right within that
+_JUST_SOLVABLE = 1e-9  # 1/mm²: a belief of ± 30 m, which holds nothing but the arithmetic
 
 
 @dataclass(frozen=True)

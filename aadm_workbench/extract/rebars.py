@@ -31,23 +31,30 @@ from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, Tops, tops_i
 from aadm_workbench.extract.witnesses import Rims, Walls
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Scan
 
-_SAMPLE = 90_000
-_START_DEPTH_MM = 15.0
-_RADIUS_MISFIT = 0.15
+_SAMPLE = 90_000  # every fifth row and column of 1920 × 1200
+_START_DEPTH_MM = 15.0  # of a side below its top: bars that lean as usual move by 0.08 mm there
+_RADIUS_MISFIT = 0.15  # relative: bars of the next size are measured, too, and then told to be of another
+# of an outline that lies on its circle: burrs and breaks leave more; a choice: ±30 % moves nothing on sound scans
 _SOUND_SHARE = 0.55
 _SHAPE_U_PITCHES = 0.08, 0.16  # what ribs leave of the departure from a circle: edge held from both sides, or from one
 _FIT_SHARE = 0.65  # the fit's own covariance has neighbours share more of their errors than they do
+# of an outline that ribs and strays put inside; what a top that is spoilt all round may be off (a choice: ±30 % moves
+# u by 22 %)
 _USUAL_SPOILT, _SPOILT_U_MM = 0.13, 1.5
+# how rays that pass a top thin out away from it, and how many of them fly (a choice: ±30 % moves centres by up to 1.0
+# u and u by 6 %)
 _BEYOND_TAIL_MM, _FLYING = 1.2, 0.05
 _FOREIGN = 0.3  # share of outline points that are ribs
+# leans of bars that were bent, too; cores of a group are alike; a side is not pushed; an edge and a side are one
+# radius
 _BAR_PRIORS = Priors(
     lean=0.03, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.06, wall_to_edge=0.02, rim_to_beyond=0.03
 )
 _BAR_LEAN_U = 7e-3  # ribs, which stand out on one side here and on the other there: half of one over 60 mm of side
 _USUAL_LEAN, _COMMON_COUNT = 5e-3, 4  # 0.3 degrees, as bars are cast in
 _BENT_SHARE = 0.1  # of bars that lean by more than that: bent by hand, or hit
-_TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)
-_TURNS = 3
+_TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)  # before the vertical is known bars lean by degrees
+_TURNS = 3  # each is seen along what the last one's bars show: a choice, not tuned since
 
 
 @dataclass(frozen=True, eq=False)

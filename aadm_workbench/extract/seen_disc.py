@@ -18,11 +18,11 @@ from aadm_workbench.model import Array, BoolArray, FloatArray
 _FOREIGN = 0.03  # share of lines that find what the geometry does not tell: flying pixels, random losses
 _ZONE_PITCHES, _ZONE_MM = 5.0, 1.0  # about the edge: farther away a line tells nothing
 _WIDTH_START, _WIDTH_LIMITS = 0.4, (0.05, 3.0)  # of the pitch
-_STEP_MAX_MM = 0.3
-_ROUNDS, _SETTLED_MM = 14, 2e-3
+_STEP_MAX_MM = 0.3  # first centres are right to about a millimetre: a longer step leaves the zone in which lines tell
+_ROUNDS, _SETTLED_MM = 14, 2e-3  # enough for four millimetres of steps; a tenth of what the best camera errs by
 _BEHIND_PITCHES, _FOUND_MIN = (3.0, 6.0), 0.2  # where a surface is whole, whatever happens at its edge
 _NOWHERE_MM = 1e3  # of padding; it has no weight
-_JUST_SOLVABLE = 1e-3
+_JUST_SOLVABLE = 1e-3  # 1/mm²: a belief of ± 30 mm, which holds nothing but the arithmetic
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,22 +34,30 @@ from aadm_workbench.extract.sight_lines import SightLines, sight_lines_on_face
 from aadm_workbench.extract.witnesses import Rims, Walls, WallTerms
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, Kind, Plane, Scan
 
-_SAMPLE = 90_000
+_SAMPLE = 90_000  # every fifth row and column of 1920 × 1200
+# points of a bore: fewer do not tell on which side its wall shows; a choice: ±30 % moves centres by up to 0.3 u
 _WALL_COUNT_MIN = 20
 _WALL_LAW = BracketLaw(0.08, 0.4)  # many points lie on ribs, which only ever stand inwards
+# wide before the share of kept pixels is known; then so many pitches over that share; what cameras mostly keep (a
+# choice: ±30 % moves centres by up to 0.3 u and u by 7 %)
 _TAIL_PITCHES, _TAIL_TO_KEPT, _USUALLY_KEPT = 6.0, 1.5, 0.7
 _FIRST_SETTLED_MM = 0.03  # the first fit only tells which share of the pixels the camera keeps, and how bores scatter
 _BORE_LEAN_U = 2e-3  # light that bounces in a bore pushes its wall by less or more as it goes deeper
 _WHOLE_WITHIN_MM = 1.5  # between the innermost points of a rim and the disc that is seen: filters move it by less
 _ERODED_RADIUS_MAX = 0.5  # rings: beyond, walls that light pushes know the radius better
 _BROKEN_U_MM = 0.3  # of a broken rim, seen by a camera that adds to its edges
+# 30 degrees of turn from the visible side each; of fewer rim points a share tells nothing
 _SIDES, _SIDE_COUNT_MIN = 6, 10
+# what is left of a rim's own radius once its law follows the share of kept pixels (a choice: ±30 % moves centres by
+# less than 0.1 u)
 _RIM_TO_WALL_PITCHES = 0.05
 _BENT_PRIORS = Priors(radius=0.15, push=0.6, own_push=0.4)  # light that bounces pushes each bore's wall its own way
 _FIT_SHARE = 0.8  # the fit's own covariance has neighbours share more of their errors than they do
 _WEAR_PITCHES = 0.04  # how far rims may be worn away unnoticed; it shifts centres along the view
 _ROUGH_U_MM = 0.1  # grains at the rim of a roughened foot, each mouth by itself
 _FOREIGN = 0.01  # share of outline points that are flying pixels or dirt
+# of an outline on its circle, or running on into the wall: half of a taped mouth is more; a choice: ±30 % moves
+# nothing on sound scans
 _SOUND_SHARE = 0.3
 _RADIUS_MISFIT = 0.08  # relative: a hole this much larger or smaller than nominal is no sleeve
 

@@ -13,8 +13,9 @@ from aadm_workbench.model import Array, FloatArray, Plane
 
 _FLOOR_SHARE = 0.2  # of the points: less is no floor
 _FLOOR_COVERED, _ENOUGH = 0.6, 20_000
+# higher than a rough floor and what lies on it; the shortest connecting bars stick out several times as far
 _ABOVE_FLOOR_MM = 15.0
-_TOP_COUNT_MIN = 20
+_TOP_COUNT_MIN = 20  # points of the thinned scan: fewer are no top
 _HIGH = 0.9  # of the points of a disc lie lower than its top
 
 
@@ -40,7 +41,7 @@ def find_standing(
     for floor in _floors(sample, viewpoint, radius_mm, rng):
         height = floor.height(sample.points)
         above = sample.points[in_company(sample, height, height > _ABOVE_FLOOR_MM)]
-        centres = _discs(above, floor.normal, sample, radius_mm)
+        centres = _discs(above, floor.normal, radius_mm)
         if len(centres) and (best is None or len(centres) > len(best.centres)):
             best = Standing(floor.normal, floor, centres, _level(above, floor.normal, centres, radius_mm))
     if best is not None:
@@ -50,7 +51,7 @@ def find_standing(
 
 def standing_along(sample: Thinned, vertical: Array, radius_mm: float) -> Standing | None:
     """Find upright discs of a radius along a given vertical (3,), without a floor."""
-    centres = _discs(sample.points, vertical, sample, radius_mm)
+    centres = _discs(sample.points, vertical, radius_mm)
     if len(centres) == 0:
         return None
     return Standing(vertical, None, centres, _level(sample.points, vertical, centres, radius_mm))
@@ -101,7 +102,7 @@ def _towards(sample: Thinned, viewpoint: Array | None) -> Array:
     return np.asarray(direction / np.linalg.norm(direction))
 
 
-def _discs(points: FloatArray, vertical: Array, sample: Thinned, radius_mm: float) -> Array:
+def _discs(points: FloatArray, vertical: Array, radius_mm: float) -> Array:
     if len(points) < _TOP_COUNT_MIN:
         return np.empty((0, 2))
     plan = points @ axes_on(Plane(vertical, 0.0))[:2].T

@@ -20,16 +20,19 @@ REACH_MM = 14.0
 TOP_BAND_MM, BENT_TOP_BAND_MM = 0.3, 1.5
 """How near to its plane a point is on a top; where surfaces bend at their edges, a narrow band would lose one side."""
 
-_TOP_BAND_SIGMAS = 4.0
+_TOP_BAND_SIGMAS = 4.0  # of a top's own points one in 16,000 is farther off
 _OUTLINE_ZONE, _OUTLINE_BEYOND_MM = 0.3, 3.0  # of the radius; beyond it
+# a rib of 0.9 mm and a pixel or two at 1 m; what lies beyond is another surface (a choice: ±30 % moves centres by
+# less than 0.1 u)
 _RIM_BEYOND_MM = 2.5
+# of the density of the disc, in a ring beyond the ribs; of the radius (a choice: ±30 % changes what is found)
 _GOES_ON_SHARE, _GOES_ON_RING, _GOES_ON_DISC = 0.3, (1.25, 1.5), 0.9
-_COVERAGE_MIN = 0.5
+_COVERAGE_MIN = 0.5  # half of a circle still holds its centre both ways
 _PITCH_MAX = 0.2  # of the radius: 80 points on a top; on fewer anything passes for round
-_PASSED_FROM, _PASSED_BEYOND_MM = 0.75, 6.0
-_SIDE_DEPTH_MM = (0.8, 60.0)
+_PASSED_FROM, _PASSED_BEYOND_MM = 0.75, 6.0  # of the radius; beyond it: so far about the edge rays tell where it is
+_SIDE_DEPTH_MM = (0.8, 60.0)  # below a burr; 60 mm tell the lean to 7 mrad (docs/method.md, 2.3)
 _SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
-_SIDE_POINTS_MAX = 350
+_SIDE_POINTS_MAX = 350  # of a side, evenly taken: neighbours share their errors, more of them tell little
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,8 @@ from aadm_workbench.model import Array, BoolArray
 WALL_CORRELATION = 2.5
 """Neighbouring wall points share their errors: standard errors are this much larger."""
 
-_TUKEY = 4.0
+_TUKEY = 4.0  # standard deviations: of normal errors 91 % of the information is kept
+# less than any camera's noise; what is taken where fewer points than that are seen
 _SPREAD_MIN_MM, _SPREAD_UNKNOWN_MM, _FEWEST = 0.02, 0.3, 5
 
 

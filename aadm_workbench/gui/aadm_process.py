@@ -18,7 +18,7 @@ from PySide import QtCore
 from aadm_workbench.document.packages import package_folder, python_program
 
 translate = FreeCAD.Qt.translate
-_ROOT = Path(__file__).resolve().parents[2]
+_ROOT = Path(__file__).resolve().parents[2]  # the folder of package.xml
 _STEP = re.compile(r"^(?:aadm: )?(\d+)/(\d+) (.*)$")
 
 

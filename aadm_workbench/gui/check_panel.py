@@ -39,7 +39,7 @@ _VIEWS = (
     ("minimax", QT_TRANSLATE_NOOP("AADM_Check", "Trial assembly, best position (minimax)")),
     ("least_squares", QT_TRANSLATE_NOOP("AADM_Check", "Trial assembly, least squares")),
 )
-_SHOWN_REASONS = 3
+_SHOWN_REASONS = 3  # the panel is a hand wide; the table has all
 
 
 class CheckPanel(TaskPanel):

@@ -13,9 +13,9 @@ from aadm_workbench.document.hoisting_state import Guidance
 
 translate = FreeCAD.Qt.translate
 
-_BACK = QtGui.QColor(18, 22, 26)
-_FRONT = QtGui.QColor(245, 245, 245)
-_DIM = QtGui.QColor(70, 76, 82)
+_BACK = QtGui.QColor(18, 22, 26)  # dark: read at night, and in the sun
+_FRONT = QtGui.QColor(245, 245, 245)  # 17 : 1 on it
+_DIM = QtGui.QColor(70, 76, 82)  # seen to be there, and to be off
 _LAMPS = (("push", "fail", "✕"), ("hold", "inconclusive", "?"), ("go", "pass", "✓"))
 _BIG = QtCore.Qt.AlignCenter
 

@@ -18,8 +18,8 @@ from aadm_workbench.gui.resources import icon_path
 from aadm_workbench.gui.sentences import show_error
 
 translate = FreeCAD.Qt.translate
-_LOOK_EVERY_MS = 300
-_OLD_AFTER_S = 15.0
+_LOOK_EVERY_MS = 300  # a person sees no delay, and reading a small file costs nothing
+_OLD_AFTER_S = 15.0  # a camera that measures gives a frame every few seconds: a column swings away in that time
 
 
 class HoistingWindow(QtGui.QWidget):

@@ -23,11 +23,11 @@ from aadm_workbench.gui.file_line import FileLine
 from aadm_workbench.gui.sentences import sentences, show_error
 from aadm_workbench.gui.task_panel import TaskPanel, close_panel, show_panel
 from aadm_workbench.gui.worker import Worker
+from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, TABLES
 
 translate = FreeCAD.Qt.translate
 
-_FORMATS = "*.tif *.tiff *.png *.ply *.pcd *.xyz *.pts *.ptx *.txt *.csv *.asc *.npz *.e57 *.las"
-_NEEDS_CAMERA = (".tif", ".tiff", ".png")
+_FORMATS = " ".join(f"*{suffix}" for suffix in (*DEPTH_MAPS, *CLOUDS, *TABLES))
 
 
 class ImportPanel(TaskPanel):
@@ -107,13 +107,13 @@ class ImportPanel(TaskPanel):
         if not file:
             raise ScanError(translate("AADM_Import", "Choose the file of the scan."))
         camera = self.camera.text()
-        if not camera and Path(file).suffix.lower() in _NEEDS_CAMERA:
+        if not camera and Path(file).suffix.lower() in DEPTH_MAPS:
             raise ScanError(
                 translate("AADM_Import", "A depth map needs the camera's intrinsics: choose the file that holds them.")
             )
         settings.remember_camera_file(camera)
         # Of a cloud a camera says that it is in the camera's frame; that is left to depth maps here.
-        used = camera if camera and Path(file).suffix.lower() in _NEEDS_CAMERA else None
+        used = camera if camera and Path(file).suffix.lower() in DEPTH_MAPS else None
         declared = {
             "units": self.units.currentText(),
             "camera": used,

@@ -13,7 +13,7 @@ from aadm_workbench.document.packages import Package, install_command, make_impo
 from aadm_workbench.errors import MissingDependencyError
 
 translate = FreeCAD.Qt.translate
-_LAST_LINES = 12
+_LAST_LINES = 12  # the last ones say what went wrong
 
 
 def offer_to_install(box: Any, error: MissingDependencyError) -> None:

@@ -12,7 +12,7 @@ from PySide import QtCore, QtGui
 
 from aadm_workbench.document.colours import Rgb
 
-_MARGIN_PX = 5
+_MARGIN_PX = 5  # a text does not touch the edge of its plate
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ from aadm_workbench.document.projection import ViewCamera, project
 from aadm_workbench.gui.view_camera import active_view, camera_of
 from aadm_workbench.model import Array
 
-_LOOK_EVERY_MS = 200
+_LOOK_EVERY_MS = 200  # labels follow the view as soon as the hand rests
 
 
 class LabelHolder(Protocol):

@@ -26,7 +26,7 @@ from aadm_workbench.gui.resources import icon_path
 translate = FreeCAD.Qt.translate
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
 _BY = QtCore.Qt.UserRole
-_ROW = QtCore.Qt.UserRole + 1
+_ROW = QtCore.Qt.UserRole + 1  # a role of our own: the place of the row that an item shows
 
 
 _WHAT = {

@@ -44,7 +44,7 @@ translate = FreeCAD.Qt.translate
 
 LABELLED = ("What fails", "All", "None")
 _GOOD = frozenset({"pass", "not_assessed"})
-_EMPTY = np.zeros((0, 3))
+_EMPTY = np.zeros((0, 3))  # no points
 _LEAST_PITCH_PX = 25.0
 """Where neighbours are closer on the screen than this, points are not labelled."""
 
@@ -121,7 +121,7 @@ class ResultView(MarksView):
         magnification = self.magnification()
         marks = marks_of(found, vobj.Shows, magnification)
         group = coin_shapes.in_front() if vobj.OnTop else root
-        self._draw_plate(obj, found, group)
+        self._draw_plate(found, group)
         self._draw_marks(marks, vobj, found, group)
         self._draw_labels(obj, vobj, marks, magnification, group)
         if group is not root:
@@ -148,7 +148,7 @@ class ResultView(MarksView):
             design = design_of_report(found_of(self.Object))
         return foot_outline(design)
 
-    def _draw_plate(self, obj: Any, found: Mapping[str, Any], group: Any) -> None:
+    def _draw_plate(self, found: Mapping[str, Any], group: Any) -> None:
         colour, outline = of_verdict(str(found["verdict"])), self.outline()
         group.addChild(coin_shapes.areas([outline[:4]], [colour], 0.8))
         group.addChild(coin_shapes.lines([outline], [colour], 3.0))

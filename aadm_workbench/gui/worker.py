@@ -9,7 +9,7 @@ from typing import Any
 from PySide import QtCore
 
 _RUNNING: set[Worker] = set()
-_LONGEST_WAIT_MS = 30_000
+_LONGEST_WAIT_MS = 30_000  # a step that has been told to end does so within one scan
 
 
 class CancelledError(Exception):

@@ -87,6 +87,8 @@ from aadm_workbench.model.shipment import (
     ShipmentReport,
 )
 from aadm_workbench.model.verdicts import (
+    SUMMED,
+    WORST_FIRST,
     Kind,
     Verdict,
     worst,
@@ -96,6 +98,8 @@ __all__ = [
     "AXES_UNKNOWN",
     "CAMERA_AXES",
     "OPENGL_AXES",
+    "SUMMED",
+    "WORST_FIRST",
     "AbsolutePoint",
     "AbsolutePosition",
     "Array",

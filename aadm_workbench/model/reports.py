@@ -11,7 +11,7 @@ from aadm_workbench.model.hoisting import HoistingReport
 from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile
-from aadm_workbench.model.verdicts import Verdict
+from aadm_workbench.model.verdicts import SUMMED, Verdict
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,5 +55,4 @@ class JobReport:
 
     def summary(self) -> dict[str, int]:
         """How many columns came to each verdict: pass, fail, inconclusive, not_measured, error."""
-        counted = (Verdict.PASS, Verdict.FAIL, Verdict.INCONCLUSIVE, Verdict.NOT_MEASURED, Verdict.ERROR)
-        return {verdict.value: sum(column.verdict is verdict for column in self.columns) for verdict in counted}
+        return {verdict.value: sum(column.verdict is verdict for column in self.columns) for verdict in SUMMED}

@@ -17,7 +17,11 @@ class Verdict(StrEnum):
     NOT_ASSESSED = "not_assessed"
 
 
-_WORST_FIRST = (Verdict.ERROR, Verdict.FAIL, Verdict.NOT_MEASURED, Verdict.INCONCLUSIVE, Verdict.PASS)
+WORST_FIRST = (Verdict.ERROR, Verdict.FAIL, Verdict.NOT_MEASURED, Verdict.INCONCLUSIVE, Verdict.PASS)
+"""The verdicts that count, by severity: what a sum of verdicts, a table and a label go by."""
+
+SUMMED = (Verdict.PASS, Verdict.FAIL, Verdict.INCONCLUSIVE, Verdict.NOT_MEASURED, Verdict.ERROR)
+"""The same in the order of the summary in report.json."""
 
 
 def worst(verdicts: Iterable[Verdict]) -> Verdict:
@@ -27,7 +31,7 @@ def worst(verdicts: Iterable[Verdict]) -> Verdict:
     that applied to nothing has not passed.
     """
     present = set(verdicts)
-    return next((verdict for verdict in _WORST_FIRST if verdict in present), Verdict.NOT_MEASURED)
+    return next((verdict for verdict in WORST_FIRST if verdict in present), Verdict.NOT_MEASURED)
 
 
 class Kind(StrEnum):

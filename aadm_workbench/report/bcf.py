@@ -31,7 +31,7 @@ _VERSION = (
 )
 _PROJECTS = uuid.UUID("0f6f7f3c-1f7e-5d8d-9f43-6a1d3a6f2b57")
 _MARKUP = "markup.bcf"
-_ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)
+_ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)  # the first date that a ZIP file knows: the same report gives the same bytes
 
 BCF_BOUNDS = ArchiveBounds("BCF file", entries=20_000, entry_bytes=2**26, all_bytes=2**28)
 """A thousand topics with pictures of 150 KB and five files each are half of this."""

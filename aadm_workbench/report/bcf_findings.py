@@ -15,7 +15,7 @@ Document: TypeAlias = Mapping[str, Any]
 """A part of report.json as ``json.loads`` gives it."""
 
 _TOPICS = uuid.UUID("b2b1b1de-53d5-5f0b-8a5e-0c7c6b3f9a41")
-_TITLE_LENGTH = 200
+_TITLE_LENGTH = 200  # a line in the lists of viewers; the description has all
 _SETTLED = (Verdict.PASS, Verdict.NOT_ASSESSED)
 _SAYS = {
     Verdict.PASS: "passes",

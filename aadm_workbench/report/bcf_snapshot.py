@@ -11,18 +11,18 @@ from aadm_workbench.model import Array
 from aadm_workbench.report.bcf_findings import Document, Finding, groups, pair_of
 from aadm_workbench.report.words import COLOUR, SIGN
 
-_SIZE_PX = 900
-_HEAD_PX = 110
-_LEGEND_PX = 60
-_MARGIN_PX = 70
-_LONGEST_ARROW_PX = 75.0
-_SLEEVE_LABEL_PX = 22.0
-_BAR_LABEL_PX = 84.0
-_MAGNIFICATIONS = (500, 200, 100, 50, 20, 10, 5, 2, 1)
-_INK = (60, 50, 40)
-_FAINT = (215, 210, 205)
+_SIZE_PX = 900  # of the square that the foot is drawn in: viewers show it at half of that
+_HEAD_PX = 110  # three lines over it
+_LEGEND_PX = 60  # two lines under it
+_MARGIN_PX = 70  # about the foot: labels of its outermost points
+_LONGEST_ARROW_PX = 75.0  # half of what lies between neighbours of a ring of twelve
+_SLEEVE_LABEL_PX = 22.0  # beyond the rim of a sleeve
+_BAR_LABEL_PX = 84.0  # beyond the longest arrow
+_MAGNIFICATIONS = (500, 200, 100, 50, 20, 10, 5, 2, 1)  # factors that a person can divide by
+_INK = (60, 50, 40)  # BGR
+_FAINT = (215, 210, 205)  # BGR
 _FONT = cv2.FONT_HERSHEY_SIMPLEX
-_SUBPIXEL_BITS = 4
+_SUBPIXEL_BITS = 4  # OpenCV draws at sixteenths of a pixel
 _ASCII_SIGN = {"pass": "v", "fail": "X", "not_measured": "-", "not_assessed": "o"}
 
 
@@ -34,7 +34,7 @@ def foot_picture(finding: Finding) -> bytes:
     """
     image = np.full((_SIZE_PX + _HEAD_PX + _LEGEND_PX, _SIZE_PX, 3), 255, np.uint8)
     view = _View(finding.column)
-    _outline(image, finding.column, view)
+    _outline(image, view)
     for group in groups(finding.column):
         for point in group["points"]:
             _point(image, point, view, blamed=int(point["label"][1:]) in finding.numbers)
@@ -67,7 +67,7 @@ class _View:
         return round(float(value_px) * (1 << _SUBPIXEL_BITS))
 
 
-def _outline(image: Any, column: Document, view: _View) -> None:
+def _outline(image: Any, view: _View) -> None:
     """The foot's edge, and the column frame's axes in a corner."""
     if view.half_mm.all():
         low, high = view.at(-view.half_mm), view.at(view.half_mm)

@@ -12,11 +12,11 @@ from aadm_workbench.model import Array
 from aadm_workbench.report.bcf_findings import Document, Finding, groups, points_of
 from aadm_workbench.report.words import COLOUR
 
-_METRES = 1e-3
-_FIELD_OF_VIEW_DEG = 60.0
-_DISTANCE_IN_FOOT_SIZES = 1.3
-_ASIDE_IN_FOOT_SIZES = 0.35
-_SMALLEST_FOOT_MM = 200.0
+_METRES = 1e-3  # BCF has metres alone
+_FIELD_OF_VIEW_DEG = 60.0  # what viewers have by themselves
+_DISTANCE_IN_FOOT_SIZES = 1.3  # the foot fills two thirds of that view
+_ASIDE_IN_FOOT_SIZES = 0.35  # 15 degrees: bores are seen to be bores
+_SMALLEST_FOOT_MM = 200.0  # where a design tells no size: no column is smaller
 
 
 def viewpoint(finding: Finding) -> bytes:

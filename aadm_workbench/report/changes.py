@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
+from aadm_workbench.model import WORST_FIRST, Verdict
 from aadm_workbench.report.read import Report
 
 Trend: TypeAlias = Literal["worse", "better", "same"]
@@ -18,7 +19,7 @@ sqrt(-2 ln 0.05), the Rayleigh law."""
 UNKNOWN_U_MM = 0.1
 """Supposed of the difference where a report gives no uncertainty."""
 
-_ORDER = ("pass", "not_assessed", "inconclusive", "not_measured", "fail", "error")
+_ORDER = (Verdict.PASS, Verdict.NOT_ASSESSED, *WORST_FIRST[-2::-1])  # what is no longer assessed got worse
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from aadm_workbench.report.words_reasons import in_both_languages
 
 Light: TypeAlias = Literal["green", "amber", "red"]
 
-_SMALLEST_TURN_DEG = 0.005
+_SMALLEST_TURN_DEG = 0.005  # what is shown as 0.00 is no turn
 _NOTICED_TILT_DEG = 0.2  # 0.6 mm at the height of 180 mm that one measures at
 
 

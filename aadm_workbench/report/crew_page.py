@@ -11,11 +11,11 @@ from aadm_workbench.report.crew_sketch import crew_sketch, sleeves_from_below
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.pdf_canvas import A4, MM, draw_sketch, lines_of, pages, reportlab, write, write_lines
 from aadm_workbench.report.read import Report
-from aadm_workbench.report.words import Language, phrase
+from aadm_workbench.report.words import COLOUR, FAINT, HEAD, INK, WARN, Language, phrase
 
-_LIGHT = {"green": "#00795a", "amber": "#e0a100", "red": "#c03a00"}
-_ON_LIGHT = {"green": "#ffffff", "amber": "#1d2730", "red": "#ffffff"}
-_LEFT, _RIGHT = 15.0 * MM, 195.0 * MM
+_LIGHT = {"green": COLOUR["pass"], "amber": "#e0a100", "red": COLOUR["fail"]}
+_ON_LIGHT = {"green": "#ffffff", "amber": INK, "red": "#ffffff"}
+_LEFT, _RIGHT = 15.0 * MM, 195.0 * MM  # margins of 15 mm on A4: printers reach as far
 _WIDTH = _RIGHT - _LEFT
 
 
@@ -74,7 +74,7 @@ class _Page:
     def _lamps(self, light: str, low: float) -> None:
         """Red above, green below, as on a street: the place says it where colours do not."""
         canvas, colors = self.canvas, reportlab("lib.colors")
-        canvas.setFillColor(colors.HexColor("#1d2730"))
+        canvas.setFillColor(colors.HexColor(INK))
         canvas.roundRect(_LEFT, low + 5.0 * MM, 19.0 * MM, 52.0 * MM, 4.0 * MM, stroke=0, fill=1)
         for k, (name, sign) in enumerate((("red", "×"), ("amber", "?"), ("green", "✓"))):
             centre = (_LEFT + 9.5 * MM, low + (48.0 - 17.0 * k) * MM)
@@ -89,7 +89,7 @@ class _Page:
     def _title(self, name: str) -> None:
         text = phrase(name)
         said = f"{text.in_language(self.first)}  {text.in_language(self.second)}"
-        write(self.canvas, (_LEFT, self.y), said, 12.0, colour="#55606b", bold=True)
+        write(self.canvas, (_LEFT, self.y), said, 12.0, colour=FAINT, bold=True)
         self.y -= 8.0 * MM
 
     def _steps(self, advice: CrewAdvice) -> None:
@@ -103,7 +103,7 @@ class _Page:
 
     def _step(self, number: int, step: Step, size: float) -> None:
         canvas, colors = self.canvas, reportlab("lib.colors")
-        canvas.setFillColor(colors.HexColor("#1f3a4d"))
+        canvas.setFillColor(colors.HexColor(HEAD))
         canvas.circle(_LEFT + 5.0 * MM, self.y + 0.32 * size, 0.62 * size, stroke=0, fill=1)
         write(canvas, (_LEFT + 5.0 * MM, self.y), str(number), 0.8 * size, colour="#ffffff", bold=True, anchor="middle")
         x, wide = _LEFT + 13.0 * MM, _WIDTH - 13.0 * MM
@@ -113,7 +113,7 @@ class _Page:
         if step.release:
             said = phrase("crew.after_release")
             both = f"{said.in_language(self.first)}  {said.in_language(self.second)}"
-            self.y = write_lines(canvas, (x, self.y), both, 0.72 * size, wide, colour="#a33000", bold=True)
+            self.y = write_lines(canvas, (x, self.y), both, 0.72 * size, wide, colour=WARN, bold=True)
         self.y = min(self.y, top - 1.6 * size) - 0.5 * size
 
     def _reasons(self, finding: Finding) -> None:
@@ -125,10 +125,10 @@ class _Page:
             self.y = write_lines(self.canvas, (_LEFT, self.y), reason.in_language(self.first), 12.0, _WIDTH, most=2)
             if reason.en != reason.zh:
                 said = reason.in_language(self.second)
-                self.y = write_lines(self.canvas, (_LEFT, self.y), said, 9.0, _WIDTH, colour="#55606b", most=2)
+                self.y = write_lines(self.canvas, (_LEFT, self.y), said, 9.0, _WIDTH, colour=FAINT, most=2)
             self.y -= 3.0
         if finding.more:
-            write(self.canvas, (_LEFT, self.y), f"+ {finding.more}", 10.0, colour="#55606b")
+            write(self.canvas, (_LEFT, self.y), f"+ {finding.more}", 10.0, colour=FAINT)
 
     def _foot(self, report: Report, column: dict[str, Any], advice: CrewAdvice) -> None:
         """The sketch in the lower half, beside it the foot from below and the box for the engineer's signature."""
@@ -157,18 +157,18 @@ class _Page:
             said = f"{word.in_language(self.first)} / {word.in_language(self.second)}: {up}"
             write_lines(canvas, (_LEFT, 15.5 * MM), said, 9.0, 0.7 * _WIDTH, bold=True, most=1)
         job = f"{report['job']['name']} · {report['capture'].get('date', '')}".rstrip(" ·")
-        write_lines(canvas, (_LEFT, 11.0 * MM), f"{job} · report.json", 8.0, 0.7 * _WIDTH, colour="#55606b", most=1)
+        write_lines(canvas, (_LEFT, 11.0 * MM), f"{job} · report.json", 8.0, 0.7 * _WIDTH, colour=FAINT, most=1)
         number = f"{report['job']['sha256'][:12]}"
-        write(canvas, (_RIGHT, 11.0 * MM), number, 8.0, colour="#55606b", anchor="end")
+        write(canvas, (_RIGHT, 11.0 * MM), number, 8.0, colour=FAINT, anchor="end")
 
     def _caption(self, name: str, at: tuple[float, float], width: float) -> None:
         text = phrase(name)
         said = f"{text.in_language(self.first)} · {text.in_language(self.second)}"
-        write_lines(self.canvas, at, said, 9.0, width, colour="#55606b", most=1)
+        write_lines(self.canvas, at, said, 9.0, width, colour=FAINT, most=1)
 
     def _signature(self, at: tuple[float, float], width: float) -> None:
         canvas, colors = self.canvas, reportlab("lib.colors")
-        canvas.setStrokeColor(colors.HexColor("#a33000"))
+        canvas.setStrokeColor(colors.HexColor(WARN))
         canvas.setLineWidth(1.2)
         canvas.rect(at[0], at[1], width, 34.0 * MM, stroke=1, fill=0)
         said = phrase("crew.signature")

@@ -12,10 +12,11 @@ from aadm_workbench.report.sketch import Circle, Label, Point, Polyline, Shape, 
 from aadm_workbench.report.words import Language
 
 SIDE = 220.0
-_MARGIN = 36.0
-_ARROW = 26.0
-_MOVE = 52.0
-_TURN_RADIUS = 30.0
+"""Of the drawing, in its own units; the page gives it its size."""
+_MARGIN = 36.0  # about the foot: labels and arrows of its outermost points
+_ARROW = 26.0  # long enough to show a direction, whatever the distance
+_MOVE = 52.0  # the arrow of the whole column: twice those of bars
+_TURN_RADIUS = 30.0  # of the bow that shows a turn: within the innermost bars
 
 
 def crew_sketch(column: dict[str, Any], advice: CrewAdvice, language: Language) -> Sketch:

@@ -23,9 +23,9 @@ from aadm_workbench.report.words import Phrase
 SMALLEST_MM = 0.05
 """A component below this is left out: it would print as 0.0 mm."""
 
-_PARALLEL_SINE = 0.5
-_AGREEING = 0.95
-_SNAP_DEG = 6.0
+_PARALLEL_SINE = 0.5  # 30 degrees: axes of a grid that are closer point a person the same way
+_AGREEING = 0.95  # of the length of a sum of units: those of one side, within 18 degrees
+_SNAP_DEG = 6.0  # what a person cannot tell from along the axis
 _TAG = re.compile(r"(\d+)|(\D+)")
 
 

@@ -10,7 +10,7 @@ from aadm_workbench.report.read import Report
 from aadm_workbench.report.words import Phrase
 from aadm_workbench.report.words_reasons import in_both_languages
 
-_SHOWN = 2
+_SHOWN = 2  # reasons: a person reads two, the table has all
 
 
 @dataclass(frozen=True)

@@ -36,7 +36,7 @@ def _subset(characters: list[int]) -> bytes:
         ttlib: Any = import_module("fontTools.ttLib")
         subset: Any = import_module("fontTools.subset")
     except ImportError as error:
-        raise MissingDependencyError("fonttools", "report.html", "pip install 'aadm-workbench[reports]'") from error
+        raise MissingDependencyError("fonttools", "report.html") from error
     options = subset.Options(hinting=False, glyph_names=False, recalc_timestamp=False)
     options.flavor = "woff"
     font = ttlib.TTFont(FONT_FILE, recalcTimestamp=False)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
+from aadm_workbench.model import WORST_FIRST
 from aadm_workbench.report.read import Report
 from aadm_workbench.report.words import Phrase, phrase
 from aadm_workbench.report.words_reasons import in_both_languages
@@ -16,7 +17,6 @@ from aadm_workbench.report.words_reasons import in_both_languages
 HoistState: TypeAlias = Literal["no", "not_yet", "yes"]
 
 _OPEN = ("undecided", "not_seen")
-_WORST_FIRST = ("error", "fail", "not_measured", "inconclusive", "pass")
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def in_state(report: Report, state: HoistState) -> list[dict[str, Any]]:
 
 def _rank(verdict: str) -> int:
     # What passes without a trial stands before what may be hoisted only by its goes_on; the verdict alone ranks here.
-    return _WORST_FIRST.index(verdict)
+    return WORST_FIRST.index(verdict)
 
 
 def headline(report: Report) -> Phrase:

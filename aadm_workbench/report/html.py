@@ -16,6 +16,7 @@ from typing import Any
 
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.model import SUMMED, Verdict
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.fonts import embedded_font_css
 from aadm_workbench.report.hoist import headline
@@ -30,7 +31,7 @@ from aadm_workbench.report.tables import narrowed
 from aadm_workbench.report.words import Language, Phrase, all_words, phrase, resource_folder, verdict_words
 from aadm_workbench.report.words_reasons import in_both_languages
 
-_VERDICTS = ("pass", "fail", "inconclusive", "not_measured", "error", "not_assessed")
+_VERDICTS = tuple(verdict.value for verdict in (*SUMMED, Verdict.NOT_ASSESSED))
 
 
 def write_html(report: Report, path: Path, language: Language = "en") -> None:
@@ -76,7 +77,7 @@ def _environment() -> Any:
     try:
         jinja2: Any = import_module("jinja2")
     except ImportError as error:
-        raise MissingDependencyError("jinja2", "report.html", "pip install 'aadm-workbench[reports]'") from error
+        raise MissingDependencyError("jinja2", "report.html") from error
     return jinja2.Environment(
         loader=jinja2.FileSystemLoader(resource_folder()), autoescape=True, undefined=jinja2.StrictUndefined
     )

@@ -23,7 +23,7 @@ from aadm_workbench.report.svg import svg_of
 from aadm_workbench.report.words import phrase
 from aadm_workbench.report.words_reasons import in_both_languages
 
-_VIEW_FACTORS = (50, 40, 30, 20, 10, 5, 2, 1)
+_VIEW_FACTORS = (50, 40, 30, 20, 10, 5, 2, 1)  # magnifications that a person can divide by
 
 
 def view_of(column: dict[str, Any]) -> dict[str, Any]:

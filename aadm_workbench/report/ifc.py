@@ -33,7 +33,7 @@ from aadm_workbench.report.ifc_records import add_records, add_report_link
 from aadm_workbench.report.ifc_removal import Stripped, keep_book, without_results
 from aadm_workbench.report.read import Report
 
-_SHORT_HASH = 12
+_SHORT_HASH = 12  # 48 bits: no two states of a model share them
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ ENUMERATED = "IfcPropertyEnumeratedValue"
 """In place of a measure: a value out of a list that buildingSMART has fixed."""
 
 _IDS = uuid.UUID("5d0d3d6e-3c1c-5a39-8f8e-2a2f4a1d7b60")
-_LABEL_LENGTH = 255
+_LABEL_LENGTH = 255  # of an IfcLabel (ISO 10303-11 leaves it open, IFC does not)
 _UNREADABLE = re.compile("[\x00\ud800-\udfff]")
 _OURS_ALREADY = re.compile(rb"'(3AADM[0-9A-Za-z_$]{17})'")
 _LENGTHS = {"IfcLengthMeasure", "IfcPositiveLengthMeasure"}

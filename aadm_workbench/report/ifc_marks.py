@@ -19,11 +19,12 @@ from aadm_workbench.report.words import COLOUR
 MAGNIFIED = 20.0
 """Arrows are this many times as long as the deviation."""
 
-_DISK_RADIUS_MM, _THICKNESS_MM = 6.0, 2.0
+_DISK_RADIUS_MM, _THICKNESS_MM = 6.0, 2.0  # smaller than any bar, and seen from a room away
 _ARROW_MM = 100.0
 """Length of the arrow as drawn once; each mark scales it."""
+# per cent of its length: a shaft, and a head of 30
 _ARROW = ((0.0, -3.0), (70.0, -3.0), (70.0, -11.0), (100.0, 0.0), (70.0, 11.0), (70.0, 3.0), (0.0, 3.0))
-_SHORTEST_MM = 0.01
+_SHORTEST_MM = 0.01  # an arrow shorter than this has no direction
 _LAYERS = {"sleeves": "AADM as-built sleeves", "rebars": "AADM as-built bars"}
 _BELOW = {"sleeves": -_THICKNESS_MM, "rebars": 0.0}
 """Marks of sleeves hang below the foot face, those of bars lie on their tops: outside of concrete and steel."""

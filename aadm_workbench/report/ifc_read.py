@@ -14,7 +14,7 @@ Sets: TypeAlias = dict[str, dict[str, Scalar]]
 
 _OURS = "AADM_"
 _STANDARD = ("Pset_Tolerance", "Pset_Uncertainty")
-_LENGTH_DECIMALS, _ANGLE_DECIMALS = 6, 8
+_LENGTH_DECIMALS, _ANGLE_DECIMALS = 6, 8  # finer than report.json, so that what was written comes back as it was
 
 
 def read_ifc_results(model: Path) -> dict[str, Sets]:

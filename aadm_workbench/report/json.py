@@ -20,12 +20,13 @@ from aadm_workbench.atomic import write_atomically
 from aadm_workbench.model import ColumnReport, GroupReport, JobReport, Kind, Profile, ShipmentReport
 
 SCHEMA = 1
-_LENGTH_DECIMALS = 4
-_ANGLE_DECIMALS = 6
-_RATIO_DECIMALS = 6
-_DIRECTION_DECIMALS = 9
-_SHIFT_DECIMALS = 6
-_OTHER_DIGITS = 9
+"""Of report.json: keys are added under the same number, and never change their meaning."""
+_LENGTH_DECIMALS = 4  # 0.1 µm
+_ANGLE_DECIMALS = 6  # of degrees: 0.01 µm over 600 mm
+_RATIO_DECIMALS = 6  # a millionth
+_DIRECTION_DECIMALS = 9  # of units: 0.01 µm over 10 m
+_SHIFT_DECIMALS = 6  # a nanometre: transforms are multiplied
+_OTHER_DIGITS = 9  # significant ones, of what has no kind
 _RATIOS = {
     "probability",
     "margin",

@@ -20,12 +20,12 @@ from aadm_workbench.report.sheets import MOULD, mould_rows, profile_table
 from aadm_workbench.report.sketch_mould import mould_sketch
 from aadm_workbench.report.sketch_plan import floor_plans
 from aadm_workbench.report.tables import narrowed
-from aadm_workbench.report.words import COLOUR, Language, Phrase, phrase, verdict_words
+from aadm_workbench.report.words import COLOUR, FAINT, Language, Phrase, phrase, verdict_words
 from aadm_workbench.report.words_reasons import in_both_languages
 
-_MARGIN = 14.0 * MM
+_MARGIN = 14.0 * MM  # printers reach as far
 WIDTH = A4[0] - 2.0 * _MARGIN
-_FAINT = "#55606b"
+"""Between the margins."""
 
 
 def write_pdf(report: Report, path: Path, language: Language = "en") -> None:
@@ -58,8 +58,8 @@ def write_pdf(report: Report, path: Path, language: Language = "en") -> None:
     )
 
     def foot(canvas: Any, page: Any) -> None:
-        write(canvas, (_MARGIN, 9.0 * MM), title[:90], 7.5, colour=_FAINT)
-        write(canvas, (A4[0] - _MARGIN, 9.0 * MM), str(page.page), 7.5, colour=_FAINT, anchor="end")
+        write(canvas, (_MARGIN, 9.0 * MM), title[:90], 7.5, colour=FAINT)
+        write(canvas, (A4[0] - _MARGIN, 9.0 * MM), str(page.page), 7.5, colour=FAINT, anchor="end")
 
     document.addPageTemplates([templates.PageTemplate(frames=[frame], onPage=foot)])
     document.build(list(_story(report, title, language)))
@@ -72,7 +72,7 @@ def _story(report: Report, title: str, language: Language) -> Iterator[Any]:
     yield paragraph(title, 17.0, bold=True, outline=0, bookmark="top")
     said = " · ".join(f"{key}: {value}" for key, value in report["capture"].items() if value)
     yield paragraph(
-        " · ".join(part for part in (said, report["profile"]["title"]) if part), 8.0, colour=_FAINT, after=8.0
+        " · ".join(part for part in (said, report["profile"]["title"]) if part), 8.0, colour=FAINT, after=8.0
     )
     yield from _summary(report, found, language)
     yield from _plans(report, found, language)
@@ -80,7 +80,7 @@ def _story(report: Report, title: str, language: Language) -> Iterator[Any]:
         yield templates.PageBreak()
         yield from column_flowables(report, finding, WIDTH, language)
         for note in column_notes(finding.column):
-            yield paragraph(f"· {in_both_languages(note).in_language(language)}", 7.5, colour=_FAINT, after=1.0)
+            yield paragraph(f"· {in_both_languages(note).in_language(language)}", 7.5, colour=FAINT, after=1.0)
     yield templates.PageBreak()
     yield from _moulds(report, language)
     yield from _profile(report, language)
@@ -136,7 +136,7 @@ def _moulds(report: Report, language: Language) -> Iterator[Any]:
         yield paragraph(name, 13.0, bold=True, outline=0, bookmark=f"mould-{number}")
         yield paragraph(in_both_languages(mould["conclusion"]).in_language(language), 9.0, bold=True)
         limit = "–" if mould["axis_limit_mm"] is None else f"{mould['axis_limit_mm']:.2f}"
-        yield paragraph(phrase("ui.mould_note", limit=limit).in_language(language), 8.0, colour=_FAINT)
+        yield paragraph(phrase("ui.mould_note", limit=limit).in_language(language), 8.0, colour=FAINT)
         yield drawing(mould_sketch(mould), 0.7 * WIDTH)
         yield table_flowable(*narrowed(MOULD, list(mould_rows(mould, language))), WIDTH, language)
         yield paragraph("", 6.0)
@@ -145,7 +145,7 @@ def _moulds(report: Report, language: Language) -> Iterator[Any]:
 def _profile(report: Report, language: Language) -> Iterator[Any]:
     name = f"{phrase('ui.profile').in_language(language)}: {report['profile']['name']}"
     yield paragraph(name, 13.0, bold=True, outline=0, bookmark="profile")
-    yield paragraph(phrase("ui.unverified_note").in_language(language), 8.0, colour=_FAINT)
+    yield paragraph(phrase("ui.unverified_note").in_language(language), 8.0, colour=FAINT)
     table = profile_table(report)
     yield table_flowable(table.headings, table.rows, WIDTH, language)
     yield paragraph("", 6.0)
@@ -161,4 +161,4 @@ def _inputs(report: Report, language: Language) -> Iterator[Any]:
     lines.append((phrase("ui.made_by"), ", ".join(f"{key} {value}" for key, value in report["tool"].items())))
     for word, value in lines:
         yield paragraph(f"{word.in_language(language)}: {value}", 8.0, after=2.0)
-    yield paragraph(phrase("ui.frames_note").in_language(language), 8.0, colour=_FAINT)
+    yield paragraph(phrase("ui.frames_note").in_language(language), 8.0, colour=FAINT)

@@ -18,12 +18,15 @@ from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.report.fonts import FONT_FILE
 from aadm_workbench.report.sketch import STYLES, Anchor, Circle, Label, Link, Polyline, Shape, Sketch, arrowhead
+from aadm_workbench.report.words import INK
 
 FONT = "AADM"
 MM = 72.0 / 25.4
+"""Points of a millimetre."""
 A4 = (210.0 * MM, 297.0 * MM)
+"""Width and height, points (ISO 216)."""
 
-_BOLD_STROKE = 0.028
+_BOLD_STROKE = 0.028  # of the size: letters are drawn with an outline of that width, since the font has no bold cut
 _CHINESE = r"[\u2e80-\u9fff\uf900-\ufaff\uff00-\uffef\u3000-\u303f]"
 _NEVER_FIRST = "。,、;:!?)》」』】〕%"
 _TOKEN = re.compile(rf"{_CHINESE}|[^\s\u2e80-\u9fff\uf900-\ufaff\uff00-\uffef\u3000-\u303f]+|\s+")
@@ -42,7 +45,7 @@ def reportlab(module: str, needed_for: str = "a PDF report") -> Any:
     try:
         return import_module(f"reportlab.{module}")
     except ImportError as error:
-        raise MissingDependencyError("reportlab", needed_for, "pip install 'aadm-workbench[reports]'") from error
+        raise MissingDependencyError("reportlab", needed_for) from error
 
 
 @cache
@@ -135,7 +138,7 @@ def write(
     text: str,
     size: float,
     *,
-    colour: str = "#1d2730",
+    colour: str = INK,
     bold: bool = False,
     anchor: Anchor = "start",
 ) -> None:
@@ -162,7 +165,7 @@ def write_lines(
     size: float,
     width: float,
     *,
-    colour: str = "#1d2730",
+    colour: str = INK,
     bold: bool = False,
     most: int | None = None,
 ) -> float:

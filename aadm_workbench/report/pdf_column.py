@@ -11,10 +11,8 @@ from aadm_workbench.report.findings import Finding
 from aadm_workbench.report.pdf_parts import band, beside, drawing, paragraph
 from aadm_workbench.report.pdf_tables import table_flowable
 from aadm_workbench.report.read import Report
-from aadm_workbench.report.words import COLOUR, Language, phrase, verdict_words
+from aadm_workbench.report.words import COLOUR, FAINT, INK, Language, phrase, verdict_words
 from aadm_workbench.report.words_reasons import in_both_languages
-
-_FAINT = "#55606b"
 
 
 def column_flowables(report: Report, finding: Finding, width: float, language: Language) -> Iterator[Any]:
@@ -27,7 +25,7 @@ def column_flowables(report: Report, finding: Finding, width: float, language: L
     yield band(f"{column['id']}   {verdict} – {cause}", column["verdict"], width)
     facts = [f"{phrase(name).in_language(language)} {value}" for name, value in column_facts(column)]
     goes_on = f"{phrase('ui.goes_on').in_language(language)}: {verdict_words(column['goes_on'], language)}"
-    yield paragraph(" · ".join([*facts, goes_on, state]), 8.5, colour=_FAINT, after=5.0)
+    yield paragraph(" · ".join([*facts, goes_on, state]), 8.5, colour=FAINT, after=5.0)
     for reason in finding.hoist.reasons:
         yield paragraph(f"· {reason.in_language(language)}", 9.0, after=1.0)
     yield from _repair(column, language)
@@ -36,11 +34,11 @@ def column_flowables(report: Report, finding: Finding, width: float, language: L
     for block in column_blocks(report, column):
         said = block.title.in_language(language)
         verdict = f"   {verdict_words(block.verdict, language)}" if block.verdict else ""
-        colour = COLOUR[block.verdict] if block.verdict else "#1d2730"
+        colour = COLOUR[block.verdict] if block.verdict else INK
         yield paragraph("", 3.0, after=2.0)
         yield paragraph(f"{said}{verdict}", 10.0, bold=True, colour=colour, keep=True)
         if block.line is not None:
-            yield paragraph(block.line.in_language(language), 8.0, colour=_FAINT, keep=True)
+            yield paragraph(block.line.in_language(language), 8.0, colour=FAINT, keep=True)
         yield table_flowable(block.headings, block.rows, width, language)
     yield paragraph("", 3.0, after=3.0)
 
@@ -65,7 +63,7 @@ def _sketches(column: dict[str, Any], width: float, language: Language) -> Itera
             [
                 drawing(titled.foot.sketch, third - 8.0),
                 paragraph(phrase(titled.title).in_language(language), 8.0, bold=True, after=0.0),
-                paragraph(titled.caption.in_language(language), 7.0, colour=_FAINT),
+                paragraph(titled.caption.in_language(language), 7.0, colour=FAINT),
             ]
             for titled in found
         ]

@@ -6,7 +6,7 @@ from typing import Any
 
 from aadm_workbench.report.pdf_canvas import draw_sketch, lines_of, reportlab, shortened, write
 from aadm_workbench.report.sketch import Sketch
-from aadm_workbench.report.words import COLOUR
+from aadm_workbench.report.words import COLOUR, INK
 
 _LONGEST_PARAGRAPH, _LONGEST_KEPT, _LONGEST_BAND = (4000, 100), (600, 10), (250, 3)
 """Characters and lines: what fills a page or two, what may be held together with what follows, what a band holds."""
@@ -20,7 +20,7 @@ def paragraph(
     text: str,
     size: float = 9.0,
     *,
-    colour: str = "#1d2730",
+    colour: str = INK,
     bold: bool = False,
     indent: float = 0.0,
     after: float = 3.0,

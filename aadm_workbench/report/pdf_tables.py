@@ -9,16 +9,17 @@ from typing import Any
 from aadm_workbench.report.numbers import is_number, number_text
 from aadm_workbench.report.pdf_canvas import lines_of, prepare_font, printable, reportlab, shortened, width_of
 from aadm_workbench.report.tables import Cell, Heading, Row
-from aadm_workbench.report.words import COLOUR, Language, phrase, verdict_words
+from aadm_workbench.report.words import COLOUR, HEAD, Language, phrase, verdict_words
 from aadm_workbench.report.words_reasons import in_both_languages
 
 SIZE = 7.0
-_PADDING = 2.6
-_NARROWEST = 30.0
+"""Of the letters, points: the smallest that is read on paper."""
+_PADDING = 2.6  # points: between text and line
+_NARROWEST = 30.0  # points: a column of a word of five letters
 _LONGEST_CELL = (500, 20)
 """Characters and lines: in the narrowest column they fill less than a page."""
 
-_HEAD_FILL, _STRIPE, _LINE, _FAIL_FILL = "#1f3a4d", "#f6f8f9", "#d5dbe0", "#fbe3d7"
+_STRIPE, _LINE, _FAIL_FILL = "#f6f8f9", "#d5dbe0", "#fbe3d7"
 
 
 def table_flowable(headings: Sequence[Heading], rows: Sequence[Row], width: float, language: Language) -> Any:
@@ -83,7 +84,7 @@ def _look(headings: Sequence[Heading]) -> list[tuple[Any, ...]]:
     font = prepare_font()
     look: list[tuple[Any, ...]] = [
         ("FONT", (0, 0), (-1, -1), font, SIZE, SIZE * 1.25),
-        ("BACKGROUND", (0, 0), (-1, 0), colour(_HEAD_FILL)),
+        ("BACKGROUND", (0, 0), (-1, 0), colour(HEAD)),
         ("TEXTCOLOR", (0, 0), (-1, 0), colour("#ffffff")),
         ("VALIGN", (0, 0), (-1, 0), "BOTTOM"),
         ("VALIGN", (0, 1), (-1, -1), "TOP"),

@@ -22,7 +22,7 @@ LARGEST_REPORT_BYTES = 2**28
 MOST_VALUES = 2**25
 """Texts of this length that are nothing but brackets and commas would take many gigabytes in memory."""
 
-_SHOWN_CHARACTERS = 80
+_SHOWN_CHARACTERS = 80  # of what a file holds: a line
 _HALF_CHARACTER = re.compile(r"\\u[dD][89a-fA-F]")
 
 
@@ -108,7 +108,7 @@ def _first_slip(document: Any) -> str | None:
         jsonschema = import_module("jsonschema")
     except ImportError as error:
         message = "reading report.json"
-        raise MissingDependencyError("jsonschema", message, "pip install 'aadm-workbench[reports]'") from error
+        raise MissingDependencyError("jsonschema", message) from error
     validator = jsonschema.Draft202012Validator(report_schema())
     found = max(_slips(validator.iter_errors(document)), key=lambda slip: len(slip.absolute_path), default=None)
     if found is None:

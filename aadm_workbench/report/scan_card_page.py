@@ -17,13 +17,13 @@ from aadm_workbench.report.scan_card import (
     up_name,
 )
 from aadm_workbench.report.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow, rectangle
-from aadm_workbench.report.words import Language, Phrase, phrase
+from aadm_workbench.report.words import FAINT, MOVE, Language, Phrase, phrase
 
-_LEFT, _RIGHT = 15.0 * MM, 195.0 * MM
+_LEFT, _RIGHT = 15.0 * MM, 195.0 * MM  # margins of 15 mm on A4: printers reach as far
 _WIDTH = _RIGHT - _LEFT
-_SIDE = 200.0
-_MARGIN = 22.0
-_PART_HEIGHT = 111.0 * MM
+_SIDE = 200.0  # of the drawing, in its own units
+_MARGIN = 22.0  # about the pattern: its labels
+_PART_HEIGHT = 111.0 * MM  # half of what head and foot leave of A4
 
 
 def write_scan_cards(cards: Sequence[ScanCard], path: Path, language: Language = "zh", *, title: str = "") -> None:
@@ -96,9 +96,9 @@ class _Page:
         size = next((s for s in (34.0, 26.0, 18.0) if len(lines_of(card.id, s, 0.62 * _WIDTH)) == 1), 13.0)
         write_lines(canvas, (_LEFT, top), card.id, size, 0.62 * _WIDTH, bold=True, most=1)
         said = phrase("card.title")
-        write(canvas, (_RIGHT, top), said.in_language(self.first), 22.0, colour="#0b5394", bold=True, anchor="end")
-        write(canvas, (_RIGHT, top - 7.0 * MM), said.in_language(self.second), 12.0, colour="#0b5394", anchor="end")
-        write_lines(canvas, (_LEFT, top - 8.0 * MM), card.place, 12.0, 0.62 * _WIDTH, colour="#55606b", most=1)
+        write(canvas, (_RIGHT, top), said.in_language(self.first), 22.0, colour=MOVE, bold=True, anchor="end")
+        write(canvas, (_RIGHT, top - 7.0 * MM), said.in_language(self.second), 12.0, colour=MOVE, anchor="end")
+        write_lines(canvas, (_LEFT, top - 8.0 * MM), card.place, 12.0, 0.62 * _WIDTH, colour=FAINT, most=1)
         canvas.setLineWidth(1.0)
         canvas.line(_LEFT, top - 12.0 * MM, _RIGHT, top - 12.0 * MM)
         y = top - 18.0 * MM
@@ -110,7 +110,7 @@ class _Page:
         third = _WIDTH / 3.0 - 3.0 * MM
         for k, name in enumerate(("card.straight", "card.clean", "card.smoothing")):
             self._line((_LEFT + k * _WIDTH / 3.0, 25.0 * MM), phrase(name), 9.0, third)
-        write_lines(canvas, (_LEFT, 9.0 * MM), title, 8.0, _WIDTH, colour="#55606b", most=1)
+        write_lines(canvas, (_LEFT, 9.0 * MM), title, 8.0, _WIDTH, colour=FAINT, most=1)
 
     def _part(self, card: ScanCard, part: CardPart, top: float) -> None:
         """One picture to take, and beside it what to heed."""
@@ -149,8 +149,7 @@ class _Page:
         smaller = max(7.5, 0.72 * size)
         y += 0.25 * (size - smaller)
         return (
-            write_lines(self.canvas, (at[0], y), text.in_language(self.second), smaller, width, colour="#55606b")
-            - 1.2 * MM
+            write_lines(self.canvas, (at[0], y), text.in_language(self.second), smaller, width, colour=FAINT) - 1.2 * MM
         )
 
     def _tick(self, at: Point, text: Phrase, width: float) -> None:

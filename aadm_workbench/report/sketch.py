@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from aadm_workbench.report.words import COLOUR, FAINT, INK, MOVE
+
 Point: TypeAlias = tuple[float, float]
 Anchor: TypeAlias = Literal["start", "middle", "end"]
 
@@ -30,28 +32,28 @@ STYLES: dict[str, Style] = {
     "limit": Style("#8b97a3", None, 0.5, (1.6, 1.4)),
     "axis": Style("#b3bcc4", None, 0.6, (4.0, 2.0)),
     "guide": Style("#8b97a3", None, 0.5),
-    "ink": Style("#1d2730", "#1d2730", 0.9),
-    "pass": Style("#00795a", "#00795a", 1.2),
-    "fail": Style("#c03a00", "#c03a00", 1.6),
+    "ink": Style(INK, INK, 0.9),
+    "pass": Style(COLOUR["pass"], COLOUR["pass"], 1.2),
+    "fail": Style(COLOUR["fail"], COLOUR["fail"], 1.6),
     "inconclusive": Style("#b87a00", "#b87a00", 1.4),
-    "not_measured": Style("#5b6470", "#ffffff", 1.2, (2.0, 1.5)),
-    "error": Style("#a0307c", "#a0307c", 1.2),
-    "not_assessed": Style("#5b6470", "#5b6470", 1.0),
+    "not_measured": Style(COLOUR["not_measured"], "#ffffff", 1.2, (2.0, 1.5)),
+    "error": Style(COLOUR["error"], COLOUR["error"], 1.2),
+    "not_assessed": Style(COLOUR["not_assessed"], COLOUR["not_assessed"], 1.0),
     "fill-pass": Style("#00543d", "#8fd6b8", 1.2),
     "fill-fail": Style("#8a2900", "#f28e5c", 2.2),
     "fill-inconclusive": Style("#6b4800", "#f7d070", 1.6),
     "fill-not_measured": Style("#3d444d", "#e3e6ea", 1.6, (3.0, 2.0)),
     "fill-error": Style("#7a1f5c", "#e0a3cb", 1.6),
-    "fill-not_assessed": Style("#5b6470", "#ffffff", 1.2),
-    "ring-fail": Style("#c03a00", None, 2.2),
-    "ring-mark": Style("#1d2730", "#ffd84d", 1.2),
-    "move": Style("#0b5394", "#0b5394", 3.0),
-    "window": Style("#00795a", "#bfe6d6", 0.8),
-    "text": Style(None, "#1d2730"),
+    "fill-not_assessed": Style(COLOUR["not_assessed"], "#ffffff", 1.2),
+    "ring-fail": Style(COLOUR["fail"], None, 2.2),
+    "ring-mark": Style(INK, "#ffd84d", 1.2),
+    "move": Style(MOVE, MOVE, 3.0),
+    "window": Style(COLOUR["pass"], "#bfe6d6", 0.8),
+    "text": Style(None, INK),
     "text-fail": Style(None, "#8a2900"),
-    "text-faint": Style(None, "#55606b"),
+    "text-faint": Style(None, FAINT),
     "text-light": Style(None, "#ffffff"),
-    "text-move": Style(None, "#0b5394"),
+    "text-move": Style(None, MOVE),
 }
 
 

@@ -11,11 +11,11 @@ from aadm_workbench.report.sketch import Circle, Label, Point, Polyline, Shape, 
 SIDE = 200.0
 """Width and height of the sketch, its own units."""
 
-_MARGIN = 24.0
-_LIMIT_RADIUS = 15.0
-_LIMIT_OF_PITCH = 0.42
-_LONGEST_ARROW = 38.0
-_FACTORS = (200, 100, 50, 40, 25, 20, 15, 10, 8, 5, 4, 3, 2, 1)
+_MARGIN = 24.0  # about the foot: labels of its outermost points
+_LIMIT_RADIUS = 15.0  # of the ring that stands for the limit: seen, and clear of its neighbours
+_LIMIT_OF_PITCH = 0.42  # of the distance of neighbours: rings do not touch
+_LONGEST_ARROW = 38.0  # two and a half rings: what is far beyond its limit still ends on the sketch
+_FACTORS = (200, 100, 50, 40, 25, 20, 15, 10, 8, 5, 4, 3, 2, 1)  # magnifications that a person can divide by
 
 
 @dataclass(frozen=True)

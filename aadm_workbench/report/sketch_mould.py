@@ -6,9 +6,10 @@ from typing import Any
 
 from aadm_workbench.report.sketch import Label, Polyline, Shape, Sketch, rectangle
 
+# the usual bounds of process capability (ISO 22514-2): not capable, capable; where bars end
 _LOW_CPK, _GOOD_CPK, _END_CPK = 1.0, 1.33, 3.0
-_ROW = 15.0
-_LEFT, _RIGHT = 40.0, 380.0
+_ROW = 15.0  # a line of letters
+_LEFT, _RIGHT = 40.0, 380.0  # room for a label on the left, and for a number on the right
 
 
 def mould_sketch(mould: dict[str, Any]) -> Sketch:

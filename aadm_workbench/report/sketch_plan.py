@@ -11,9 +11,10 @@ from aadm_workbench.report.sketch import Label, Link, Point, Polyline, Shape, Sk
 from aadm_workbench.report.words import SIGN
 
 WIDTH = 1000.0
-_MARGIN = 70.0
-_SMALLEST, _LARGEST = 12.0, 44.0
-_HIGHEST = 620.0
+"""Of the drawing, in its own units; the page gives it its size."""
+_MARGIN = 70.0  # about the columns: tags of the axes
+_SMALLEST, _LARGEST = 12.0, 44.0  # of a column's square: still clicked, and not larger than its name needs
+_HIGHEST = 620.0  # of the drawing: a long floor leaves room on the page
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,7 @@ def _placed(columns: Sequence[dict[str, Any]], anchors: dict[str, str]) -> Sketc
     inset = (WIDTH - span[0] * scale) / 2.0
     at = [(inset + (x - low[0]) * scale, _MARGIN + (y - low[1]) * scale) for x, y in places]
     half = min(_LARGEST, max(_SMALLEST, 0.3 * _nearest(at))) / 2.0
-    shapes: list[Shape] = [*_grid_lines(columns, at, (WIDTH, height))]
+    shapes: list[Shape] = [*_grid_lines(columns, at)]
     for column, place in zip(columns, at, strict=True):
         shapes.append(_column(column, place, half, anchors))
     return Sketch(WIDTH, height, tuple(shapes))
@@ -106,7 +107,7 @@ def _column(column: dict[str, Any], at: Point, half: float, anchors: dict[str, s
     return Link(anchors[column["id"]], column["id"], shapes)
 
 
-def _grid_lines(columns: Sequence[dict[str, Any]], at: Sequence[Point], frame: Point) -> Iterator[Shape]:
+def _grid_lines(columns: Sequence[dict[str, Any]], at: Sequence[Point]) -> Iterator[Shape]:
     """A line through the columns of each axis that at least two of them stand on."""
     members: dict[str, list[Point]] = defaultdict(list)
     for column, place in zip(columns, at, strict=True):

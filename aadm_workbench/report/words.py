@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Literal, NamedTuple, TypeAlias
 
 Language: TypeAlias = Literal["en", "zh"]
-LANGUAGES: tuple[Language, ...] = ("en", "zh")
 
 SIGN = {"pass": "✓", "fail": "✗", "inconclusive": "?", "not_measured": "–", "error": "!", "not_assessed": "○"}
 """A sign beside each verdict, so that nothing depends on colour."""
@@ -22,6 +21,9 @@ COLOUR = {
     "not_assessed": "#5b6470",
 }
 """Text colours after the palette of Okabe and Ito, darkened to 4.5 : 1 on white: told apart by the colour-blind too."""
+
+INK, FAINT, HEAD, MOVE, WARN = "#1d2730", "#55606b", "#1f3a4d", "#0b5394", "#a33000"
+"""Text, what is said beside it, heads of tables, what is to be moved, what to look at: on every kind of page."""
 
 
 class Phrase(NamedTuple):

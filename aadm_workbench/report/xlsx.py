@@ -16,7 +16,7 @@ from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.report.read import Report
 from aadm_workbench.report.sheets import job_tables
 from aadm_workbench.report.tables import Cell, CellKind, Table
-from aadm_workbench.report.words import SIGN, Language, phrase, verdict_words
+from aadm_workbench.report.words import HEAD, SIGN, Language, phrase, verdict_words
 
 _FORMATS: dict[CellKind, str] = {
     "mm": "0.00",
@@ -36,9 +36,9 @@ _FILLS = {
 }
 # A fixed date, so that the same report gives the same bytes.
 _CREATED = datetime(2020, 1, 1)  # noqa: DTZ001 - the format holds no zone
-_WIDEST, _NARROWEST = 60, 9
+_WIDEST, _NARROWEST = 60, 9  # characters: a sentence that is broken, a number with its unit
 _FORBIDDEN_IN_SHEET_NAMES = str.maketrans(dict.fromkeys("[]:*?/\\", " "))
-_LONGEST_CELL = 32_767
+_LONGEST_CELL = 32_767  # characters of a cell, Excel's own bound
 
 
 def write_xlsx(report: Report, path: Path, language: Language = "en") -> None:
@@ -54,7 +54,7 @@ def write_xlsx(report: Report, path: Path, language: Language = "en") -> None:
     try:
         xlsxwriter: Any = import_module("xlsxwriter")
     except ImportError as error:
-        raise MissingDependencyError("xlsxwriter", "report.xlsx", "pip install 'aadm-workbench[reports]'") from error
+        raise MissingDependencyError("xlsxwriter", "report.xlsx") from error
     content = io.BytesIO()
     options = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "nan_inf_to_errors": False}
     book = xlsxwriter.Workbook(content, options)
@@ -78,7 +78,7 @@ class _Sheets:
         self.text = book.add_format({"valign": "top", "text_wrap": True})
         self.label = book.add_format({"valign": "top", "bold": True})
         self.head = book.add_format(
-            {"bold": True, "bg_color": "#1f3a4d", "font_color": "#ffffff", "text_wrap": True, "valign": "vcenter"}
+            {"bold": True, "bg_color": HEAD, "font_color": "#ffffff", "text_wrap": True, "valign": "vcenter"}
         )
         self.fills = {
             name: book.add_format({"bg_color": fill, "font_color": colour}) for name, (fill, colour) in _FILLS.items()

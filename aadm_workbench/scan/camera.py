@@ -17,6 +17,7 @@ LARGEST_PIXEL_OFFSET = 2.0
 """Conventions differ by half a pixel; the intrinsics of another camera of the same model by ten and more."""
 
 LARGEST_INTRINSICS_BYTES = 2**20
+"""Intrinsics take a few hundred bytes; those of a whole rig with its images' names a few thousand."""
 
 _DEPTH_SCALE = re.compile(
     r"^(?!\s*(?:#|//|%|;))[^\n]{0,4000}?\bdepth_scale_mm\b[\"']?\s*[:=]\s*"
@@ -28,7 +29,8 @@ LARGEST_DEPTH_MM = 1e9
 """A thousand kilometres: what is further off is a fault of the file."""
 
 LEAST_FRACTION_IN_VIEW = 0.95
-_SAMPLE_SIZE = 20_000
+"""Of a cloud: flying points and rounding at the rim leave the view of its own camera, nothing else does."""
+_SAMPLE_SIZE = 20_000  # points: a fraction is then known to a fifth of a percent
 
 
 def depth_to_points(depth_mm: FloatArray, camera: Camera) -> FloatArray:

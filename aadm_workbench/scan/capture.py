@@ -17,15 +17,14 @@ from aadm_workbench.scan.camera import (
     read_depth_scale_mm,
 )
 from aadm_workbench.scan.depth_picture import ColourPictureError, depth_picture
-from aadm_workbench.scan.file import Declared, load
+from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, Declared, load
 from aadm_workbench.scan.intrinsics import BentLensError
 from aadm_workbench.scan.picture_size import picture_size
 
 MOST_FILES = 1000
+"""The folder of a capture holds a dozen files; a folder of a whole day is no capture."""
 
-_PICTURES = (".png", ".tif", ".tiff", ".jpg", ".jpeg", ".bmp")
-_DEPTH_MAPS = (".tif", ".tiff", ".png", ".npz")
-_CLOUDS = (".ply", ".pcd", ".ptx", ".pts", ".xyz", ".e57", ".las", ".laz")
+_PICTURES = (*DEPTH_MAPS, ".jpg", ".jpeg", ".bmp")
 _INTRINSICS = (".toml", ".json", ".yaml", ".yml", ".xml", ".txt", ".ini", ".csv")
 _DEPTH_WORDS = ("depth", "range", "tiefe", "深度")
 _PICTURE_WORDS = ("texture", "color", "colour", "rgb", "gray", "grey", "image", "2d", "left", "mono")
@@ -71,7 +70,7 @@ def find_capture(folder: Path, name: str, declared: Declared) -> Capture:
     """
     files = _files(folder, name)
     scan = _scan(files, name)
-    clouds = _of(files, _CLOUDS)
+    clouds = _of(files, CLOUDS)
     try:
         intrinsics, camera, notes = _camera(files, scan, declared)
     except BentLensError as error:
@@ -112,10 +111,10 @@ def _with(files: Sequence[Path], words: Sequence[str]) -> list[Path]:
 
 def _scan(files: Sequence[Path], name: str) -> Path:
     """Return the depth map, else the cloud."""
-    maps = [path for path in _of(files, _DEPTH_MAPS) if path not in _with(files, _NO_MEASUREMENT_WORDS)]
+    maps = [path for path in _of(files, (*DEPTH_MAPS, ".npz")) if path not in _with(files, _NO_MEASUREMENT_WORDS)]
     named = _with(maps, _DEPTH_WORDS)
     unnamed = [path for path in maps if path.suffix.lower() != ".png" and path not in _with(maps, _PICTURE_WORDS)]
-    clouds = _of(files, _CLOUDS)
+    clouds = _of(files, CLOUDS)
     plain_clouds = [path for path in clouds if path not in _with(clouds, (*_PICTURE_WORDS, *_NO_MEASUREMENT_WORDS))]
     coloured = [path for path in (*named, *unnamed) if _is_in_colour(path)]
     for candidates in (named, unnamed, plain_clouds, clouds, coloured):

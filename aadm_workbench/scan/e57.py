@@ -16,7 +16,7 @@ from aadm_workbench.scan.e57_outline import check_outline
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
 from aadm_workbench.scan.joined import joined
 
-_MM_PER_METRE = 1000.0
+_MM_PER_METRE = 1000.0  # the format has metres alone (ASTM E2807)
 _CARTESIAN = ("cartesianX", "cartesianY", "cartesianZ")
 _SPHERICAL = ("sphericalRange", "sphericalAzimuth", "sphericalElevation")
 _INVALID = {_CARTESIAN: "cartesianInvalidState", _SPHERICAL: "sphericalInvalidState"}
@@ -29,7 +29,7 @@ def _libe57() -> ModuleType:
     try:
         return import_module("pye57.libe57")
     except ImportError as error:
-        raise MissingDependencyError("pye57", "an E57 file", "pip install pye57") from error
+        raise MissingDependencyError("pye57", "an E57 file") from error
 
 
 def read_e57(file: ScanFile, declared: Declared) -> Cloud:

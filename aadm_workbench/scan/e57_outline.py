@@ -14,14 +14,16 @@ from xml.parsers import expat
 from aadm_workbench.scan.file import LARGEST_POINT_COUNT, ScanFile
 
 LONGEST_XML_BYTES = 2**24
+"""The outline of a thousand scans with their poses takes a megabyte."""
 MOST_SCANS = 1000
+"""A survey has some hundred stations; more are a file that means harm."""
 
 _SIGNATURE = b"ASTM-E57"
-_PAGE_BYTES, _CHECKSUM_BYTES = 1024, 4
-_DEEPEST_XML = 50
+_PAGE_BYTES, _CHECKSUM_BYTES = 1024, 4  # of the format: each page ends with a checksum (ASTM E2807)
+_DEEPEST_XML = 50  # the format's own nests a few deep
 _BITS_OF_FLOAT = {"single": 32}
-_BITS_OF_DOUBLE = 64
-_LARGEST_INTEGER = 2**63
+_BITS_OF_DOUBLE = 64  # of a float whose precision is not given (ASTM E2807)
+_LARGEST_INTEGER = 2**63  # bounds of an integer whose own are not given (ASTM E2807)
 
 
 @dataclass

@@ -14,6 +14,15 @@ import numpy.typing as npt
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array, Camera, FloatArray
 
+DEPTH_MAPS = (".tif", ".tiff", ".png")
+"""Pictures of depths: they are read with a camera alone."""
+
+CLOUDS = (".ply", ".pcd", ".xyz", ".pts", ".ptx", ".las", ".laz", ".e57")
+"""Files that hold points, whatever else lies beside them."""
+
+TABLES = (".txt", ".csv", ".asc", ".npz")
+"""What can hold points, and anything else: in the folder of a capture mostly that."""
+
 LARGEST_FILE_BYTES = 2**30
 """A frame of a structured-light camera takes 10 to 100 MB; beyond this it is something else."""
 

@@ -22,7 +22,7 @@ _SHORTEST_FOCAL_LENGTH = 10.0
 _UNLIKE_FOCAL_LENGTHS = 1.2
 """Pixels are square: where the first two of four numbers differ by more, they are no two focal lengths."""
 
-_LARGEST_PIXEL_COUNT = 2**26
+_LARGEST_PIXEL_COUNT = 2**26  # as in picture.py
 _DEFAULT_SCALE_ERROR = Camera.scale_error
 _KEYS = frozenset({"fx", "fy", "cx", "cy", "width", "height"})
 _OTHER_NAMES = {

@@ -13,9 +13,9 @@ from aadm_workbench.scan.las_unit import unit_of
 from aadm_workbench.scan.laz import unpacked_records
 from aadm_workbench.scan.records import check_room
 
-_POINTS_AT_A_TIME = 2**18
-_FLAGS_AT = 15
-_FIRST_FORMAT_WITH_MORE_FLAGS = 6
+_POINTS_AT_A_TIME = 2**18  # some 8 MB of records: bounds the memory, not the time
+_FLAGS_AT = 15  # byte of a record (ASPRS LAS 1.4, tables 7 to 16)
+_FIRST_FORMAT_WITH_MORE_FLAGS = 6  # from point format 6 on the flags have a byte of their own
 
 
 def read_las(file: ScanFile, declared: Declared) -> Cloud:

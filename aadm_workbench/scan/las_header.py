@@ -19,10 +19,11 @@ Records: TypeAlias = "npt.NDArray[np.uint8]"
 """Points as they stand in a file, (n, bytes of one)."""
 
 MOST_VARIABLE_RECORDS = 1000
+"""Files have a handful: a coordinate system, what the program adds."""
 
 _SIGNATURE = b"LASF"
-_SHORTEST_HEADER_BYTES = 227
-_SHORTEST_HEADER_OF_14_BYTES = 375
+_SHORTEST_HEADER_BYTES = 227  # of versions 1.0 to 1.2 (ASPRS LAS)
+_SHORTEST_HEADER_OF_14_BYTES = 375  # of version 1.4 (ASPRS LAS)
 _COMPRESSED = 0xC0
 """LASzip sets one of the two highest bits of the point format."""
 

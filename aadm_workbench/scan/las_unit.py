@@ -12,7 +12,7 @@ from aadm_workbench.errors import ScanError
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.las_header import VariableRecord
 
-_WELL_KNOWN_TEXT, _GEOTIFF_KEYS = 2112, 34735
+_WELL_KNOWN_TEXT, _GEOTIFF_KEYS = 2112, 34735  # numbers of the records that hold a coordinate system (ASPRS LAS 1.4, 3)
 _WRITER = "LASF_Projection"
 
 _UNIT = re.compile(r'\b(?:LENGTH)?UNIT\s*[\[(]\s*"([^"]{0,80})"\s*,\s*([-+.\deE]{1,40})')
@@ -20,8 +20,8 @@ _ANGLE = re.compile("deg|rad|grad|gon|arc|mil", re.IGNORECASE)
 _SYSTEM_OF_2019 = re.compile(r"\bCS\s*[\[(]")
 _PLANE = re.compile(r"\b(PROJCS|PROJCRS|PROJECTEDCRS|LOCAL_CS|ENGCRS|ENGINEERINGCRS|GEOCCS|CARTESIAN)", re.IGNORECASE)
 
-_MODEL_KEY, _UNIT_KEY, _HEIGHT_UNIT_KEY = 1024, 3076, 4099
-_GEOGRAPHIC = 2
+_MODEL_KEY, _UNIT_KEY, _HEIGHT_UNIT_KEY = 1024, 3076, 4099  # GeoTIFF 1.1: GTModelType, ProjLinearUnits, VerticalUnits
+_GEOGRAPHIC = 2  # GeoTIFF 1.1: a model in degrees
 _METRES_OF_CODE = {9001: ("metre", 1.0), 9002: ("foot", 0.3048), 9003: ("US survey foot", 1200.0 / 3937.0)}
 _SAME_UNIT = 1e-5
 """Relative; the two feet differ by 2e-6, which no component notices."""

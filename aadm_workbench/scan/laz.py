@@ -20,20 +20,21 @@ from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.las_header import LasHeader, Records
 
-_UNPACKED_BYTES_AT_A_TIME = 2**24
-_RECORD_NUMBER = 22204
-_SHORTEST_RECORD_BYTES = 34
+_UNPACKED_BYTES_AT_A_TIME = 2**24  # bounds the memory, not the time
+_RECORD_NUMBER = 22204  # of the record that says how points are packed (LASzip)
+_SHORTEST_RECORD_BYTES = 34  # its fixed part (LASzip)
 _ITEM_BYTES = {6: 20, 7: 8, 8: 6, 9: 29, 10: 30, 11: 6, 12: 8, 13: 29}
 """Size of each kind of item of a record; kinds 0 and 14 are extra bytes of any number."""
 
 _LAYERS = {10: 9, 11: 1, 12: 2, 13: 1}
 """Layers of each kind of item in a layered chunk; extra bytes have one each."""
 
+# kinds of items of no fixed size: extra bytes of a point, plain and by layers (LASzip)
 _PLAIN_BYTES, _LAYERED_BYTES = 0, 14
 _OF_ANY_LENGTH = 2**32 - 1
 """Where each chunk has its own number of points."""
 
-_POINT_WISE, _CHUNKED, _LAYERED = 1, 2, 3
+_POINT_WISE, _CHUNKED, _LAYERED = 1, 2, 3  # kinds of compressors: of point formats below 6, and from 6 on (LASzip)
 _COORDINATES = {_POINT_WISE: 6, _CHUNKED: 6, _LAYERED: 10}
 """With which kind of item records begin."""
 
@@ -42,7 +43,7 @@ def _lazrs() -> ModuleType:
     try:
         return import_module("lazrs")
     except ImportError as error:
-        raise MissingDependencyError("lazrs", "a compressed LAZ file", "pip install lazrs") from error
+        raise MissingDependencyError("lazrs", "a compressed LAZ file") from error
 
 
 def unpacked_records(file: ScanFile, header: LasHeader) -> Iterator[Records]:

@@ -7,8 +7,8 @@ import numpy as np
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.rows import LONGEST_LINE_BYTES
 
-_USUAL_LINE_BYTES = 64
-_SMALLEST_CHUNK_BYTES, _LARGEST_CHUNK_BYTES = 2**12, 2**24
+_USUAL_LINE_BYTES = 64  # three numbers of up to twenty characters, with what parts them
+_SMALLEST_CHUNK_BYTES, _LARGEST_CHUNK_BYTES = 2**12, 2**24  # a page of memory; what bounds the memory
 
 
 def with_newlines(content: bytes) -> bytes:

@@ -15,9 +15,7 @@ def _lzf() -> ModuleType:
     try:
         return import_module("lzf")
     except ImportError as error:
-        raise MissingDependencyError(
-            "python-neo-lzf", "a compressed PCD file (DATA binary_compressed)", "pip install python-neo-lzf"
-        ) from error
+        raise MissingDependencyError("python-neo-lzf", "a compressed PCD file (DATA binary_compressed)") from error
 
 
 def decompress(packed: bytes, size_bytes: int) -> bytes | None:

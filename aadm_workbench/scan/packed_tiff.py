@@ -33,7 +33,6 @@ _NAMES = MappingProxyType(
     }
 )
 _HALF_BITS = 16
-_INSTALL = "pip install 'aadm-workbench[formats]'"
 _ERRORS = (
     AssertionError,
     AttributeError,
@@ -102,7 +101,7 @@ def _package(name: str, file: ScanFile, picture: DepthPicture) -> ModuleType:
     try:
         return import_module(name)
     except ImportError as error:
-        raise MissingDependencyError(name, f"{file.name}: {_remedy(picture)}. As it is it", _INSTALL) from error
+        raise MissingDependencyError(name, f"{file.name}: {_remedy(picture)}. As it is it") from error
 
 
 def _remedy(picture: DepthPicture) -> str:

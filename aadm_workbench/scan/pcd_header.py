@@ -13,6 +13,7 @@ from aadm_workbench.model import Array
 from aadm_workbench.scan.file import ScanFile
 
 LONGEST_HEADER_BYTES = 2**20
+"""A header has eleven lines; what has none in a megabyte is no PCD file."""
 STORAGES = ("ascii", "binary", "binary_compressed")
 
 _DTYPES = {("F", 4), ("F", 8)} | {(kind, size) for kind in "IU" for size in (1, 2, 4, 8)}

@@ -23,17 +23,16 @@ Pixels = np.ndarray[Any, np.dtype[Any]]
 LARGEST_PIXEL_COUNT = 2**26
 """Bound on what a picture may unpack to; a frame of today's largest cameras has 2**23 pixels."""
 
-_STANDARD_ERROR = 2
-_TIFF_COMPRESSION, _TIFF_ROWS_PER_STRIP, _TIFF_PREDICTOR = 259, 278, 317
-_TIFF_DEFLATE, _TIFF_NO_PREDICTOR, _TIFF_HORIZONTAL = 8, 1, 2
+_STANDARD_ERROR = 2  # its descriptor
+_TIFF_COMPRESSION, _TIFF_ROWS_PER_STRIP, _TIFF_PREDICTOR = 259, 278, 317  # tags of TIFF 6.0
+_TIFF_DEFLATE, _TIFF_NO_PREDICTOR, _TIFF_HORIZONTAL = 8, 1, 2  # values of the first and the last of them
 
 
 def _opencv() -> Any:
     try:
         import cv2
     except ImportError as error:
-        install = "pip install opencv-python-headless"
-        raise MissingDependencyError("opencv-python-headless", "a depth map or a picture", install) from error
+        raise MissingDependencyError("opencv-python-headless", "a depth map or a picture") from error
     return cv2
 
 

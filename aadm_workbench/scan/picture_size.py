@@ -10,8 +10,9 @@ from aadm_workbench.scan.tiff_pages import pages_of
 
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _JPEG_SIGNATURE, _BMP_SIGNATURE = b"\xff\xd8\xff", b"BM"
+# markers that begin a frame, without those of tables (ITU-T T.81, table B.1)
 _JPEG_FRAMES = {*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC}
-_MOST_JPEG_SEGMENTS = 10_000
+_MOST_JPEG_SEGMENTS = 10_000  # a picture has some dozen before its frame; so many take no time
 
 
 def picture_size(file: ScanFile) -> tuple[int, int]:

@@ -11,16 +11,16 @@ import numpy as np
 
 from aadm_workbench.model import Array, FloatArray, IntArray
 
-_SAMPLE = 30_000
-_FEWEST = 2_000
+_SAMPLE = 30_000  # places along a side, of which each column or row of a picture has some
+_FEWEST = 2_000  # a picture with fewer points shows no component
 _STEP_RANGE = (1e-4, 1e-2)  # of x/z from pixel to pixel: focal lengths of 100 to 10,000 pixels
 _TANGENT_MAX = 10.0  # of the widest lens; farther out are faults
 _SAME_COLUMN = 1e-5  # of x/z: what precision of files leaves between points of one column
 _OFF_GRID, _ON_GRID_SHARE = 0.15, 0.98  # pixels; of the points
 _OFF_PICTURE = 1.0  # pixels, median: a lens that was not straightened bends lines by more
-_SIZE_MAX = 6_000
+_SIZE_MAX = 6_000  # columns or rows: structured-light cameras have 5,000 at most
 _SHARED_SHARE = 0.01  # of the points may fall on a pixel that another one has
-_SOUGHT_STEPS = 5
+_SOUGHT_STEPS = 5  # fewer columns or rows are no picture
 
 
 def on_pixels(points: FloatArray) -> FloatArray | None:

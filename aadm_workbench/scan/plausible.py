@@ -14,12 +14,13 @@ FEWEST_POINTS = 500
 """Fewer than this cannot show a pattern of holes or bars."""
 
 SMALLEST_EXTENT_RATIO = 1 / 20
+"""Extent of a scan over that of its component: a part of a foot may be seen, no corner of a single sleeve."""
 LARGEST_EXTENT_RATIO = 100.0
 """Extent of a scan over extent of the pattern in it; a wrong unit is a factor of 1000."""
 
-_PERCENTILES = (1.0, 99.0)
-_SAMPLE_SIZE = 50_000
-_MM_PER_INCH = 25.4
+_PERCENTILES = (1.0, 99.0)  # of coordinates: strays beyond do not stretch what is measured
+_SAMPLE_SIZE = 50_000  # points: percentiles to a tenth of one
+_MM_PER_INCH = 25.4  # exactly, since 1959
 
 
 def check_plausible(scan: Scan, expected_extent_mm: float) -> Scan:

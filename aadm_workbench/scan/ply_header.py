@@ -12,6 +12,7 @@ from aadm_workbench.errors import ScanError
 from aadm_workbench.scan.file import ScanFile
 
 LONGEST_HEADER_BYTES = 2**20
+"""A header has some dozen lines; what has no end in a megabyte is no PLY file."""
 
 _FIRST_LINE = re.compile(rb"(?:\xef\xbb\xbf)?ply[ \t]{0,80}(\r\n|\n|\r)")
 _SHORT_TYPES = {"i1": "char", "u1": "uchar", "i2": "short", "u2": "ushort", "i4": "int", "u4": "uint"}

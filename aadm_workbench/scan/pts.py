@@ -13,9 +13,10 @@ from aadm_workbench.scan.rows import parse_rows
 from aadm_workbench.scan.text import read_text
 
 MOST_BLOCKS = 1000
+"""A survey has some hundred stations; more are a file that means harm."""
 
 _COUNT = re.compile("[0-9]{1,12}")
-_SHORTEST_ROW_BYTES = 6
+_SHORTEST_ROW_BYTES = 6  # 0 0 0 and the end of the line
 
 
 def read_pts(file: ScanFile, declared: Declared) -> Cloud:

@@ -15,12 +15,13 @@ from aadm_workbench.scan.records import check_room
 from aadm_workbench.scan.rows import parse_rows
 
 MOST_SCANS = 1000
+"""A survey has some hundred stations; more are a file that means harm."""
 
 _NUMBERS_OF_HEADER_LINES = (1, 1, 3, 3, 3, 3, 4, 4, 4, 4)
 """Columns; rows; position of the scanner; its three axes; the transform, a row a line, for row vectors."""
 
-_SHORTEST_ROW_BYTES = 6
-_INTENSITY_COLUMN = 3
+_SHORTEST_ROW_BYTES = 6  # 0 0 0 and the end of the line
+_INTENSITY_COLUMN = 3  # after x, y and z
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ from aadm_workbench.scan.camera import seen_by
 from aadm_workbench.scan.capture import find_capture
 from aadm_workbench.scan.depth import read_depth_map
 from aadm_workbench.scan.e57 import read_e57
-from aadm_workbench.scan.file import Cloud, Declared, ScanFile, load
+from aadm_workbench.scan.file import DEPTH_MAPS, Cloud, Declared, ScanFile, load
 from aadm_workbench.scan.las import read_las
 from aadm_workbench.scan.npz import read_npz
 from aadm_workbench.scan.pcd import read_pcd
@@ -35,15 +35,13 @@ Reader = Callable[[ScanFile, Declared], Cloud]
 FURTHEST_VIEW_RATIO = 100.0
 """Distance of a scanner from what it scans over the extent of the scan; a component fills a part of the view."""
 
-_SAMPLE_SIZE = 10_000
+_SAMPLE_SIZE = 10_000  # points: enough for an extent and a median
 
 MM_PER_UNIT = MappingProxyType({"mm": 1.0, "m": 1000.0})
 
 _READERS: MappingProxyType[str, Reader] = MappingProxyType(
     {
-        ".tif": read_depth_map,
-        ".tiff": read_depth_map,
-        ".png": read_depth_map,
+        **dict.fromkeys(DEPTH_MAPS, read_depth_map),
         ".ply": read_ply,
         ".pcd": read_pcd,
         ".xyz": read_text,

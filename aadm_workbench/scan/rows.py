@@ -14,6 +14,7 @@ from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.no_number import number_in, without_signs, without_words
 
 LONGEST_LINE_BYTES = 2**20
+"""A row of numbers takes some hundred bytes: what has no end in a megabyte is no text of points."""
 
 
 def parse_rows(

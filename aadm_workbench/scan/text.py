@@ -15,7 +15,7 @@ from aadm_workbench.scan.records import check_room
 from aadm_workbench.scan.rows import LONGEST_LINE_BYTES, parse_rows
 from aadm_workbench.scan.text_names import named_columns, named_unit, names_some_axis
 
-_LONGEST_PREAMBLE_LINES = 200
+_LONGEST_PREAMBLE_LINES = 200  # exporters write up to some dozen lines before the table
 _SAMPLE_LINES, _PLACES = 200, 200
 _COMMENTS = ("#", "//", "%")
 _LINE = re.compile(rb"[^\r\n]*")

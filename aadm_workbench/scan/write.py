@@ -16,7 +16,7 @@ from aadm_workbench.scan.lzf import compress
 from aadm_workbench.scan.pcd_header import STORAGES
 from aadm_workbench.scan.picture import encode_tiff
 
-_LARGEST_STEP = 65_535
+_LARGEST_STEP = 65_535  # of 16 bits
 
 
 def write_depth_tiff(path: Path, depth_mm: FloatArray, depth_scale_mm: float) -> None:

@@ -17,7 +17,7 @@ Depth = npt.NDArray[np.float32]
 _STEP_MM = 5.0  # between neighbouring pixels: more than a tilted face or a rib makes
 _LARGEST = {"edge_mask": 1.0, "rings": 3.0, "gaussian": 10.0}
 _LARGEST_PX = 25.0  # of any other window: cameras offer less, and a wider one would take minutes
-_ROWS_AT_ONCE = 100
+_ROWS_AT_ONCE = 100  # bounds the memory, not the time
 
 
 @dataclass(frozen=True)

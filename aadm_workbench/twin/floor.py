@@ -24,7 +24,7 @@ from aadm_workbench.twin.scene import scan_of
 from aadm_workbench.twin.scenes import FIELD, Setting, random_bars, random_foot
 from aadm_workbench.twin.truth import listed, sample_design, true_verdicts
 
-_BOUND_MM = 0.8
+_BOUND_MM = 0.8  # of centres from their places: so that no verdict of the floor hangs on the draw
 _UPS = {"+x": (1.0, 0.0), "-x": (-1.0, 0.0), "+y": (0.0, 1.0), "-y": (0.0, -1.0)}
 
 

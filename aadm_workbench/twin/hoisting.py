@@ -21,7 +21,9 @@ from aadm_workbench.twin.scene import TrueScan, shot, truth_of
 from aadm_workbench.twin.surface import joined, moved
 
 CAMERA_BELOW_TOPS_MM = 60.0
+"""Of the reference scene: the paper gives the distance, not the height."""
 AIMED_AT_GAP_SHARE = 0.45
+"""Of the gap between tops and foot: the axis is aimed at a little below its middle, so that bars fill the picture."""
 
 
 @dataclass(frozen=True)

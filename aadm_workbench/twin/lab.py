@@ -16,7 +16,7 @@ from aadm_workbench.twin.scene import TrueScan, scan_of
 from aadm_workbench.twin.scenes import LAB, random_bars, random_foot, random_pose
 from aadm_workbench.twin.truth import listed, sample_design, true_verdicts
 
-_SPREAD_MM = 0.3
+_SPREAD_MM = 0.3  # per axis: printed parts, well within 2 mm
 _BAR_ZONE_MM = 125.0  # bars are cut out of their scan this far from the middle: the floor around is of no use
 
 

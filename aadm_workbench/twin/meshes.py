@@ -16,7 +16,7 @@ from aadm_workbench.twin.roughness import rough_block
 from aadm_workbench.twin.surface import BAR, CONCRETE, DARK, FLOOR, SLEEVE_WALL, TAPE, Surface, joined, one_kind
 
 _RIB_INCLINATION = np.radians(60.0)  # of transverse ribs against the bar's axis; 45 to 70 degrees are usual
-_SHIFT_DEPTHS_MM = (1.5, 2.0)
+_SHIFT_DEPTHS_MM = (1.5, 2.0)  # behind the face: over so much depth a wall goes aside that is shifted; its mouth stays
 _RING_WIDTH_MM, _RING_ROOT_MM = 4.0, 20.0
 _CAP_LENGTH_MM = 25.0
 SEGMENTS = 256  # of a bore's outline: the chord stays within 0.003 mm of a 36 mm circle

@@ -8,10 +8,11 @@ from aadm_workbench.model import Array
 from aadm_workbench.twin.parts import Box, Hose
 from aadm_workbench.twin.surface import OBJECT, Surface, one_kind
 
-_CORNERS = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])
+_CORNERS = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])  # (8, 3), of a unit box
+# their numbers, counter-clockwise from outside
 _SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 _AROUND = 32  # corners of a hose's section
-_STEP_MM = 4.0
+_STEP_MM = 4.0  # of a hose's path: a choice by eye
 
 
 def object_surface(thing: Box | Hose) -> Surface:

@@ -13,7 +13,7 @@ from aadm_workbench.model import BoolArray, Camera
 from aadm_workbench.twin.surface import Surface
 
 PROJECTOR_BASELINE_MM = 270.0  # along +x of the camera, as targets refer to it
-_SHADOW_MARGIN_MM = 0.3
+_SHADOW_MARGIN_MM = 0.3  # a surface does not shade itself: more than rounding, less than a rib
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +75,7 @@ def caster_of(surface: Surface) -> Caster:
     try:
         import open3d
     except ImportError as error:
-        raise MissingDependencyError("open3d", "The virtual camera", "pip install 'aadm-workbench[twin]'") from error
+        raise MissingDependencyError("open3d", "The virtual camera") from error
     scene = open3d.t.geometry.RaycastingScene()
     scene.add_triangles(
         open3d.core.Tensor(surface.vertices.astype(np.float32)),

@@ -17,7 +17,7 @@ from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot, SleeveAsBuilt, ring
 from aadm_workbench.twin.scene import TrueScan, scan_of
 
-UP = np.array([0.0, 1.0, 0.0])
+UP = np.array([0.0, 1.0, 0.0])  # of the picture, column frame
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ LAB = Setting("lab", 250.0, 90.0, 4, 26.0, 18.0, 18.0, 120.0, 800.0)
 FIELD = Setting("field", 600.0, 240.0, 4, 36.0, 20.0, 19.3, 160.0, 1300.0)
 
 
-_NONE = np.zeros(2)
+_NONE = np.zeros(2)  # upright, square
 
 
 def _off(value: Array, spread: float, rng: np.random.Generator) -> tuple[float, float]:

@@ -16,7 +16,7 @@ from aadm_workbench.twin.parts import BarGroup, Foot
 from aadm_workbench.twin.scene import TrueScan, truth_of
 from aadm_workbench.twin.scenes import Setting
 
-_UP = np.array([0.0, 0.0, 1.0])
+_UP = np.array([0.0, 0.0, 1.0])  # of the column frame
 
 
 @dataclass(frozen=True)

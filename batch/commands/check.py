@@ -137,7 +137,7 @@ def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:
     try:
         write_report(done.report, folder / "report.json")
         write_atomically(folder / "timing.json", encode(done.seconds))
-        _write_reports(done, folder, options)
+        _write_reports(folder, options)
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
         say(f"aadm: {error}")
@@ -151,7 +151,7 @@ def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:
     return code
 
 
-def _write_reports(done: JobRun, folder: Path, options: argparse.Namespace) -> None:
+def _write_reports(folder: Path, options: argparse.Namespace) -> None:
     """The other reports that were asked for, from what report.json holds."""
     formats = chosen_formats(options)
     if formats:

@@ -21,64 +21,14 @@ from ..switches import add_switches
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from aadm_workbench.errors import Package
+
 SUMMARY = "say what is installed and what is missing"
 EXAMPLE = """\
 examples:
   aadm doctor
   aadm doctor --json"""
 _FREECAD = ("freecadcmd", "FreeCADCmd", "freecad", "FreeCAD")
-
-
-@dataclass(frozen=True)
-class Package:
-    """A package by the name it is imported by; ``needed_for`` what; ``install`` is what pip calls it.
-
-    ``distributions`` are all names that it may be installed under.
-    """
-
-    module: str
-    needed_for: str
-    install: str
-    distributions: tuple[str, ...]
-    core: bool = False
-
-
-PACKAGES = (
-    Package("numpy", "all arithmetic", "numpy", ("numpy",), core=True),
-    Package("scipy", "robust fits", "scipy", ("scipy",), core=True),
-    Package(
-        "cv2",
-        "circles, depth maps",
-        "opencv-python-headless",
-        (
-            "opencv-python-headless",
-            "opencv-python",
-            "opencv-contrib-python-headless",
-            "opencv-contrib-python",
-            "opencv",
-        ),
-        core=True,
-    ),
-    Package("ifcopenshell", "IFC models", "ifcopenshell", ("ifcopenshell",), core=True),
-    Package("rich", "tables in the terminal", "rich", ("rich",), core=True),
-    Package("jinja2", "report.html", "aadm-workbench[reports]", ("jinja2",)),
-    Package("fontTools", "Chinese in report.html", "aadm-workbench[reports]", ("fonttools",)),
-    Package("reportlab", "report.pdf, crew pages, scan cards", "aadm-workbench[reports]", ("reportlab",)),
-    Package("xlsxwriter", "report.xlsx", "aadm-workbench[reports]", ("xlsxwriter",)),
-    Package("jsonschema", "reading report.json", "aadm-workbench[reports]", ("jsonschema",)),
-    Package("lzf", "compressed PCD files", "aadm-workbench[formats]", ("python-neo-lzf",)),
-    Package("lazrs", "LAZ files", "aadm-workbench[formats]", ("lazrs",)),
-    Package("pye57", "E57 files", "aadm-workbench[formats]", ("pye57",)),
-    Package("tifffile", "TIFF of half floats and of X, Y, Z", "aadm-workbench[formats]", ("tifffile",)),
-    Package("imagecodecs", "TIFF packed with ZSTD, LZMA or LERC", "aadm-workbench[formats]", ("imagecodecs",)),
-    Package("psutil", "check --jobs N", "aadm-workbench[batch]", ("psutil",)),
-    Package("distributed", "check --scheduler", "aadm-workbench[batch]", ("distributed",)),
-    Package("open3d", "virtual camera, methods of the literature", "aadm-workbench[twin]", ("open3d-cpu", "open3d")),
-    Package("manifold3d", "virtual camera", "aadm-workbench[twin]", ("manifold3d",)),
-    Package("trimesh", "virtual camera", "aadm-workbench[twin]", ("trimesh",)),
-    Package("mitsuba", "virtual fringe camera", "aadm-workbench[physics]", ("mitsuba",)),
-    Package("matplotlib", "plots of studies", "aadm-workbench[twin]", ("matplotlib",)),
-)
 
 
 @dataclass(frozen=True)
@@ -101,6 +51,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print what is installed; 12 where something is missing that every check needs."""
+    from aadm_workbench.errors import PACKAGES
+
     findings = [_examined(package) for package in PACKAGES]
     freecad = next((path for name in _FREECAD if (path := shutil.which(name))), None)
     if options.json:
@@ -119,11 +71,11 @@ def _examined(package: Package) -> Finding:
         problem = "not installed" if error.name == package.module else f"cannot be loaded: {error}"
     except (ImportError, OSError) as error:
         problem = f"cannot be loaded: {error}"
-    found = next((known for name in package.distributions if (known := _version(name))), None)
-    remedy = f"pip install '{package.install}'" if problem == "not installed" else ""
+    found = next((known for name in (package.pip_name, *package.others) if (known := _version(name))), None)
+    remedy = package.install if problem == "not installed" else ""
     if package.module == "mitsuba" and not problem:
         problem, remedy = _without_llvm()
-    return Finding(package.module, found, package.needed_for, package.core, problem, remedy)
+    return Finding(package.module, found, package.needed_for, not package.extra, problem, remedy)
 
 
 def _without_llvm() -> tuple[str, str]:

@@ -26,7 +26,7 @@ examples:
   aadm plan --size 600 --sleeve-diameter 36 --rebar-diameter 20 --per-side 4 --height 180
   aadm plan floor3.toml --column C-301 --height 150 --u 0.15
   aadm plan --size 1000 --sleeve-diameter 40 --rebar-diameter 25 --per-side 5 --camera camera.toml --json"""
-_COVER_MM = 60.0
+_COVER_MM = 60.0  # concrete beside a grouting sleeve, and half of it: where the model does not say; a choice
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

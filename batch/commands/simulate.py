@@ -144,11 +144,11 @@ def _prepare(options: argparse.Namespace) -> None:
 
 
 def _require_virtual_camera() -> None:
-    from aadm_workbench.errors import MissingDependencyError
+    from aadm_workbench.errors import MissingDependencyError, install_of
 
     for package in _PACKAGES:
         if find_spec(package) is None:
-            raise MissingDependencyError(package, "The virtual camera", "pip install 'aadm-workbench[twin]'")
+            raise MissingDependencyError(package, "The virtual camera", install_of("twin"))
 
 
 def _require_renderer() -> None:

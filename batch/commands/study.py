@@ -93,14 +93,14 @@ def _study_methods(options: argparse.Namespace) -> int:
 
 def _prepare(options: argparse.Namespace) -> None:
     """Refuse what cannot work before hours of rendering."""
-    from aadm_workbench.errors import AadmError, MissingDependencyError
+    from aadm_workbench.errors import AadmError, MissingDependencyError, install_of
 
     if options.seed < 0:
         raise AadmError(f"--seed must not be below zero, it is {options.seed}")
     for package in (*_PACKAGES, *(() if options.out is None else ("matplotlib",))):
         if find_spec(package) is None:
             needed_for = "A plot" if package == "matplotlib" else "The virtual camera"
-            raise MissingDependencyError(package, needed_for, "pip install 'aadm-workbench[twin]'")
+            raise MissingDependencyError(package, needed_for, install_of("twin"))
     if options.out is not None:
         try:
             options.out.mkdir(parents=True, exist_ok=True)

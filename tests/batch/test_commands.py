@@ -2,7 +2,6 @@
 
 import json
 import sys
-import tomllib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,11 +14,11 @@ import pytest
 from aadm_workbench.design import read
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
 from aadm_workbench.design.pattern import inline_design
+from aadm_workbench.errors import PACKAGES
 from aadm_workbench.extract import method
 from aadm_workbench.model import AssemblyPoint, Extraction, Kind, Plane, Scan
 from aadm_workbench.report.json import report_schema
 from aadm_workbench.scan.write import write_depth_tiff, write_ply
-from batch.commands.doctor import PACKAGES
 from batch.main import main
 
 Output = pytest.CaptureFixture[str]
@@ -193,7 +192,7 @@ def test_profiles(capsys: Output) -> None:
 
 
 def test_doctor(capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("batch.commands.doctor.PACKAGES", tuple(package for package in PACKAGES if package.core))
+    monkeypatch.setattr("aadm_workbench.errors.PACKAGES", tuple(package for package in PACKAGES if not package.extra))
     assert main(["doctor"]) == 0
     assert "Ready to check columns" in capsys.readouterr().out
     monkeypatch.setitem(sys.modules, "ifcopenshell", None)
@@ -211,23 +210,10 @@ def test_doctor(capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_doctor_names_the_extra_of_what_is_missing(capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
     # In brackets, which a terminal's library takes for a style and leaves out.
     monkeypatch.setitem(sys.modules, "lazrs", None)
-    monkeypatch.setattr("batch.commands.doctor.PACKAGES", tuple(p for p in PACKAGES if p.core or p.module == "lazrs"))
+    known = tuple(package for package in PACKAGES if not package.extra or package.module == "lazrs")
+    monkeypatch.setattr("aadm_workbench.errors.PACKAGES", known)
     assert main(["doctor"]) == 0
     assert "pip install 'aadm-workbench[formats]'" in capsys.readouterr().out
-
-
-def test_doctor_knows_every_dependency(repository: Path) -> None:
-    project = tomllib.loads((repository / "pyproject.toml").read_text("utf-8"))["project"]
-    names = {name for package in PACKAGES for name in package.distributions}
-    wanted = project["dependencies"] + [
-        line
-        for extra in ("batch", "physics", "twin", "published")
-        for line in project["optional-dependencies"][extra]
-        if not line.startswith(project["name"])
-    ]
-    assert {line.replace(">", ";").split(";")[0].strip() for line in wanted} <= names
-    core = {package.install for package in PACKAGES if package.core}
-    assert core == {line.replace(">", ";").split(";")[0].strip() for line in project["dependencies"]}
 
 
 def test_simulate_without_the_ray_caster(tmp_path: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -276,7 +262,9 @@ def test_a_filtered_pair_is_the_same_pair_with_less_of_its_edges(tmp_path: Path)
 
 def test_doctor_says_that_llvm_is_missing(capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("mitsuba")
-    monkeypatch.setattr("batch.commands.doctor.PACKAGES", tuple(p for p in PACKAGES if p.core or p.module == "mitsuba"))
+    monkeypatch.setattr(
+        "aadm_workbench.errors.PACKAGES", tuple(p for p in PACKAGES if not p.extra or p.module == "mitsuba")
+    )
     monkeypatch.setattr("aadm_workbench.twin.fringe.renderer.llvm_found", lambda: 15)
     assert main(["doctor", "--json"]) == 0
     (found,) = (one for one in printed_json(capsys)["packages"] if one["package"] == "mitsuba")

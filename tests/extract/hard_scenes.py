@@ -9,20 +9,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 
 from aadm_workbench.extract.method import extract
 from aadm_workbench.extract.missing import explain_missing
-from aadm_workbench.model import Array, Camera, Extraction, Kind
+from aadm_workbench.model import Array, Extraction, Kind
 from aadm_workbench.twin.camera import PRO_M, facing
 from aadm_workbench.twin.noise import CameraNoise
-from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose, SleeveAsBuilt
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose
 from aadm_workbench.twin.scene import TrueScan, scan_of
 from aadm_workbench.twin.scenes import FIELD, LAB, UP, Setting, random_bars, random_foot, random_pose
+from tests.scenes import SEEN_DEPTH_MM, WARP_PERIOD, window
 
-WARP_PERIOD = PRO_M.width / 3  # of the whole image, not of the window
-SEEN_DEPTH_MM = 130.0  # of a bore: nothing behind is seen, and ribs there only cost triangles
 FALSE_BEYOND_MM = 3.0
 
 Part = Foot | BarGroup
@@ -74,17 +74,6 @@ class Outcome:
     def distance_mm(self) -> Array:
         """Errors (n,) in the plane."""
         return np.hypot(*self.error_mm.T)
-
-
-def window(camera: Camera, T_column_scan: Array, reach_mm: float) -> Camera:
-    """The part of a camera's image that shows what lies within a reach of the column's axis at z = 0."""
-    T = np.linalg.inv(T_column_scan)
-    corners = np.array([[x, y, 0.0] for x in (-reach_mm, reach_mm) for y in (-reach_mm, reach_mm)])
-    seen = corners @ T[:3, :3].T + T[:3, 3]
-    u, v = camera.fx * seen[:, 0] / seen[:, 2] + camera.cx, camera.fy * seen[:, 1] / seen[:, 2] + camera.cy
-    left, right = np.clip([u.min(), u.max()], 0, camera.width).astype(int).tolist()
-    top, bottom = np.clip([v.min(), v.max()], 0, camera.height).astype(int).tolist()
-    return replace(camera, cx=camera.cx - left, cy=camera.cy - top, width=right - left, height=bottom - top)
 
 
 @cache
@@ -144,28 +133,15 @@ def compared(found: Extraction, truth: TrueScan) -> Outcome:
     return Outcome(error, u, false, {})
 
 
-def _sleeves(change: Callable[[SleeveAsBuilt, int], SleeveAsBuilt], *numbers: int) -> Callable[[Part, object], Part]:
-    """Change some sleeves; ``change`` is given the sleeve and its place among those that are changed."""
+def _some(change: Callable[[Any, int], Any], *numbers: int) -> Callable[[Part, object], Part]:
+    """Change some sleeves or bars; ``change`` is given each of them and its place among those that are changed."""
 
     def build(part: Part, rng: object) -> Part:
-        assert isinstance(part, Foot)
-        sleeves = list(part.sleeves)
+        name = "sleeves" if isinstance(part, Foot) else "bars"
+        things = list(getattr(part, name))
         for place, number in enumerate(numbers):
-            sleeves[number] = change(sleeves[number], place)
-        return replace(part, sleeves=tuple(sleeves))
-
-    return build
-
-
-def _bars(change: Callable[[BarAsBuilt, int], BarAsBuilt], *numbers: int) -> Callable[[Part, object], Part]:
-    """Change some bars, as :func:`_sleeves` does."""
-
-    def build(part: Part, rng: object) -> Part:
-        assert isinstance(part, BarGroup)
-        bars = list(part.bars)
-        for place, number in enumerate(numbers):
-            bars[number] = change(bars[number], place)
-        return replace(part, bars=tuple(bars))
+            things[number] = change(things[number], place)
+        return replace(part, **{name: tuple(things)})
 
     return build
 
@@ -273,16 +249,16 @@ def _oblique(direction: float) -> Callable[[np.random.Generator], Array]:
 
 
 def _taped(share: float) -> Callable[[Part, object], Part]:
-    return _sleeves(lambda sleeve, k: replace(sleeve, taped=share, chip_direction=TURNS[k]), *SOME)
+    return _some(lambda sleeve, k: replace(sleeve, taped=share, chip_direction=TURNS[k]), *SOME)
 
 
 SCENES: dict[str, Scene] = {
-    "sleeves plugged flush": Scene(S, _sleeves(lambda s, k: replace(s, plugged_at=0.0), 1, 6), (), (1, 6), PLUGGED),
-    "sleeves plugged 6 mm inside": Scene(S, _sleeves(lambda s, k: replace(s, plugged_at=6.0), 1, 6), (1, 6), seed=5),
+    "sleeves plugged flush": Scene(S, _some(lambda s, k: replace(s, plugged_at=0.0), 1, 6), (), (1, 6), PLUGGED),
+    "sleeves plugged 6 mm inside": Scene(S, _some(lambda s, k: replace(s, plugged_at=6.0), 1, 6), (1, 6), seed=5),
     "sleeves half covered by tape": Scene(S, _taped(0.5), SOME, seed=3),
     "sleeves covered by tape but for a slit": Scene(S, _taped(0.9), (), SOME, PLUGGED),
     "sleeves with a chipped rim": Scene(
-        S, _sleeves(lambda s, k: replace(s, chip=10.0, chip_direction=TURNS[k]), *SOME), SOME, seed=2
+        S, _some(lambda s, k: replace(s, chip=10.0, chip_direction=TURNS[k]), *SOME), SOME, seed=2
     ),
     "grout on the face and over rims": Scene(S, _with_grout, SOME, seed=2),
     "bores that return nothing": Scene(S, _as_is, ALL, noise=lambda noise: replace(noise, wall_loss=1.0), seed=4),
@@ -299,19 +275,19 @@ SCENES: dict[str, Scene] = {
         S, _as_is, (), (0, 1, 2, 3, 9, 10, 11), OUTSIDE, setting=FIELD, pose=_too_near, reach_mm=400.0
     ),
     "bars whose tops are rusty in part": Scene(
-        R, _bars(lambda b, k: replace(b, rust=0.3, rust_direction=TURNS[k]), *SOME), SOME, seed=4
+        R, _some(lambda b, k: replace(b, rust=0.3, rust_direction=TURNS[k]), *SOME), SOME, seed=4
     ),
     "bars with a piece of the top broken off": Scene(
-        R, _bars(lambda b, k: replace(b, missing_top=6.0), 1, 5), (1, 5), bound_mm=0.55, seed=5
+        R, _some(lambda b, k: replace(b, missing_top=6.0), 1, 5), (1, 5), bound_mm=0.55, seed=5
     ),
     "bars with a burr on one side": Scene(
-        R, _bars(lambda b, k: replace(b, burr=1.0, burr_direction=TURNS[k]), *SOME), SOME, bound_mm=0.5, seed=3
+        R, _some(lambda b, k: replace(b, burr=1.0, burr_direction=TURNS[k]), *SOME), SOME, bound_mm=0.5, seed=3
     ),
     "bars cut at 15 degrees": Scene(
-        R, _bars(lambda b, k: replace(b, slant=_towards(TURNS[k], np.tan(np.radians(15.0)))), *SOME), SOME, seed=4
+        R, _some(lambda b, k: replace(b, slant=_towards(TURNS[k], np.tan(np.radians(15.0)))), *SOME), SOME, seed=4
     ),
-    "bars that lean by 3 degrees": Scene(R, _bars(_leaning, *SOME), SOME, seed=2),
-    "bars bent by 10 mm": Scene(R, _bars(_bent, *SOME), SOME),
+    "bars that lean by 3 degrees": Scene(R, _some(_leaning, *SOME), SOME, seed=2),
+    "bars bent by 10 mm": Scene(R, _some(_bent, *SOME), SOME),
     "a bar that hides a part of another": Scene(R, _one_before_another, (6,), pose=_square_above, seed=3),
     "bars with a board, a box and a hose": Scene(R, _bars_with_things, reach_mm=170.0, seed=5),
     "bars with twice the noise": Scene(R, _as_is, ALL, noise=_noisy, seed=5),

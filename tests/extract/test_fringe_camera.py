@@ -12,6 +12,7 @@ import pytest
 from aadm_workbench.extract.method import extract
 from aadm_workbench.model import Array, Camera, Extraction, Kind, Scan
 from aadm_workbench.scan.read import read_scan
+from aadm_workbench.scan.write import write_ply
 from aadm_workbench.twin.filters import filtered, filters_of
 
 FOLDER = Path(__file__).parent.parent / "fringe_scans"
@@ -100,8 +101,8 @@ def test_what_a_filter_took_away_is_not_hidden(kind: Kind) -> None:
 @pytest.mark.parametrize("kind", Kind)
 def test_a_cloud_of_its_pixels_is_as_good_as_the_depth_map(kind: Kind, tmp_path: Path) -> None:
     scan, diameter_mm, true, normal = scene("b-field1", kind)
-    rows = scan.points[np.isfinite(scan.points[..., 2])]
-    np.savetxt(tmp_path / "cloud.xyz", rows[np.random.default_rng(5).permutation(len(rows))], fmt="%.3f")
-    cloud = found(read_scan(tmp_path / "cloud.xyz"), kind, diameter_mm)
+    rows = np.round(scan.points[np.isfinite(scan.points[..., 2])], 3)  # as texts of clouds have them
+    write_ply(tmp_path / "cloud.ply", rows[np.random.default_rng(5).permutation(len(rows))])
+    cloud = found(read_scan(tmp_path / "cloud.ply"), kind, diameter_mm)
     mapped = misses(found(scan, kind, diameter_mm), true, normal)[0]
     assert misses(cloud, true, normal)[0].mean() < 1.3 * mapped.mean()

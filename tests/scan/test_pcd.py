@@ -186,7 +186,7 @@ def test_compressed_without_the_library_names_the_command_that_installs_it(
         raise ImportError(name)
 
     monkeypatch.setattr(lzf, "import_module", not_installed)
-    with pytest.raises(MissingDependencyError, match="pip install python-neo-lzf"):
+    with pytest.raises(MissingDependencyError, match=r"python-neo-lzf.*pip install 'aadm-workbench\[formats\]'"):
         read_scan(tmp_path / "scan.pcd")
 
 

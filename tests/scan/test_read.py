@@ -254,7 +254,7 @@ def test_what_a_format_needs_is_named_where_it_is_missing(
     else:
         write_las(path, cloud.astype(np.float64))
     monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(MissingDependencyError, match=rf"package {package}, .* pip install {package}"):
+    with pytest.raises(MissingDependencyError, match=rf"package {package}, .* pip install 'aadm-workbench\[formats\]'"):
         read_scan(path)
 
 

@@ -20,8 +20,8 @@ PLAY_MM = 20.0
 U_MM = 1.0
 """Standard uncertainty of an exposed length: the floor about a bar is no plane."""
 
-_SIGMAS = 3.0
-_FEWEST = 4
+_SIGMAS = 3.0  # of sound bars one in 370 is farther off, before the play
+_FEWEST = 4  # of fewer bars no median tells what is usual
 _TO_SIGMA = 1.4826  # of a median of absolute deviations, for the normal law
 
 

@@ -25,7 +25,7 @@ NORMAL_QUANTILE = 3.89
 """Two-sided 0.01 %: of sound scans not one in ten thousand is beyond it, play aside."""
 
 _PRIOR_WEIGHT = 4.0  # the usual scatter counts as so many coordinates do
-_FEWEST = 3
+_FEWEST = 3  # two points have one distance, and nothing to hold it against
 
 
 @dataclass(frozen=True)

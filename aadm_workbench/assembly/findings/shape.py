@@ -10,7 +10,7 @@ from aadm_workbench.model import ColumnDesign, Kind
 
 Shape: TypeAlias = tuple[tuple[int, ...], ...]
 
-_STEP_MM = 1.0
+_STEP_MM = 1.0  # no two patterns that are built differ by less
 
 
 def design_shape(design: ColumnDesign) -> Shape:

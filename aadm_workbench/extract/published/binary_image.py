@@ -9,8 +9,8 @@ import numpy.typing as npt
 
 from aadm_workbench.model import Array, Scan
 
-_PIXELS_MAX = 40_000_000
-_PITCH_CELL_POINTS_MIN = 4.0
+_PIXELS_MAX = 40_000_000  # 40 MB: at 0.4 mm a pixel 2.5 m each way
+_PITCH_CELL_POINTS_MIN = 4.0  # in a cell of half a radius: with fewer, an outline has no more than 25 points
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,10 +7,10 @@ from scipy.spatial import cKDTree
 
 from aadm_workbench.model import Array, BoolArray, IntArray
 
-REACH_OF_PITCH = 2.5
-NEIGHBOURS = 20
+REACH_OF_PITCH = 2.5  # two rings of neighbours but for the corners: single lost pixels are no gap
+NEIGHBOURS = 20  # within that reach a square grid has as many
 GAP_RAD = np.radians(125.0)  # a straight edge leaves 180°, a lost neighbour 90°
-_CELL_OF_PITCH = 4.0
+_CELL_OF_PITCH = 4.0  # 16 points a cell: so many hold enough to tell a full one
 _ABSENT = 99.0  # a direction that sorts behind all others
 _FULL_CELL = 0.6  # of the points that most cells hold; across an edge lies a cell with less
 

@@ -37,10 +37,10 @@ from aadm_workbench.extract.published.pass_through import (
 from aadm_workbench.extract.published.ransac_plane import open3d_for, ransac_plane
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, FloatArray, Kind, Plane, Scan
 
-INLIER_DISTANCE_MM = 50.0
-ITERATIONS = 500
-DILATION_PIXELS = 3
-_POINTS_MIN = 100
+INLIER_DISTANCE_MM = 50.0  # as published (2.1.1)
+ITERATIONS = 500  # as published (2.1.1)
+DILATION_PIXELS = 3  # as published (2.2.1)
+_POINTS_MIN = 100  # of a scan: fewer show no circle of any size
 
 Range = tuple[float, float]
 

@@ -29,6 +29,7 @@ from typing import Any
 import cv2
 import numpy as np
 
+from aadm_workbench.extract.method import METHODS as RECIPES
 from aadm_workbench.extract.plane import facing, from_plane, in_plane
 from aadm_workbench.extract.published.binary_image import binary_image
 from aadm_workbench.extract.published.clusters import dbscan
@@ -41,19 +42,22 @@ from aadm_workbench.extract.published.round_fits import ransac_circle, ransac_cy
 from aadm_workbench.extract.sample import counts_in_cells
 from aadm_workbench.model import Array, FloatArray, Plane, Scan
 
-METHODS = ("fusion", "pointcloud", "image")
-_SLICE_MM = 2.0
+METHODS = tuple(method for method in RECIPES if method != "refined")
+_SLICE_MM = 2.0  # as of the pass-through filter along z
+# of what most slices hold; what the nearest edge of the column is deep (a choice, not tuned since)
 _EMPTY_SHARE, _EDGE_MM = 0.02, 8.0
-_LEVEL_COSINE, _TRIES = 0.9, 4
-_DILATION = np.ones((3, 3), np.uint8)
-_CLUSTERED_MAX = 40_000
-_NEIGHBOUR_SHARE, _NEIGHBOUR_MAX_MM = 0.25, 8.0
+_LEVEL_COSINE, _TRIES = 0.9, 4  # 26 degrees; two sides of the column and its floor may come first
+_DILATION = np.ones((3, 3), np.uint8)  # as published (2.2.1)
+_CLUSTERED_MAX = 40_000  # DBSCAN takes seconds beyond
+_NEIGHBOUR_SHARE, _NEIGHBOUR_MAX_MM = 0.25, 8.0  # of the clear distance of adjacent bars (2.2.2, step 1): see above
+# within that distance, and of a cluster: fewer are strays; a choice, not tuned since
 _CORE_POINTS, _CLUSTER_MIN = 8, 60
-_CYLINDER_MM, _HIGHEST, _LEAN_MAX = 0.6, 20, 0.1
-_CYLINDER_TRIES = 5
+_CYLINDER_MM, _HIGHEST, _LEAN_MAX = 0.6, 20, 0.1  # half a rib and noise; as published (2.2.2); 6 degrees
+_CYLINDER_TRIES = 5  # a cylinder that lies down is drawn once more
+# as in pointcloud.py; three times that of a face seen squarely: pixels lie millimetres apart here
 _FACE_MM, _CIRCLE_MM = 2.0, 1.5
-_POINTS_MIN = 500
-_CELL_MM = 12.0
+_POINTS_MIN = 500  # on either side of the empty band: fewer are no foot, and no bars
+_CELL_MM = 12.0  # as in sample.py
 
 
 @dataclass(frozen=True, eq=False)

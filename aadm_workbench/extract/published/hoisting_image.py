@@ -8,11 +8,11 @@ import numpy as np
 from aadm_workbench.extract.published.image import back_projected, plane_through
 from aadm_workbench.model import Array, Camera, FloatArray, Plane, Scan
 
-_CLOSING = np.ones((5, 5), np.uint8)
-_AXIS_MISFIT = 0.35
-_STRIP_MISFIT = 0.35
-_DEPTHS_MIN = 10
-_JUMP_MM = 4.0
+_CLOSING = np.ones((5, 5), np.uint8)  # closes pixels that were lost alone
+_AXIS_MISFIT = 0.35  # relative, of an ellipse's width: mouths are cut by shadows; a choice, not tuned since
+_STRIP_MISFIT = 0.35  # relative, of a strip's width: ribs, and lost edges; a choice, not tuned since
+_DEPTHS_MIN = 10  # points of an outline: five make an ellipse
+_JUMP_MM = 4.0  # between neighbours: walls fall by less, seen along; a choice, not tuned since
 
 
 def image_points(

@@ -8,13 +8,13 @@ import numpy.typing as npt
 
 from aadm_workbench.model import Array
 
-VOTES = 30
-VOTES_OF_OUTLINE = 1 / 28
-VOTES_MIN = 10
-CANNY_HIGH = 100.0
-RADIUS_MISFIT = 0.15
+VOTES = 30  # as published (2.1.1)
+VOTES_OF_OUTLINE = 1 / 28  # see votes_needed
+VOTES_MIN = 10  # see votes_needed
+CANNY_HIGH = 100.0  # of 255: an edge of black and white passes, smoothed or not
+RADIUS_MISFIT = 0.15  # relative: three pixels at a radius of twenty
 APART = 1.0  # of the diameter: sleeves and bars do not overlap
-SMOOTHING_PIXELS = 5
+SMOOTHING_PIXELS = 5  # the least that smooths: edges of a binary image have eight directions
 
 
 def votes_needed(radius_pixels: float) -> int:

@@ -23,11 +23,11 @@ from aadm_workbench.extract.published.pass_through import face_range_mm, finite_
 from aadm_workbench.model import Array, AssemblyPoint, Camera, Extraction, FloatArray, Kind, Plane, Scan
 
 MEDIAN_PIXELS = 5  # closes single lost pixels
-FAR_GREY = 128.0
+FAR_GREY = 128.0  # half of white: the far end of the range stays clear of the black behind it
 SLEEVE_SURROUNDINGS = (1.15, 1.5)  # of the radius
-BAR_SURROUNDINGS = (0.0, 0.6)
-_POINTS_MIN = 100
-_DEPTHS_MIN = 10
+BAR_SURROUNDINGS = (0.0, 0.6)  # of the radius: the top, off its rim
+_POINTS_MIN = 100  # as in fusion.py
+_DEPTHS_MIN = 10  # of a ring or a disc: fewer are no surface
 _FLATTEST_MM = 5.0  # centres that spread less than this across their line carry no plane
 _VIEW = np.array([0.0, 0.0, -1.0])
 

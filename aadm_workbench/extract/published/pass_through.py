@@ -17,13 +17,13 @@ import numpy as np
 
 from aadm_workbench.model import Array, FloatArray, Scan
 
-SLICE_MM = 2.0
-RUN_SHARE = 0.02
-RUN_MARGIN_MM = 5.0
+SLICE_MM = 2.0  # twenty times the noise of the reference camera at 1 m
+RUN_SHARE = 0.02  # of the fullest slice (a choice, not tuned since)
+RUN_MARGIN_MM = 5.0  # a face that is tilted thins out towards its ends (a choice, not tuned since)
 TOP_SHARE = 0.25  # of the points of one top: fewer in a slice are sides of bars
 FLOOR_QUANTILE = 0.1  # bars cover less of a scan than this
 FLOOR_GAP_MM = 40.0  # a scan that is shallower than this shows no floor
-DEEPEST_MM = 50_000.0
+DEEPEST_MM = 50_000.0  # no scan of a component is as deep
 _HIGHEST_TILT = 1.5  # of a slice: the lower rim of a top may lie in the slice after the one that counts
 
 

@@ -28,19 +28,19 @@ from aadm_workbench.extract.published.ransac_plane import open3d_for, ransac_pla
 from aadm_workbench.extract.published.round_fits import RoundFit, ransac_circle
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, FloatArray, Kind, Plane, Scan
 
-PLANE_DISTANCE_MM = 2.0
-PLANE_ITERATIONS = 500
+PLANE_DISTANCE_MM = 2.0  # after Zhao et al.: noise and warp, without the walls
+PLANE_ITERATIONS = 500  # as the method that it is compared with
 EDGE_NEIGHBOUR_OF_PITCH = 6.0  # DBSCAN of edge points
-EDGE_CORE_POINTS = 4
-CIRCLE_DISTANCE_MM = 0.5
+EDGE_CORE_POINTS = 4  # an outline has twelve within that distance; strays have fewer
+CIRCLE_DISTANCE_MM = 0.5  # at least a pitch: edge points lie up to a pixel behind the edge
 CIRCLE_SHARE = 0.5  # of the points of a cluster, and of the outline at the points' pitch
 BAR_NEIGHBOUR_MM = 5.0  # DBSCAN of bars: well below the clear distance of adjacent ones
-BAR_CORE_POINTS = 8
+BAR_CORE_POINTS = 8  # points within 5 mm: strays have fewer
 BAR_SHARE = 0.5  # of the points of one top: a cluster with less is no bar
-ABOVE_FLOOR_MM = 15.0
-FLOOR_SHARE = 0.3
-_POINTS_MIN = 100
-_CLUSTERED_MAX = 200_000
+ABOVE_FLOOR_MM = 15.0  # as in standing.py
+FLOOR_SHARE = 0.3  # of the points: less is no floor; a choice, not tuned since
+_POINTS_MIN = 100  # as in fusion.py
+_CLUSTERED_MAX = 200_000  # DBSCAN takes seconds beyond
 
 
 def extract_sleeves(

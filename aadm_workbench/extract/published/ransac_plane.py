@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.errors import MissingDependencyError, install_of
 from aadm_workbench.model import FloatArray, Plane
 
-SAMPLE = 3
-SCORED = 50_000
+SAMPLE = 3  # points that make a plane
+SCORED = 50_000  # more of them place a plane no better
 
 
 def open3d_for(method: str) -> Any:
@@ -24,8 +24,7 @@ def open3d_for(method: str) -> Any:
     try:
         import open3d
     except ImportError as error:
-        install = "pip install 'aadm-workbench[published]'"
-        raise MissingDependencyError("open3d", f"Method {method}", install) from error
+        raise MissingDependencyError("open3d", f"Method {method}", install_of("published")) from error
     return open3d
 
 

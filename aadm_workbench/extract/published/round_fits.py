@@ -9,10 +9,10 @@ from scipy.optimize import least_squares
 
 from aadm_workbench.model import Array, BoolArray
 
-HYPOTHESES = 300
-RADIUS_MISFIT = 0.15
-_ROUNDS = 3
-_SCORED = 1500
+HYPOTHESES = 300  # a circle that a third of the points lie on is missed once in 80,000
+RADIUS_MISFIT = 0.15  # as in hough.py
+_ROUNDS = 3  # inliers are chosen anew about each fit (a choice, not tuned since)
+_SCORED = 1500  # points to rank circles by
 
 
 @dataclass(frozen=True, eq=False)

@@ -21,7 +21,7 @@ from aadm_workbench.twin.fringe.rig import FringeRig
 
 VERTICES = 7  # of the longest path; what bounces more often inside a sleeve has lost all but a hundredth
 _ROULETTE_FROM = 3  # vertices: shorter paths carry most of the light and are all followed to their end
-_PRIMARY_DIMENSIONS = 10
+_PRIMARY_DIMENSIONS = 10  # random numbers of a path that are spread evenly; those of its later turns are not
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from aadm_workbench.model import Camera
 from aadm_workbench.twin.fringe.rig import FringeRig, Fringes, Projector
 
-_TURN = 2.0 * np.pi
+_TURN = 2.0 * np.pi  # rad
 
 
 def unwrapped(phases: npt.NDArray[np.float32], fringes: Fringes) -> npt.NDArray[np.float64]:

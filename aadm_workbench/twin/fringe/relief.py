@@ -9,9 +9,9 @@ from scipy import ndimage
 TEXEL_MM = 0.2  # finer than half a pixel's width on the nearest face
 _TEXELS = 1024  # 205 mm: no two sleeves of a face lie on the same part of it
 _GRAIN_MM = (0.4, 1.5, 6.0)  # sand, trowel marks and the formwork's waves
-_GRAIN_SHARES = (0.5, 0.6, 0.6)
-_STAIN_MM = (0.6, 8.0)
-_STAIN_SHARES = (0.6, 0.8)
+_GRAIN_SHARES = (0.5, 0.6, 0.6)  # amplitudes of these lengths: a choice by eye
+_STAIN_MM = (0.6, 8.0)  # lengths of stains: sand, and damp patches
+_STAIN_SHARES = (0.6, 0.8)  # their amplitudes: a choice by eye
 
 
 def relief_tile(relief_mm: float, mottling: float, rng: np.random.Generator) -> npt.NDArray[np.float32]:

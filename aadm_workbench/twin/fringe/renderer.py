@@ -6,7 +6,6 @@ from typing import Any
 
 from aadm_workbench.errors import MissingDependencyError
 
-INSTALL = "pip install 'aadm-workbench[physics]'"
 INSTALL_LLVM = "apt-get install libllvm19"
 LEAST_LLVM = 19
 """The one that was tried. 15 is said to do, but 15 and 16 stop the whole process at the lesser of two numbers."""
@@ -25,7 +24,7 @@ def mitsuba_ready() -> Any:
     try:
         import mitsuba
     except ImportError as error:
-        raise MissingDependencyError("mitsuba", "The fringe camera", INSTALL) from error
+        raise MissingDependencyError("mitsuba", "The fringe camera") from error
     if llvm_found() < LEAST_LLVM:
         raise MissingDependencyError(f"LLVM {LEAST_LLVM} or newer", "The fringe camera", INSTALL_LLVM)
     if mitsuba.variant() != _VARIANT:

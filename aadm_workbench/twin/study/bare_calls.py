@@ -20,7 +20,7 @@ from aadm_workbench.extract.published.pass_through import face_range_mm, finite_
 from aadm_workbench.extract.published.ransac_plane import SAMPLE, open3d_for
 from aadm_workbench.model import Kind, Plane, Scan
 
-_POINTS_MIN = 100
+_POINTS_MIN = 100  # as in the method itself (fusion.py)
 
 
 def seconds_of_bare_calls(scan: Scan, kind: Kind, diameter_mm: float, clock: Callable[[], float]) -> float | None:

@@ -14,7 +14,7 @@ from aadm_workbench.twin.study.hoisting_tables import CELLS, CONDITIONS, TITLES
 from aadm_workbench.twin.study.plots import require_matplotlib
 
 _COLOURS = {REFINED: "#0072B2", "fusion": "#D55E00", "pointcloud": "#009E73", "image": "#CC79A7"}
-_LIMIT_MM = 3.0
+_LIMIT_MM = 3.0  # GB/T 51231-2016, 10.4
 
 
 def write_hoisting_plots(study: HoistingStudy, folder: Path) -> tuple[Path, ...]:

@@ -18,7 +18,7 @@ from aadm_workbench.twin.study.errors import Comparison, compared
 PUBLISHED = "fusion"
 """The method that the bare calls are part of, and that times are divided by."""
 
-_WARM_UP_STEP = 4
+_WARM_UP_STEP = 4  # each fourth pixel: loads what is loaded once, and measures next to nothing
 _RENDER = {Kind.SLEEVE: random_sleeve_scan, Kind.REBAR: random_bar_scan}
 
 Clock = Callable[[], float]

@@ -25,7 +25,7 @@ _PANELS = (
     (Kind.SLEEVE, "spacing", "(d) adjacent sleeve spacing"),
 )
 _COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00")  # apart for colour-blind eyes, too
-_DOTS_PER_INCH = 110
+_DOTS_PER_INCH = 110  # readable on a screen
 
 
 def require_matplotlib() -> None:
@@ -39,7 +39,7 @@ def require_matplotlib() -> None:
     try:
         import matplotlib.figure  # noqa: F401
     except ImportError as error:
-        raise MissingDependencyError("matplotlib", "Plots of a study", "pip install 'aadm-workbench[twin]'") from error
+        raise MissingDependencyError("matplotlib", "Plots of a study") from error
 
 
 def write_plots(study: MethodStudy, folder: Path) -> tuple[Path, ...]:
