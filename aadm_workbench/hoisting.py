@@ -16,6 +16,7 @@ from aadm_workbench.assembly.findings.hoisting_turn import with_turn_finding
 from aadm_workbench.assembly.hoisting_match import Laid, Matched, NoMatch, match_hoisting
 from aadm_workbench.assembly.hoisting_pairs import HungFit, report_pairs, unmeasured
 from aadm_workbench.assembly.hoisting_sense import why_half, why_not_bars, why_not_foot
+from aadm_workbench.assembly.hoisting_unseen import measured_labels
 from aadm_workbench.assembly.upright import turn
 from aadm_workbench.design.extent import extent_mm
 from aadm_workbench.errors import ScanError
@@ -133,6 +134,9 @@ def _measured(
     known = near is not None or matched.orientation == "resolved"
     foot = _foot(frame, face, design, matched, sleeves_before if known else None, sleeve_mm, settings)
     hung = _bars(frame, face, foot, bars, design, matched, rebars_before if known else None, bar_mm, settings)
+    if known:
+        before = *measured_labels(sleeves_before, design.sleeves), *measured_labels(rebars_before, design.rebars)
+        hung = replace(hung, before=before)
     half = why_half(frame, face, foot)
     reason = why_not_foot(face, foot, sleeve_mm) or why_not_bars(frame, hung, bars, matched, bar_mm)
     if reason:

@@ -9,6 +9,7 @@ import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule, decide_radial, standard_uncertainty
 from aadm_workbench.assembly.eopa import NoFit
+from aadm_workbench.assembly.hoisting_unseen import look_again, unseen_in_words, verdict_unseen, would_pass
 from aadm_workbench.assembly.minimax import fit_minimax
 from aadm_workbench.assembly.tolerances import describe_clause, rules_for
 from aadm_workbench.assembly.upright import turn
@@ -44,7 +45,8 @@ _KNOWN_MM, _FEWEST_DECIDE = 0.25, 3
 class HungFit:
     """All that was fitted in one frame: the foot in the axes of its face, the bars in axes along their vertical.
 
-    ``floor`` (3,) is the normal of the floor in the axes of the face; None where too little of it is seen.
+    ``floor`` (3,) is its normal in the axes of the face, None where too little of it is seen; ``before`` are the labels
+    of what was measured before hoisting.
     """
 
     face: FootFace
@@ -52,6 +54,7 @@ class HungFit:
     axes: LocalAxes
     bars: BarFit
     floor: Array | None = None
+    before: tuple[str, ...] = ()
 
     @property
     def seen(self) -> BoolArray:
@@ -90,8 +93,7 @@ def unmeasured(scan: Scan, design: ColumnDesign, method: str, reason: str) -> Ho
     report = HoistingReport(
         scan.source, (), None, None, None, Verdict.NOT_MEASURED, pairs, None, (reason,), scan.sha256, method
     )
-    count = len(pairs)
-    return HoistingMeasurement(report, np.full((count, 2), np.nan), np.full((count, 2, 2), np.nan))
+    return HoistingMeasurement(report, np.full((len(pairs), 2), np.nan), np.full((len(pairs), 2, 2), np.nan))
 
 
 def report_pairs(
@@ -175,16 +177,14 @@ def _bar_axes(hung: HungFit) -> Array:
     else:
         lean = np.median(hung.bars.leans[seen], axis=0) if seen.any() else np.zeros(2)
         vertical = np.array([*lean, 1.0]) / np.linalg.norm([*lean, 1.0])
-    angle = hung.bars.pose[2]
-    x = np.array([np.cos(angle), np.sin(angle), 0.0])
+    x = np.append(turn(float(hung.bars.pose[2]))[:, 0], 0.0)
     x = x - (x @ vertical) * vertical
     x /= np.linalg.norm(x)
     return np.asarray(np.vstack([x, np.cross(vertical, x), vertical]) @ hung.axes.axes)
 
 
 def _rule(profile: Profile | None) -> Rule | None:
-    rules = () if profile is None else rules_for(profile, "sleeve_rebar_distance")
-    return rules[0] if rules else None
+    return None if profile is None else next(iter(rules_for(profile, "sleeve_rebar_distance")), None)
 
 
 def _pair(
@@ -198,33 +198,30 @@ def _pair(
     reason: str,
 ) -> HoistingPair:
     sleeve_seen, rebar_seen = bool(hung.foot.seen[k]), bool(hung.bars.seen[k])
+    labels = design.sleeves[k].label, design.rebars[k].label
+    unseen = [label for label, seen in zip(labels, (sleeve_seen, rebar_seen), strict=True) if not seen]
     covariance = found.of_pair(k)
     verdict, probability = Verdict.NOT_ASSESSED, None
     if rule is not None and not reason:
         decided = decide_radial(found.offsets[k], covariance, rule.upper, decision)
-        verdict, probability = decided.verdict, decided.probability
+        verdict, probability = verdict_unseen(decided.verdict, unseen, hung.before), decided.probability
     in_scan = frame.to_scan(np.vstack([found.sleeves[k], found.rebars[k]]))
     return HoistingPair(
-        sleeve=design.sleeves[k].label,
-        rebar=design.rebars[k].label,
+        sleeve=labels[0],
+        rebar=labels[1],
         sleeve_scan_mm=_vector3(in_scan[0]),
         rebar_scan_mm=_vector3(in_scan[1]),
         offset_mm=_vector2(found.offsets[k]),
         distance_mm=float(found.distances[k]),
         u_mm=standard_uncertainty(covariance),
         seen=sleeve_seen and rebar_seen,
-        reason=_inferred(design, k, sleeve_seen, rebar_seen),
+        reason=unseen_in_words(unseen, hung.before),
         sleeve_seen=sleeve_seen,
         rebar_seen=rebar_seen,
         limit_mm=None if rule is None else rule.upper,
         verdict=verdict,
         probability=probability,
     )
-
-
-def _inferred(design: ColumnDesign, k: int, sleeve_seen: bool, rebar_seen: bool) -> str:
-    hidden = [p.label for p, seen in ((design.sleeves[k], sleeve_seen), (design.rebars[k], rebar_seen)) if not seen]
-    return f"{' and '.join(hidden)} not seen: inferred from the others" if hidden else ""
 
 
 def _verdict(pairs: Sequence[HoistingPair], rule: Rule | None, reason: str) -> Verdict:
@@ -239,6 +236,7 @@ def _reasons(pairs: Sequence[HoistingPair], rule: Rule | None, reason: str) -> t
     if rule is None:
         return ()
     clause = f"limit {rule.upper:g} mm ({describe_clause(rule)})"
+    inferred = [pair for pair in pairs if would_pass(pair)]
     beyond = [
         f"{pair.sleeve} is {pair.distance_mm:.2f} mm from {pair.rebar}, {clause}"
         for pair in pairs
@@ -247,9 +245,9 @@ def _reasons(pairs: Sequence[HoistingPair], rule: Rule | None, reason: str) -> t
     unsure = [
         f"{pair.sleeve}-{pair.rebar}: {pair.distance_mm:.2f} mm, u = {pair.u_mm:.2f} mm, is too close to the {clause}"
         for pair in pairs
-        if pair.verdict is Verdict.INCONCLUSIVE
+        if pair.verdict is Verdict.INCONCLUSIVE and pair not in inferred
     ]
-    return (*beyond, *unsure)
+    return (*beyond, *unsure, *look_again(inferred))
 
 
 def key_labels(design: ColumnDesign, near: tuple[int, int]) -> tuple[str, str, str]:

@@ -91,6 +91,12 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
     (rf"largest distance ({_NUMBER}) mm", r"最大中心距 \1 mm"),
     (rf", limit ({_NUMBER}) mm", r",限值 \1 mm"),
     (rf", limit ({_NUMBER} … {_NUMBER}) mm", r",限值 \1 mm"),
+    (
+        r"not seen: what is only inferred does not pass, look from another corner",
+        "未见到:仅靠推断不能判为合格,请从另一角拍摄",
+    ),
+    (r"not seen: where it was measured before hoisting", "未见到:取吊装前的测量位置"),
+    (r"not seen: inferred from the others", "未见到:由其余各点推断"),
     (rf"({_LABEL}) not measured: ", r"\1 未测到:"),
     (rf"not measured: ((?:{_LABEL}(?:, )?)+)", r"未测到:\1"),
     (

@@ -1,0 +1,50 @@
+"""What may be said of a pair that the frame of a hanging column does not show.
+
+A pattern tells where a hidden sleeve and its bar should be, and not that they are there: a bar may be absent or bent, a
+mouth may be taped. So what was not seen fails where even its pattern is beyond the limit, and never passes by itself; a
+scan from before hoisting may speak for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from aadm_workbench.assembly.decision import PASS_PROBABILITY
+from aadm_workbench.model import AssemblyPoint, HoistingPair, Verdict
+
+
+def verdict_unseen(verdict: Verdict, unseen: Sequence[str], before: Sequence[str]) -> Verdict:
+    """The verdict of a pair, given its verdict by value, the labels it hides, and those measured before hoisting."""
+    inferred = set(unseen) - set(before)
+    return Verdict.INCONCLUSIVE if inferred and verdict is Verdict.PASS else verdict
+
+
+def unseen_in_words(unseen: Sequence[str], before: Sequence[str]) -> str:
+    """Of a pair: which of its points were not seen, and where their places come from; empty where both were seen."""
+    inferred = [label for label in unseen if label not in before]
+    resting = [label for label in unseen if label in before]
+    said = [f"{' and '.join(inferred)} not seen: inferred from the others"] if inferred else []
+    said += [f"{' and '.join(resting)} not seen: where it was measured before hoisting"] if resting else []
+    return "; ".join(said)
+
+
+def would_pass(pair: HoistingPair) -> bool:
+    """Whether only that a pair was not seen keeps it from passing."""
+    sure = pair.probability is None or pair.probability >= PASS_PROBABILITY
+    return pair.verdict is Verdict.INCONCLUSIVE and sure
+
+
+def look_again(pairs: Sequence[HoistingPair]) -> tuple[str, ...]:
+    """A sentence on the pairs that only their own evidence could let pass, where there are any."""
+    points = [point for pair in pairs for point in _hidden(pair)]
+    text = f"{', '.join(points)} not seen: what is only inferred does not pass, look from another corner"
+    return (text,) if points else ()
+
+
+def measured_labels(before: Sequence[AssemblyPoint | None] | None, design: Sequence[AssemblyPoint]) -> tuple[str, ...]:
+    """Labels of the design points that were measured before hoisting."""
+    return tuple(target.label for target, point in zip(design, before or (), strict=False) if point is not None)
+
+
+def _hidden(pair: HoistingPair) -> list[str]:
+    return [label for label, seen in ((pair.sleeve, pair.sleeve_seen), (pair.rebar, pair.rebar_seen)) if not seen]
