@@ -38,6 +38,7 @@ from aadm_workbench.model.hoisting import (
     HoistingMeasurement,
     HoistingPair,
     HoistingReport,
+    MovedSince,
 )
 from aadm_workbench.model.measured import (
     AssemblyPoint,
@@ -121,6 +122,7 @@ __all__ = [
     "JobReport",
     "Kind",
     "MouldDrift",
+    "MovedSince",
     "PairResult",
     "Plane",
     "PointResult",
