@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule
-from aadm_workbench.assembly.findings.hoisting_turn import with_turn_finding
-from aadm_workbench.assembly.hoisting_match import Laid, Matched, NoMatch, match_hoisting
+from aadm_workbench.assembly.findings.hoisting_turn import held_while_ambiguous, with_turn_finding
+from aadm_workbench.assembly.hoisting_match import Laid, Matched, NoMatch, corner_name, match_hoisting
+from aadm_workbench.assembly.hoisting_moved import moved_since, still_known, with_scans_named
 from aadm_workbench.assembly.hoisting_pairs import HungFit, report_pairs, unmeasured
 from aadm_workbench.assembly.hoisting_sense import why_half, why_not_bars, why_not_foot
 from aadm_workbench.assembly.hoisting_unseen import measured_labels
@@ -133,17 +134,32 @@ def _measured(
     if isinstance(matched, NoMatch):
         return unmeasured(scan, design, METHOD, matched.reason)
     known = near is not None or matched.orientation == "resolved"
-    foot = _foot(frame, face, design, matched, sleeves_before if known else None, sleeve_mm, settings)
-    hung = _bars(frame, face, foot, bars, design, matched, rebars_before if known else None, bar_mm, settings)
-    if known:
-        before = *measured_labels(sleeves_before, design.sleeves), *measured_labels(rebars_before, design.rebars)
-        hung = replace(hung, before=before)
+    sleeves_before, rebars_before = (sleeves_before, rebars_before) if known else (None, None)
+    foot = _foot(frame, face, design, matched, sleeves_before, sleeve_mm, settings)
+    moved = moved_since(sleeves_before, _labels(design.sleeves), foot.centres, foot.covariance, foot.seen)
+    if moved and sleeves_before is not None:
+        sleeves_before = still_known(sleeves_before, _labels(design.sleeves), foot.seen, moved)
+        foot = _foot(frame, face, design, matched, sleeves_before, sleeve_mm, settings)
+    hung = _bars(frame, face, foot, bars, design, matched, rebars_before, bar_mm, settings)
+    fit = hung.bars
+    bent = moved_since(rebars_before, _labels(design.rebars), fit.tops[:, :2], fit.covariance, fit.seen)
+    if bent and rebars_before is not None:
+        rebars_before = still_known(rebars_before, _labels(design.rebars), fit.seen, bent)
+        hung = _bars(frame, face, foot, bars, design, matched, rebars_before, bar_mm, settings)
+    before = *measured_labels(sleeves_before, design.sleeves), *measured_labels(rebars_before, design.rebars)
+    hung = replace(hung, before=before)
     half = why_half(frame, face, foot)
     reason = why_not_foot(face, foot, sleeve_mm) or why_not_bars(frame, hung, bars, matched, bar_mm)
     if reason:
         return unmeasured(scan, design, METHOD, half or reason)
     measured = report_pairs(scan, frame, design, hung, matched.orientation, settings.profile, settings.decision, half)
-    return replace(measured, report=with_turn_finding(measured.report, near, matched.off_declared))
+    report = with_scans_named(measured.report, (*moved, *bent), before)
+    report = replace(report, near=None if near is None else corner_name(near))
+    return replace(measured, report=held_while_ambiguous(with_turn_finding(report, near, matched.off_declared)))
+
+
+def _labels(points: Sequence[AssemblyPoint]) -> list[str]:
+    return [point.label for point in points]
 
 
 def _places(points: Sequence[AssemblyPoint]) -> Array:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from aadm_workbench.assembly.findings.hoisting_turn import with_contradiction
+from aadm_workbench.assembly.hoisting_contradiction import contradiction_of
 from aadm_workbench.errors import AadmError
 from aadm_workbench.model import (
     AssemblyPoint,
     ColumnDesign,
     ColumnReport,
     GroupReport,
+    HoistingMeasurement,
     HoistingReport,
     Scan,
     Verdict,
@@ -29,7 +33,25 @@ def measure_frames(task: ColumnTask, report: ColumnReport, watch: Stopwatch) -> 
     """Measure the hoisting frames that a job names for a column; a broken one costs itself alone."""
     if task.design is None:
         return ()
-    return tuple(_measured(task, task.design, name, report, watch) for name in task.column.hoisting)
+    column = task.column
+    corners = column.hoisting_near or (column.near,) * len(column.hoisting)
+    named = zip(column.hoisting, corners, strict=True)
+    measured = [_measured(task, task.design, name, near, report, watch) for name, near in named]
+    return _held_against_each_other(measured, task.design)
+
+
+def _held_against_each_other(
+    measured: list[HoistingMeasurement | HoistingReport], design: ColumnDesign
+) -> tuple[HoistingReport, ...]:
+    """The reports of a column's frames; those that contradict each other show no way to push."""
+    reports = [frame if isinstance(frame, HoistingReport) else frame.report for frame in measured]
+    for (i, first), (j, second) in combinations(enumerate(measured), 2):
+        if isinstance(first, HoistingReport) or isinstance(second, HoistingReport):
+            continue
+        finding = contradiction_of(first, second, design)
+        if finding is not None:
+            reports[i], reports[j] = (with_contradiction(reports[k], finding) for k in (i, j))
+    return tuple(reports)
 
 
 def before_hoisting(group: GroupReport | None) -> Before:
@@ -67,11 +89,17 @@ def read_frame(task: ColumnTask, path: Path, name: str) -> Scan:
 
 
 def _measured(
-    task: ColumnTask, design: ColumnDesign, name: str, report: ColumnReport, watch: Stopwatch
-) -> HoistingReport:
+    task: ColumnTask,
+    design: ColumnDesign,
+    name: str,
+    near: tuple[int, int] | None,
+    report: ColumnReport,
+    watch: Stopwatch,
+) -> HoistingMeasurement | HoistingReport:
+    """A frame as it was measured; the report alone of one that could not be read."""
     from aadm_workbench.hoisting import HoistingSettings, measure_hoisting
 
-    column, settings = task.column, task.settings
+    settings = task.settings
     try:
         with watch.stage("read"):
             scan = read_frame(task, task.path_of(name), name)
@@ -83,14 +111,12 @@ def _measured(
             from aadm_workbench.assembly.hoisting_published import measure_published
 
             rng = np.random.default_rng(settings.seed)
-            return measure_published(
-                scan, design, settings.method, near=column.near, rng=rng, profile=settings.profile
-            ).report
+            return measure_published(scan, design, settings.method, near=near, rng=rng, profile=settings.profile)
         return measure_hoisting(
             scan,
             design,
-            near=column.near,
+            near=near,
             sleeves_before=before_hoisting(report.sleeves),
             rebars_before=before_hoisting(report.rebars),
             settings=HoistingSettings(settings.profile, settings.decision, seed=settings.seed),
-        ).report
+        )

@@ -26,13 +26,15 @@ class JobColumn:
 
     ``..._up_deg``: column-frame direction at the top of the image, degrees from +x counter-clockwise from above.
     ``axes``: those of its clouds, None where they are to be found out. ``near``: signs of x and y of the corner of the
-    bars nearest to the hoisting camera. ``control_points`` are measured in the scan of the rebars.
+    bars nearest to the hoisting camera, ``hoisting_near`` the same for each of ``hoisting``. ``control_points`` are
+    measured in the scan of the rebars.
     """
 
     id: str
     sleeves: tuple[str, ...] = ()
     rebars: tuple[str, ...] = ()
     hoisting: tuple[str, ...] = ()
+    hoisting_near: tuple[tuple[int, int] | None, ...] = ()
     sleeves_image: str | None = None
     rebars_image: str | None = None
     sleeves_up_deg: float | None = None

@@ -11,7 +11,7 @@ from aadm_workbench.scan.axes import AXES
 
 from .job import JobColumn
 from .job_control import read_control_points
-from .job_direction import near_corner, up_deg
+from .job_direction import near_corner, read_frames, up_deg
 from .job_table import JobTable
 
 _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
@@ -63,6 +63,7 @@ def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
         )
     up = up_deg(table, "up")
     sleeves_up, rebars_up = up_deg(table, "sleeves_up"), up_deg(table, "rebars_up")
+    hoisting, hoisting_near = read_frames(table)
     design = _design(table, name)
     if design is None and not has_model:
         message = f"column {name} has no design: add [columns.design] to it, or [model] with a path to the job"
@@ -71,7 +72,8 @@ def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
         id=name,
         sleeves=table.paths("sleeves"),
         rebars=table.paths("rebars"),
-        hoisting=table.paths("hoisting"),
+        hoisting=hoisting,
+        hoisting_near=hoisting_near,
         sleeves_image=table.path("sleeves_image"),
         rebars_image=table.path("rebars_image"),
         sleeves_up_deg=up if sleeves_up is None else sleeves_up,

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from aadm_workbench.scan.read import supported_formats
+
+from .job_direction import NEAR
 
 _STEADY_LOOKS = 2  # in a row with the same size: a file that grows changes between them
 _MOST_KNOWN = 2_000  # frames of some hours; names of older ones are forgotten
@@ -13,62 +17,101 @@ _PATIENCE_LOOKS = 8  # a second or so, until a file of full size also has its co
 
 
 @dataclass
+class _Growth:
+    """A file that is not done: what it was when last looked at, in how many looks, and when it was first seen, ns."""
+
+    size: int
+    stamp_ns: int
+    looks: int
+    first_seen_ns: int | None
+
+
+@dataclass
 class FolderWatch:
     """Tells which files of a folder are new and have stopped growing.
 
-    What it knows of files that are gone is forgotten, and of a folder that only ever grows the newest are kept, so that
-    a day of frames costs no more memory than an hour.
+    A camera that stands at another corner writes into a subfolder with that corner's name (``-x-y``). What counts is
+    which file was there, by name, size and time of change, never whether a time lies before another: clocks are set
+    back. What is known of files that are gone is forgotten.
     """
 
     folder: Path
-    names_done: dict[str, int] = field(default_factory=dict)
-    _forgotten_ns: int = -1
-    _sizes: dict[str, tuple[int, int, int]] = field(default_factory=dict)
+    now_ns: Callable[[], int] = time.time_ns
+    names_done: dict[str, tuple[int, int]] = field(default_factory=dict)
+    _growing: dict[str, _Growth] = field(default_factory=dict)
+    _has_looked: bool = False
 
     def skip_present(self) -> None:
         """Count all that is there already as done."""
-        self._forgotten_ns = max((stamp for _, stamp in self._present().values()), default=-1)
+        self._has_looked = True
+        self.names_done = self._present()
 
     def wait_for(self, path: Path) -> None:
         """Look at a file again once it has changed: it was whole in size and not in content."""
-        size, stamp, _ = self._sizes.get(path.name, (0, 0, 0))
-        self._sizes[path.name] = (size, stamp, -_PATIENCE_LOOKS)
+        self._growing.setdefault(self.name_of(path), _Growth(0, 0, 0, None)).looks = -_PATIENCE_LOOKS
 
     def ready(self) -> list[Path]:
         """Files that are new, or written anew, and have not grown since the last looks; oldest first."""
-        present = self._present()
-        self.names_done = {name: stamp for name, stamp in self.names_done.items() if name in present}
-        for name in list(self._sizes):
-            if name not in present:
-                del self._sizes[name]
+        present, now_ns = self._present(), self.now_ns()
+        self.names_done = {name: known for name, known in self.names_done.items() if name in present}
+        self._growing = {name: growth for name, growth in self._growing.items() if name in present}
         found: list[tuple[int, str]] = []
-        for name, (size, stamp) in present.items():
-            if self.names_done.get(name) == stamp or stamp <= self._forgotten_ns or size == 0:
+        for name, (size, stamp_ns) in present.items():
+            if self.names_done.get(name) == (size, stamp_ns) or size == 0:
                 continue
-            last_size, last_stamp, looks = self._sizes.get(name, (-1, -1, 0))
-            looks = looks + 1 if (size, stamp) == (last_size, last_stamp) else 1
-            self._sizes[name] = (size, stamp, looks)
-            if looks >= _STEADY_LOOKS:
-                found.append((stamp, name))
+            # what was there before anybody looked, and says it comes from the future, has no time
+            known = self._has_looked or stamp_ns <= now_ns
+            growth = self._growing.setdefault(name, _Growth(-1, -1, 0, now_ns if known else None))
+            if (size, stamp_ns) == (growth.size, growth.stamp_ns):
+                growth.looks += 1
+            else:
+                growth.size, growth.stamp_ns, growth.looks = size, stamp_ns, 1
+            if growth.looks >= _STEADY_LOOKS:
+                found.append((stamp_ns, name))
+        self._has_looked = True
         return [self.folder / name for _, name in sorted(found)]
 
+    def captured_s(self, path: Path) -> float | None:
+        """When a file that is ready was written, seconds since 1970; not after it was first seen. None: not known."""
+        growth = self._growing.get(self.name_of(path))
+        if growth is None or growth.first_seen_ns is None:
+            return None
+        return min(growth.stamp_ns, growth.first_seen_ns) / 1e9
+
     def done(self, path: Path) -> None:
-        """Count a file as done, as it is now."""
-        _, stamp, _ = self._sizes.pop(path.name, (0, 0, 0))
-        self.names_done[path.name] = stamp
-        while len(self.names_done) > _MOST_KNOWN:
-            oldest = min(self.names_done, key=lambda name: self.names_done[name])
-            self._forgotten_ns = max(self._forgotten_ns, self.names_done.pop(oldest))
+        """Count a file as done, as it was when it was ready."""
+        growth = self._growing.pop(self.name_of(path), _Growth(0, 0, 0, None))
+        self.names_done[self.name_of(path)] = (growth.size, growth.stamp_ns)
+
+    def name_of(self, path: Path) -> str:
+        """What a frame is called: its name, with the corner's subfolder before it."""
+        return path.relative_to(self.folder).as_posix()
 
     def _present(self) -> dict[str, tuple[int, int]]:
         """Size and time of change (ns) of every file that can be a frame."""
-        formats = supported_formats()
         present: dict[str, tuple[int, int]] = {}
-        for path in self.folder.iterdir():
-            if path.suffix.lower() in formats and not path.name.startswith("."):
-                try:
-                    status = path.stat()
-                except OSError:  # gone between listing and looking
-                    continue
-                present[path.name] = (status.st_size, status.st_mtime_ns)
+        for path in self._frames():
+            try:
+                status = path.stat()
+            except OSError:  # gone between listing and looking
+                continue
+            present[self.name_of(path)] = (status.st_size, status.st_mtime_ns)
         return present
+
+    def _frames(self) -> Iterator[Path]:
+        formats = supported_formats()
+        for path in self.folder.iterdir():
+            inner = _listed(path) if path.name in NEAR else [path]
+            yield from (one for one in inner if one.suffix.lower() in formats and not one.name.startswith("."))
+
+
+def _listed(folder: Path) -> list[Path]:
+    try:
+        return list(folder.iterdir())
+    except OSError:  # no folder, or gone between listing and looking
+        return []
+
+
+def corner_of(path: Path) -> tuple[int, int] | None:
+    """The corner that a frame's subfolder names; None for a frame in the folder itself."""
+    return NEAR.get(path.parent.name)

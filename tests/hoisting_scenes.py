@@ -17,21 +17,46 @@ from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_
 NEAR = (-1, -1)
 
 
-def frame(setting: Setting, hang: Hang, stand: Stand, seed: int, *, half_taped: bool = False) -> HoistingScan:
-    """A random foot over random bars, hung and seen as asked for."""
+def frame(
+    setting: Setting,
+    hang: Hang,
+    stand: Stand,
+    seed: int,
+    *,
+    half_taped: bool = False,
+    near: tuple[int, int] = NEAR,
+    bent: tuple[int, float, float] | None = None,
+) -> HoistingScan:
+    """A random foot over random bars, hung and seen as asked for; ``bent``: a bar, and by how much in x and y, mm."""
     rng = np.random.default_rng([11, seed])
     foot, bars = random_foot(setting, rng), random_bars(setting, rng)
+    if bent is not None:
+        number, dx, dy = bent
+        moved = replace(bars.bars[number], x=bars.bars[number].x + dx, y=bars.bars[number].y + dy)
+        bars = replace(bars, bars=(*bars.bars[:number], moved, *bars.bars[number + 1 :]))
     if half_taped:
         turn = rng.uniform(0.0, 2 * np.pi, len(foot.sleeves))
         sleeves = [replace(s, taped=0.5, chip_direction=float(t)) for s, t in zip(foot.sleeves, turn, strict=True)]
         foot = replace(foot, sleeves=tuple(sleeves))
-    return hoisting_scan(foot, bars, hang, stand, CameraNoise.drawn(rng), rng, near=NEAR)
+    return hoisting_scan(foot, bars, hang, stand, CameraNoise.drawn(rng), rng, near=near)
 
 
 @cache
 def usual() -> HoistingScan:
     """The laboratory column 90 mm above its bars, the camera 850 mm away."""
     return frame(LAB, Hang(90.0, shift=(0.6, -0.7)), Stand(850.0), 1)
+
+
+@cache
+def from_corner(near: tuple[int, int]) -> HoistingScan:
+    """The laboratory column, hanging still some way off, seen from a corner."""
+    return frame(LAB, Hang(90.0, shift=(6.1, -5.1)), Stand(800.0), 6, near=near)
+
+
+@cache
+def bent_since() -> HoistingScan:
+    """The usual column, one bar in plain sight bent by 6 mm since its scan."""
+    return frame(LAB, Hang(90.0, shift=(0.6, -0.7)), Stand(850.0), 1, bent=(1, 4.0, -4.5))
 
 
 @cache

@@ -51,6 +51,11 @@ class NoMatch:
     reason: str
 
 
+def corner_name(near: tuple[int, int]) -> str:
+    """A corner as jobs write it: ``-x-y``."""
+    return "".join(f"{'+' if sign > 0 else '-'}{axis}" for sign, axis in zip(near, "xy", strict=True))
+
+
 def match_hoisting(
     mouths: Array, bars: Array, eye: Array, sleeve_places: Array, rebar_places: Array, near: tuple[int, int] | None
 ) -> Matched | NoMatch:
@@ -128,7 +133,7 @@ def _from_corner(found: PlanarPlacement, eye: Array, places: Array) -> float:
 
 
 def _contradiction(near: tuple[int, int], seen: tuple[int, int]) -> str:
-    said, found = ("".join(f"{'+' if s > 0 else '-'}{a}" for s, a in zip(c, "xy", strict=True)) for c in (near, seen))
+    said, found = corner_name(near), corner_name(seen)
     return (
         f'near = "{said}" contradicts the bars in the frame: their pattern puts corner "{found}" next to the camera; '
         "correct near in the job, or see whether these are the bars of another column"

@@ -24,6 +24,8 @@ _GRAZING_NONE = 0.075  # of the cosine: cameras return nothing of what they see 
 _HIDDEN_SHARE = 0.55  # of a bar's width behind nearer bars: the rest is too narrow to measure
 # what frames of the virtual camera came to when it was made; the last as in hoisting_pairs.py
 _FLOOR_MM, _OF_PITCH, _NORMAL_U = 0.075, 0.022, 1.5e-4
+_SHOWN_SHARE, _FEWEST_LAID = 2 / 3, 4  # a frame that shows less is not measured as a whole; three points test nothing
+_OTHERWISE = "take a larger u, or a longer lens; with scans from before hoisting, plan with --before"
 # from the first bar: nearer no camera measures, farther none is sharp; in steps that a person can set
 _DISTANCES_MM = (400.0, 3001.0, 50.0)
 _BELOW_MM = (40.0, 60.0, 90.0, 120.0)  # below the tops: the reference scene's 60, and places about it
@@ -34,7 +36,9 @@ class View:
     """One place of the camera: the corner it stands at, mm from the first bar and below the bar tops.
 
     ``sleeves``, ``rebars``: labels of those it can measure. ``u_mm`` is the expected standard uncertainty per axis of
-    the worst sleeve that it sees over its bar, ``depth_mm`` the distances from which to which it has to measure.
+    the worst sleeve that it sees over its bar, ``depth_mm`` the distances from which to which it has to measure. With
+    scans from before hoisting ``u_of_all_mm`` is that of the worst of all sleeves, hidden ones too; None without, and
+    where the frame shows too little of the column to be laid on them.
     """
 
     near: str
@@ -44,6 +48,7 @@ class View:
     rebars: tuple[str, ...]
     u_mm: float
     depth_mm: tuple[float, float]
+    u_of_all_mm: float | None = None
 
 
 @dataclass(frozen=True)
@@ -66,6 +71,7 @@ def plan_camera(
     sleeves: Sequence[str] | None = None,
     exposed_mm: float = 120.0,
     most_mm: float = 3000.0,
+    before_mm: float | None = None,
 ) -> tuple[CameraPlan, tuple[View, ...]]:
     """Plan the frames for a column.
 
@@ -83,6 +89,8 @@ def plan_camera(
         How far bars stick out of the floor: the camera stands above it.
     most_mm
         The farthest place, from the first bar, that there is room for.
+    before_mm
+        Standard uncertainty per axis of sleeves and bars in scans from before hoisting; None where there are none.
 
     Returns
     -------
@@ -92,20 +100,33 @@ def plan_camera(
     below = [value for value in _BELOW_MM if value < exposed_mm - 15.0] or [_BELOW_MM[0]]
     distances_mm = np.arange(*_DISTANCES_MM)
     distances_mm = distances_mm[distances_mm <= most_mm]
-    by_corner = {
-        corner: [
-            _view(design, camera, corner, float(distance), depth, height_mm)
-            for distance in distances_mm
-            for depth in below
-        ]
-        for corner in (near, *_neighbours(near))
-    }
-    whole = tuple(view for view in by_corner[near] if set(view.sleeves).issuperset(wanted))
+    places = [(float(distance), depth) for distance in distances_mm for depth in below]
+
+    def views_from(corner: tuple[int, int]) -> list[View]:
+        return [_view(design, camera, corner, *place, height_mm, before_mm) for place in places]
+
+    first = views_from(near)
+    if before_mm is not None:
+        return _with_before(first, wanted, wanted_u_mm)
+    whole = tuple(view for view in first if set(view.sleeves).issuperset(wanted))
     good = [view for view in whole if view.u_mm <= wanted_u_mm]
     if good:
         best = max(good, key=lambda view: (len(view.rebars), -view.u_mm))
         return CameraPlan((best,), wanted, best.u_mm), whole
+    by_corner = {near: first, **{corner: views_from(corner) for corner in _neighbours(near)}}
     return _two_views(by_corner, near, wanted, wanted_u_mm), whole
+
+
+def _with_before(views: list[View], wanted: tuple[str, ...], wanted_u_mm: float) -> tuple[CameraPlan, tuple[View, ...]]:
+    """One frame: the scans from before hoisting speak for what it does not show, once it lays them on each other."""
+    known = tuple(view for view in views if view.u_of_all_mm is not None)
+    best = min(known, key=lambda view: view.u_of_all_mm or 0.0, default=None)
+    if best is None:
+        return CameraPlan((), (), None, "no place shows two thirds of the foot: take a shorter lens"), known
+    if (best.u_of_all_mm or 0.0) > wanted_u_mm:
+        reason = f"no place gives u = {wanted_u_mm:g} mm: take a larger u, or scan more surely before hoisting"
+        return CameraPlan((best,), wanted, best.u_of_all_mm, reason), known
+    return CameraPlan((best,), wanted, best.u_of_all_mm), known
 
 
 def _two_views(
@@ -124,7 +145,7 @@ def _two_views(
                 if best is None or (len(seen), -u_mm) > (len(best.seen), -(best.u_mm or 0.0)):
                     best = CameraPlan((first, second), seen, u_mm)
     if best is None:
-        return CameraPlan((), (), None, f"no place gives u = {wanted_u_mm:g} mm: take a larger u, or a longer lens")
+        return CameraPlan((), (), None, f"no place gives u = {wanted_u_mm:g} mm: {_OTHERWISE}")
     lacking = [label for label in wanted if label not in best.seen]
     if lacking:
         reason = f"two frames do not see {', '.join(lacking)} at u = {wanted_u_mm:g} mm"
@@ -138,7 +159,13 @@ def _neighbours(near: tuple[int, int]) -> tuple[tuple[int, int], tuple[int, int]
 
 
 def _view(
-    design: ColumnDesign, camera: Camera, near: tuple[int, int], distance_mm: float, below_mm: float, height_mm: float
+    design: ColumnDesign,
+    camera: Camera,
+    near: tuple[int, int],
+    distance_mm: float,
+    below_mm: float,
+    height_mm: float,
+    before_mm: float | None,
 ) -> View:
     sleeves, rebars = (np.array([p.centre[:2] for p in points]) for points in (design.sleeves, design.rebars))
     radius_mm = design.sleeves[0].diameter_mm / 2
@@ -148,7 +175,8 @@ def _view(
     mouths = np.column_stack([sleeves, np.full(len(sleeves), height_mm)])
     about = mouths - eye
     grazing = about[:, 2] / np.linalg.norm(about, axis=1)
-    seen = _in_picture(mouths, eye, axes, camera, radius_mm) & (grazing > _GRAZING_NONE)
+    shown = _in_picture(mouths, eye, axes, camera, radius_mm)
+    seen = shown & (grazing > _GRAZING_NONE)
     tops = np.column_stack([rebars, np.full(len(rebars), -15.0)])
     bars = _in_picture(tops, eye, axes, camera, design.rebars[0].diameter_mm / 2)
     bars &= hidden_shares(rebars, eye[:2], design.rebars[0].diameter_mm / 2) < _HIDDEN_SHARE
@@ -163,7 +191,27 @@ def _view(
         rebars=tuple(p.label for p, ok in zip(design.rebars, bars, strict=True) if ok),
         u_mm=float(u[seen].max()) if seen.any() else float("inf"),
         depth_mm=(float(depth.min()), float(depth.max())),
+        u_of_all_mm=None if before_mm is None else _u_of_all(sleeves, rebars, seen, bars, shown, u, before_mm),
     )
+
+
+def _u_of_all(
+    sleeves: Array, rebars: Array, seen: BoolArray, bars: BoolArray, shown: BoolArray, u: Array, before_mm: float
+) -> float | None:
+    """Of the worst pair, where the seen points lay the scans from before hoisting on the frame; None for too few."""
+    if shown.mean() < _SHOWN_SHARE or min(seen.sum(), bars.sum()) < _FEWEST_LAID:
+        return None
+    of_bars = np.full(len(rebars), _FLOOR_MM)
+    return float(np.sqrt((_laid(sleeves, seen, u, before_mm) + _laid(rebars, bars, of_bars, before_mm)).max()))
+
+
+def _laid(places: Array, seen: BoolArray, u: Array, before_mm: float) -> Array:
+    """Variance (k,) mm² per axis of points known from before, laid by the seen ones, which are known from both."""
+    about = places - places[seen].mean(axis=0)
+    weight = 1.0 / (u[seen] ** 2 + before_mm**2)
+    turning = 1.0 / float((weight * (about[seen] ** 2).sum(axis=1)).sum())
+    told = before_mm**2 + 1.0 / weight.sum() + turning * (about**2).sum(axis=1) / 2.0
+    return np.asarray(np.where(seen, 1.0 / (1.0 / told + 1.0 / u**2), told))
 
 
 def _looking(eye: Array, target: Array) -> Array:

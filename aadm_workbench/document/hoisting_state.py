@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.errors import ReportError
+from aadm_workbench.report.hoisting_fitness import fitness_of, largest_of, move_of, number, seconds_of
 
 DEFAULT_LIMIT_MM = 3.0
 """GB/T 51231-2016, 10.4, where the measurement does not carry its own limit."""
@@ -21,26 +22,40 @@ DEFAULT_LIMIT_MM = 3.0
 SIDES = {"-y": 0.0, "+x": 90.0, "+y": 180.0, "-x": -90.0}
 """Where the reader stands, seen from the column; the turn of what is ahead of them against +y, degrees."""
 
+_LOOKED_AT = 20  # of the files of a folder that many people write into, several times a second
 _STILL_MM = 0.3  # less than a crane can move by: a tenth of the limit
 _STILL_DEG = 0.03  # 0.2 mm at the corner of a column of 600 mm
+_FULL_ARROW_MM = 20.0
+"""A push that long fills the picture; half of the arrow stands for a quarter of it: 1 mm must be seen from 3 m away."""
 
 
 @dataclass(frozen=True)
 class Measurement:
-    """One frame: the column's id, the block of keys, the file and the time (seconds) it was written."""
+    """One frame: the column's id, the state that holds it (``aadm-state.json``), its file, and the limit."""
 
     column: str
-    frame: Mapping[str, Any]
+    state: Mapping[str, Any]
     file: Path
-    written: float
     limit_mm: float
+
+    @property
+    def frame(self) -> Mapping[str, Any]:
+        """The frame as report.json holds it."""
+        frame: Mapping[str, Any] = self.state["frame"]
+        return frame
+
+    @property
+    def captured_s(self) -> float | None:
+        """When the frame was taken, seconds since 1970; None where that is not known."""
+        return seconds_of(self.state.get("captured"))
 
 
 @dataclass(frozen=True)
 class Guidance:
     """What to do: push to the right and ahead as the reader stands, mm; turn, degrees, counter-clockwise from above.
 
-    ``light`` is ``go``, ``push`` or ``hold``. None where nothing could be measured.
+    ``light`` is ``go``, ``push`` or ``hold``. None where nothing may be shown. ``reason`` says what keeps the column
+    from being lowered.
     """
 
     right_mm: float | None
@@ -59,9 +74,25 @@ class Guidance:
             return False
         return math.hypot(self.right_mm or 0, self.ahead_mm or 0) < _STILL_MM and abs(self.turn_deg or 0) < _STILL_DEG
 
+    @property
+    def arrow_share(self) -> float:
+        """Length of the arrow, of the longest that is drawn: it grows with the root of the amount."""
+        amount_mm = math.hypot(self.right_mm or 0.0, self.ahead_mm or 0.0)
+        return min(1.0, math.sqrt(amount_mm / _FULL_ARROW_MM))
 
-def newest_measurement(folder: Path) -> Measurement | None:
+    @property
+    def margin_light(self) -> str:
+        """In which light the margin stands: green only where the column may be lowered."""
+        if self.margin_mm is not None and self.margin_mm < 0.0:
+            return "push"
+        return "go" if self.light == "go" else "hold"
+
+
+def newest_measurement(folder: Path, now_s: float | None = None) -> Measurement | None:
     """The newest measurement among the .json files of a folder; None where there is none.
+
+    With a time ``now_s``, seconds since 1970, one that is fresh goes before those that are not, whatever the times of
+    their files: clocks are set back.
 
     Raises
     ------
@@ -72,15 +103,17 @@ def newest_measurement(folder: Path) -> Measurement | None:
         files = sorted(((file.stat().st_mtime, file) for file in folder.glob("*.json")), reverse=True)
     except OSError as error:
         raise ReportError(f"{folder}: cannot be read ({error.strerror}); choose another folder") from error
-    for _, file in files:
+    newest: Measurement | None = None
+    for _, file in files[:_LOOKED_AT]:
         try:
             found = read_measurement(file)
         except ReportError:
             # A file that is just being written, or belongs to something else.
             continue
-        if found is not None:
+        if found is not None and (now_s is None or fitness_of(found.state, now_s).fresh):
             return found
-    return None
+        newest = newest or found
+    return newest
 
 
 def read_measurement(file: Path) -> Measurement | None:
@@ -93,7 +126,6 @@ def read_measurement(file: Path) -> Measurement | None:
     """
     try:
         document = json.loads(file.read_text(encoding="utf-8-sig"))
-        written = file.stat().st_mtime
     except (OSError, ValueError) as error:
         raise ReportError(f"{file}: is no report and no hoisting state ({error})") from error
     if not isinstance(document, dict):
@@ -101,32 +133,34 @@ def read_measurement(file: Path) -> Measurement | None:
     column, frame = _frame_of(document)
     if frame is None:
         return None
-    return Measurement(column, frame, file, written, _limit_of(document, frame))
+    limit_mm = _limit_of(document, frame)
+    state = document if document.get("frame") is frame else {"frame": frame}
+    return Measurement(column, {**state, "limit_mm": limit_mm}, file, limit_mm)
 
 
-def guidance_of(measurement: Measurement, standing: str) -> Guidance:
+def guidance_of(measurement: Measurement, standing: str, now_s: float | None = None) -> Guidance:
     """What to do, for somebody who stands at the side ``standing`` of the column and looks at it.
 
     Parameters
     ----------
     standing
         One of :data:`SIDES`.
+    now_s
+        Seconds since 1970; None for what is looked at as a record: it never says ``go``.
     """
-    frame = measurement.frame
-    verdict = str(frame.get("verdict") or "not_measured")
-    correction = frame.get("correction") or {}
-    dx, dy, turn = (_number(correction.get(key)) for key in ("dx_mm", "dy_mm", "yaw_deg"))
-    largest_mm = _number(frame.get("max_mm"))
+    state = measurement.state
+    fitness, largest_mm = fitness_of(state, now_s), largest_of(state)
     margin_mm = None if largest_mm is None else measurement.limit_mm - largest_mm
-    light = {"pass": "go", "fail": "push"}.get(verdict, "hold")
-    reason = "; ".join(str(one) for one in frame.get("reasons") or ())
-    if dx is None or dy is None or verdict == "not_measured":
-        # Too little was seen to say where to push, whatever single pairs give.
-        return Guidance(None, None, turn, largest_mm, margin_mm, "hold", reason)
+    move = move_of(state)
+    if move is None or not fitness.shows_move or measurement.frame.get("verdict") == "not_measured":
+        return Guidance(None, None, None, largest_mm, margin_mm, "hold", fitness.reason)
+    dx, dy, turn = (number(move.get(key)) or 0.0 for key in ("dx_mm", "dy_mm", "yaw_deg"))
     angle = math.radians(SIDES[standing])
     right_mm = dx * math.cos(angle) + dy * math.sin(angle)
     ahead_mm = -dx * math.sin(angle) + dy * math.cos(angle)
-    return Guidance(right_mm, ahead_mm, turn, largest_mm, margin_mm, light, reason)
+    is_beyond = measurement.frame.get("verdict") == "fail" or (margin_mm is not None and margin_mm < 0.0)
+    light = "go" if fitness.ready else "push" if is_beyond else "hold"
+    return Guidance(right_mm, ahead_mm, turn, largest_mm, margin_mm, light, fitness.reason)
 
 
 def _frame_of(document: Mapping[str, Any]) -> tuple[str, Mapping[str, Any] | None]:
@@ -146,19 +180,14 @@ def _frame_of(document: Mapping[str, Any]) -> tuple[str, Mapping[str, Any] | Non
 
 
 def _limit_of(document: Mapping[str, Any], frame: Mapping[str, Any]) -> float:
-    written = _number(frame.get("limit_mm")) or _number(document.get("limit_mm"))
+    written = number(frame.get("limit_mm")) or number(document.get("limit_mm"))
     if written is not None:
         return written
     pairs = frame.get("pairs")
-    own = [_number(pair.get("limit_mm")) for pair in pairs or () if isinstance(pair, dict)]
+    own = [number(pair.get("limit_mm")) for pair in pairs or () if isinstance(pair, dict)]
     if any(limit is not None for limit in own):
         return min(limit for limit in own if limit is not None)
     profile = document.get("profile")
     rules = profile.get("rules", []) if isinstance(profile, dict) else []
-    limits = [_number(rule.get("upper_mm")) for rule in rules if rule.get("limits") == "sleeve_rebar_distance"]
+    limits = [number(rule.get("upper_mm")) for rule in rules if rule.get("limits") == "sleeve_rebar_distance"]
     return min((limit for limit in limits if limit is not None), default=DEFAULT_LIMIT_MM)
-
-
-def _number(value: Any) -> float | None:
-    is_number = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
-    return float(value) if is_number else None

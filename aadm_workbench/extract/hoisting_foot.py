@@ -47,6 +47,7 @@ _WALL_FEWEST = 25  # points of a bore: as in pooled.py
 # neighbouring wall points share their errors: standard errors are this much larger; a choice: ±30 % moves centres by
 # up to 0.9 u and u by 6 %
 _WALL_CORRELATION = 1.6
+_SPREAD_BELIEF = 20  # points: a spread of so few is known to a sixth
 _EDGE_RAYS_MAX = 1_500  # of a mouth: it only bounds the time
 _EDGE_REACH_MM = 2.4  # about the bore as its wall appears: pushes and chamfers are smaller
 # bores are nominal within this; light that bounces pushes walls by up to 0.8 mm (reference camera)
@@ -208,11 +209,29 @@ def _system(
         slope = np.concatenate([view.slope[wall] for _, view, wall in present if view is not None])
         residual, own, pooled = wall_terms(points[:, :2], points[:, 2], slope, owner, state, _WALL, _PUSH)
         sigma_mm = max(spread(residual), 0.03)
-        weight = tukey(residual / sigma_mm) / (_WALL_CORRELATION * sigma_mm) ** 2
+        own_mm = _own_spreads(residual, owner, np.array([0.0 if v is None else v.range_mm for v in views]), sigma_mm)
+        weight = tukey(residual / own_mm) / (_WALL_CORRELATION * own_mm) ** 2
         system.add(Terms(own, pooled, weight * residual, weight, owner))
     system.add_pattern(pattern, state)
     system.add_beliefs(believed, state)
     return system, sigma_mm
+
+
+def _own_spreads(residual: Array, owner: IntArray, ranges_mm: Array, pooled_mm: float) -> Array:
+    """How far the wall points (n,) of each sleeve scatter, mm: those of far sleeves much more than those of near ones.
+
+    What a sleeve's own points show is drawn towards what all show, which grows with the distance: between the
+    unevenness of walls, which does not, and a camera's noise, which grows with its square.
+    """
+    typical_mm = float(np.median(ranges_mm[owner]))
+    found = np.empty(len(residual))
+    for k in np.unique(owner):
+        own = owner == k
+        expected = pooled_mm * ranges_mm[k] / typical_mm
+        count = int(own.sum())
+        variance = (count * spread(residual[own]) ** 2 + _SPREAD_BELIEF * expected**2) / (count + _SPREAD_BELIEF)
+        found[own] = max(np.sqrt(variance), 0.03)
+    return found
 
 
 def _edge_rays(

@@ -39,6 +39,8 @@ class MouthView:
         (m, 2): where all rays cross the face, those that returned nothing too.
     pixel
         (2, 2): columns are how far the crossing moves from row to row, and from column to column.
+    range_mm
+        How far the mouth is from the camera.
     """
 
     points: Array
@@ -46,6 +48,7 @@ class MouthView:
     slope: Array
     rays: Array
     pixel: Array
+    range_mm: float
 
     def radial_pitch(self, outward: Array) -> Array:
         """Width (n,) mm of a pixel along directions (n, 2)."""
@@ -74,7 +77,8 @@ def view_mouth(frame: HoistingFrame, face: FootFace, centre: Array, radius_mm: f
     direction = chosen - eye
     passing = eye[:2] - direction[:, :2] * (eye[2] / direction[:, 2])[:, None]
     slope = direction[:, :2] / np.linalg.norm(direction, axis=1)[:, None]
-    return MouthView(chosen, passing, slope, crossing[within], pixel)
+    range_mm = float(np.linalg.norm(eye - np.append(centre, 0.0)))
+    return MouthView(chosen, passing, slope, crossing[within], pixel, range_mm)
 
 
 def _window(frame: HoistingFrame, face: FootFace, centre: Array, radius_mm: float) -> tuple[slice, slice] | None:

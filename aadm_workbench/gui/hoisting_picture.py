@@ -10,6 +10,7 @@ from PySide import QtCore, QtGui
 
 from aadm_workbench.document.colours import of_verdict
 from aadm_workbench.document.hoisting_state import Guidance
+from aadm_workbench.gui.language import in_language
 
 translate = FreeCAD.Qt.translate
 
@@ -29,16 +30,15 @@ class HoistingPicture(QtGui.QWidget):
         self._guidance: Guidance | None = None
         self._text = ""
         self._caption = ""
-        self._is_old = False
 
     def show_text(self, text: str) -> None:
         """Show a sentence instead of a measurement."""
         self._guidance, self._text, self._caption = None, text, ""
         self.update()
 
-    def show_guidance(self, guidance: Guidance, caption: str, *, is_old: bool) -> None:
-        """Show what to do; an old measurement is never shown as a green light."""
-        self._guidance, self._caption, self._is_old = guidance, caption, is_old
+    def show_guidance(self, guidance: Guidance, caption: str) -> None:
+        """Show what to do; nothing is green but what may be lowered."""
+        self._guidance, self._caption = guidance, caption
         self.update()
 
     def paintEvent(self, event: Any) -> None:
@@ -57,12 +57,11 @@ class HoistingPicture(QtGui.QWidget):
         self._draw_push(painter, middle)
         self._draw_turn(painter, right)
         foot = QtCore.QRectF(0, height * 0.9, width, height * 0.1)
-        colour = QtGui.QColor.fromRgbF(*of_verdict("inconclusive")) if self._is_old else _FRONT
-        _write(painter, foot, self._caption, height / 26, colour)
+        _write(painter, foot, self._caption, height / 26, _FRONT if self._light() == "go" else _colour("hold"))
 
     def _light(self) -> str:
         guidance: Any = self._guidance
-        return "hold" if self._is_old else guidance.light
+        return str(guidance.light)
 
     def _draw_lamps(self, painter: Any, place: Any) -> None:
         size = min(place.width() * 0.8, place.height() / 3.3)
@@ -84,16 +83,16 @@ class HoistingPicture(QtGui.QWidget):
             _write(
                 painter,
                 place,
-                guidance.reason or translate("AADM_Hoisting", "not measured"),
+                in_language(guidance.reason) or translate("AADM_Hoisting", "not measured"),
                 place.height() / 14,
                 _FRONT,
             )
             return
         if guidance.is_still:
-            _write(painter, upper, "●", upper.height() * 0.4, QtGui.QColor.fromRgbF(*of_verdict("pass")))
+            _write(painter, upper, "●", upper.height() * 0.4, _colour(guidance.light))
             _write(painter, lower, translate("AADM_Hoisting", "hold here"), lower.height() * 0.4, _FRONT)
             return
-        reach = 0.42 * min(upper.width(), upper.height())
+        reach = 0.42 * min(upper.width(), upper.height()) * guidance.arrow_share
         _draw_arrow(painter, upper.center(), (guidance.right_mm, -guidance.ahead_mm), reach)
         sideways, along = ("→" if guidance.right_mm >= 0 else "←"), ("↑" if guidance.ahead_mm >= 0 else "↓")
         left_half = QtCore.QRectF(lower.left(), lower.top(), lower.width() / 2, lower.height())
@@ -115,9 +114,14 @@ class HoistingPicture(QtGui.QWidget):
             _write(painter, middle, f"{abs(turn):.2f}°", size * 1.3, _FRONT)
         margin = guidance.margin_mm
         if margin is not None:
-            colour = QtGui.QColor.fromRgbF(*of_verdict("pass" if margin >= 0 else "fail"))
             said = translate("AADM_Hoisting", "margin")
-            _write(painter, bottom, f"{said}\n{margin:+.1f} mm", size, colour.lighter(140))
+            colour = _colour(guidance.margin_light).lighter(140)
+            _write(painter, bottom, f"{said}\n{margin:+.1f} mm", size, colour)
+
+
+def _colour(light: str) -> Any:
+    verdict = next(verdict for name, verdict, _ in _LAMPS if name == light)
+    return QtGui.QColor.fromRgbF(*of_verdict(verdict))
 
 
 def _draw_arrow(painter: Any, centre: Any, direction: tuple[float, float], reach: float) -> None:

@@ -10,16 +10,23 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from aadm_workbench.document.hoisting_state import SIDES, Measurement, guidance_of, newest_measurement, read_measurement
+from aadm_workbench.document.hoisting_state import (
+    SIDES,
+    Guidance,
+    Measurement,
+    guidance_of,
+    newest_measurement,
+    read_measurement,
+)
 from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.file_line import FileLine
 from aadm_workbench.gui.hoisting_picture import HoistingPicture
+from aadm_workbench.gui.language import in_language
 from aadm_workbench.gui.resources import icon_path
 from aadm_workbench.gui.sentences import show_error
 
 translate = FreeCAD.Qt.translate
 _LOOK_EVERY_MS = 300  # a person sees no delay, and reading a small file costs nothing
-_OLD_AFTER_S = 15.0  # a camera that measures gives a frame every few seconds: a column swings away in that time
 
 
 class HoistingWindow(QtGui.QWidget):
@@ -66,7 +73,7 @@ class HoistingWindow(QtGui.QWidget):
         if self.folder.text() and not self.is_recorded:
             self._problem = ""
             try:
-                self.measurement = newest_measurement(Path(self.folder.text()))
+                self.measurement = newest_measurement(Path(self.folder.text()), _now_s())
             except AadmError as error:
                 self.measurement, self._problem = None, str(error)
         self._show()
@@ -94,21 +101,25 @@ class HoistingWindow(QtGui.QWidget):
             choose = translate("AADM_Hoisting", "Choose the folder that is measured into")
             self.picture.show_text(self._problem or (waiting if self.folder.text() else choose))
             return
-        age_s = max(0.0, time.time() - self.measurement.written)  # noqa: TID251 - compared with a file's own time
-        is_old = not self.is_recorded and age_s > _OLD_AFTER_S
-        standing = self.standing.currentData()
-        self.picture.show_guidance(guidance_of(self.measurement, standing), self._caption(age_s), is_old=is_old)
+        now_s = None if self.is_recorded else _now_s()
+        guidance = guidance_of(self.measurement, self.standing.currentData(), now_s)
+        self.picture.show_guidance(guidance, self._caption(guidance, now_s))
 
-    def _caption(self, age_s: float) -> str:
+    def _caption(self, guidance: Guidance, now_s: float | None) -> str:
         measurement: Any = self.measurement
-        if self.is_recorded:
+        if now_s is None:
             when = translate("AADM_Hoisting", "RECORDED, not live")
-        elif age_s > _OLD_AFTER_S:
-            when = translate("AADM_Hoisting", "no new frame for {age:.0f} s: do not rely on it").format(age=age_s)
         else:
-            when = translate("AADM_Hoisting", "{age:.0f} s ago").format(age=age_s)
+            captured_s = measurement.captured_s
+            age_s = 0.0 if captured_s is None else max(0.0, now_s - captured_s)
+            ago = translate("AADM_Hoisting", "{age:.0f} s ago").format(age=age_s)
+            when = in_language(guidance.reason) or ago
         name = measurement.column or measurement.file.stem
         return f"{name}  ·  {Path(str(measurement.frame.get('source') or measurement.file)).name}  ·  {when}"
+
+
+def _now_s() -> float:
+    return time.time()  # noqa: TID251 - compared with a frame's own time
 
 
 def open_window(folder: str = "") -> HoistingWindow:

@@ -38,6 +38,7 @@ from aadm_workbench.model.hoisting import (
     HoistingMeasurement,
     HoistingPair,
     HoistingReport,
+    MovedSince,
 )
 from aadm_workbench.model.measured import (
     AXES_UNKNOWN,
@@ -131,6 +132,7 @@ __all__ = [
     "JobReport",
     "Kind",
     "MouldDrift",
+    "MovedSince",
     "PairResult",
     "Plane",
     "PointResult",

@@ -139,6 +139,19 @@ FINDING_SENTENCES: dict[str, Sentence] = {
         "{source} 中,柱或相机与 near = {near} 相差 {turn_deg:.0f}°,接近下一种转位:"
         "请先将柱转近就位方向或改正 near,再拍一帧",
     ),
+    "hoisting_frames_contradict": Sentence(
+        "{source} (near = {near}) and {other} (near = {other_near}) contradict each other: they agree once one of them "
+        "is turned by {turn_deg:.0f}°. Correct near of the frame that was taken from another corner",
+        "{source}(near = {near})与 {other}(near = {other_near})相互矛盾:将其一转 {turn_deg:.0f}° 后才一致。"
+        "请改正从另一角拍摄的那一帧的 near",
+    ),
+    "hoisting_frames_contradict.pairs": Sentence(
+        "{source} (near = {near}) and {other} (near = {other_near}) contradict each other: their pairs do not stand "
+        "to each other alike. Correct near of the frame that was taken from another corner, or see whether a bar was "
+        "bent in between",
+        "{source}(near = {near})与 {other}(near = {other_near})相互矛盾:各对之间的相对位置不一致。"
+        "请改正从另一角拍摄的那一帧的 near,或查看其间是否有钢筋被碰弯",
+    ),
     "mirrored": Sentence(
         "the scan of the {group} is mirrored: its points fit the pattern only as in a mirror. The picture was flipped "
         "when it was stored, or the cloud has an axis the wrong way round",

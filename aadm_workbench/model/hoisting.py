@@ -68,12 +68,23 @@ class Correction:
 
 
 @dataclass(frozen=True)
+class MovedSince:
+    """A point that stands elsewhere than in its scan from before hoisting, mm, with its standard uncertainty."""
+
+    label: str
+    moved_mm: float
+    u_mm: float
+
+
+@dataclass(frozen=True)
 class HoistingReport:
     """One frame taken while the column hangs over its bars; it has its own verdict.
 
     ``keys`` are the paper's three key points by their sleeves, ``mean_mm`` is over them, ``max_mm`` over all pairs.
     ``vertical_from`` says what gave the bars' vertical, ``orientation`` how it was settled which sleeve is which:
-    ``declared`` by the job, ``resolved`` by the pattern, or ``ambiguous``. ``findings`` hold back this verdict alone.
+    ``declared`` by the job, ``resolved`` by the pattern, or ``ambiguous``: then there is no correction. ``near`` is the
+    corner that was declared. ``moved_since`` are the points that stand elsewhere than before hoisting, and
+    ``rests_on_scans`` labels of those that are known from then alone. ``findings`` hold back this verdict alone.
     """
 
     source: str
@@ -92,6 +103,9 @@ class HoistingReport:
     vertical_from: str = ""
     orientation: str = ""
     findings: tuple[Finding, ...] = ()
+    near: str | None = None
+    moved_since: tuple[MovedSince, ...] = ()
+    rests_on_scans: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

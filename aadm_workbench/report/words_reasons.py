@@ -15,6 +15,8 @@ from aadm_workbench.report.words_scans import FRAGMENTS as FRAGMENTS_OF_SCANS
 _NUMBER = r"[-+±]?[\d.]+"
 _LABEL = r"[SR]\d+"
 
+_WHICH = "各套筒的编号未定:请给出 near,即离相机最近的钢筋角"
+
 # Longer fragments stand before those that they contain.
 _FRAGMENTS: tuple[tuple[str, str], ...] = (
     (rf"({_LABEL}) is ({_NUMBER}) mm from the centre of ({_LABEL})", r"\1 距 \3 中心 \2 mm"),
@@ -99,6 +101,33 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
     ),
     (r"not seen: where it was measured before hoisting", "未见到:取吊装前的测量位置"),
     (r"not seen: inferred from the others", "未见到:由其余各点推断"),
+    (r"it is open which sleeve is which: say near, the corner of the bars nearest to the camera", _WHICH),
+    (rf"({_LABEL}) moved ({_NUMBER}) mm", r"\1 移动了 \2 mm"),
+    (r" since the scan from before hoisting", "(与吊装前的扫描相比)"),
+    (rf"; look at ((?:{_LABEL}(?:, )?)+), which the frame does not show", r";请查看画面未见到的 \1"),
+    (r"recorded, not live", "记录,并非实时"),
+    (r"when the frame was captured is not known: take a new one", "不知该帧的拍摄时间:请重新拍摄"),
+    (r"the frame's time lies (\d+) s ahead: set the clocks alike", r"该帧的时间超前 \1 s:请校准时钟"),
+    (r"captured (\d+) s ago: take a new frame", r"拍摄于 \1 s 前:请重新拍摄"),
+    (
+        r"moving: wait for three frames that tell where it comes to rest",
+        "正在移动:请等待三帧以判断其静止位置",
+    ),
+    (r"seen in fewer than three frames: whether it moves is not known", "不足三帧:尚不知是否在移动"),
+    (
+        rf"swings by ({_NUMBER}) mm, ({_NUMBER}) mm off at rest",
+        r"摆动 \1 mm,静止位置偏差 \2 mm",
+    ),
+    (r": let it come to rest", ":请等其静止"),
+    (r"only (\d+) pairs are seen: three decide where the column goes", r"只见到 \1 对:至少三对才能决定移动"),
+    (rf"({_LABEL}) decides where the column goes, and is not seen", r"\1 决定移动而未见到"),
+    (r"the tilt of the column is not known", "不知柱的倾斜"),
+    (
+        rf"tilted by ({_NUMBER})°: on its way down that moves the foot by ({_NUMBER}) mm",
+        r"倾斜 \1°:下放时柱底会偏移 \2 mm",
+    ),
+    (r"no limit is given", "未给出限值"),
+    (r"the frame does not pass", "该帧不合格"),
     (rf"({_LABEL}) not measured: ", r"\1 未测到:"),
     (rf"not measured: ((?:{_LABEL}(?:, )?)+)", r"未测到:\1"),
     (

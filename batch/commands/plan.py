@@ -25,8 +25,10 @@ EXAMPLE = """\
 examples:
   aadm plan --size 600 --sleeve-diameter 36 --rebar-diameter 20 --per-side 4 --height 180
   aadm plan floor3.toml --column C-301 --height 150 --u 0.15
+  aadm plan --size 1400 --sleeve-diameter 40 --rebar-diameter 25 --per-side 6 --before
   aadm plan --size 1000 --sleeve-diameter 40 --rebar-diameter 25 --per-side 5 --camera camera.toml --json"""
 _COVER_MM = 60.0  # concrete beside a grouting sleeve, and half of it: where the model does not say; a choice
+_BEFORE_MM = 0.1  # what a scan from before tells of a hidden point
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,6 +51,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--u", type=length, default=0.2, metavar="MM", help="wanted standard uncertainty per axis (default: 0.2)"
+    )
+    parser.add_argument(
+        "--before",
+        type=length,
+        nargs="?",
+        const=_BEFORE_MM,
+        metavar="MM",
+        help=f"scans from before hoisting tell where hidden points are, with this u (without MM: {_BEFORE_MM:g})",
     )
     parser.add_argument("--room", type=length, default=3000.0, metavar="MM", help="room for the camera (default: 3000)")
     parser.add_argument("--near", choices=tuple(NEAR), default="-x-y", help="corner at which it can stand")
@@ -79,6 +89,7 @@ def run(options: argparse.Namespace) -> int:
         sleeves=options.sleeves,
         exposed_mm=options.exposed,
         most_mm=options.room,
+        before_mm=options.before,
     )
     if options.json:
         show_json(encode({"plan": plan, "views": views}))
@@ -148,6 +159,6 @@ def _cells(view: View, design: ColumnDesign) -> tuple[str, ...]:
         f"{view.below_tops_mm:.0f}",
         f"{len(view.sleeves)}/{len(design.sleeves)}",
         f"{len(view.rebars)}/{len(design.rebars)}",
-        f"{view.u_mm:.2f}",
+        f"{view.u_mm if view.u_of_all_mm is None else view.u_of_all_mm:.2f}",
         f"{view.depth_mm[0]:.0f} to {view.depth_mm[1]:.0f}",
     )

@@ -1,8 +1,9 @@
 """Measure each new frame of a hanging column as it arrives in a folder.
 
-Writes a line for each frame, and FOLDER/aadm-state.json with the last frame and what all frames say since the column
-last moved. Frames that are still being written are waited for; a bad one is reported and skipped. Ends with Ctrl-C, or
-after --frames or --seconds.
+Writes a line for each frame, and FOLDER/aadm-state.json: the last frame, how the column swings, where to push it from
+its rest, and whether it may be lowered. A camera at another corner writes into a subfolder with that corner's name.
+Frames that are still being written are waited for; a bad one is reported and skipped. Ends with Ctrl-C, or after
+--frames or --seconds.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import argparse
 from pathlib import Path
 
 from ..exit_codes import exit_code_of
+from ..job_direction import NEAR
 from ..one_thread import calculate_in_one_thread
 from ..switches import add_switches, length, whole_number
 
@@ -29,6 +31,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--column", required=True, metavar="ID", help="the column that hangs")
     parser.add_argument(
         "--state", type=Path, metavar="FILE", help=f"the state file (default: {STATE_NAME} in the folder)"
+    )
+    parser.add_argument(
+        "--near", choices=tuple(NEAR), help="corner of the bars nearest to the camera (default: the job's)"
     )
     parser.add_argument("--present", action="store_true", help="begin with the frames that are there already")
     parser.add_argument("--frames", type=whole_number, metavar="N", help="end after this many frames")
@@ -54,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
     watcher = Watcher(
         tasks[0],
         options.folder,
-        WatchOptions(state, options.frames, options.seconds, options.present),
+        WatchOptions(state, options.frames, options.seconds, options.present, NEAR.get(options.near)),
         (lambda line: None) if quiet else say,
     )
     verdict = watcher.run()

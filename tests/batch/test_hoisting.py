@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import threading
 import time
 from dataclasses import replace
@@ -16,16 +17,22 @@ pytest.importorskip("open3d")
 pytest.importorskip("manifold3d")
 
 from aadm_workbench.assembly.hoisting_running import combined
+from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.document.hoisting_state import guidance_of, read_measurement
-from aadm_workbench.hoisting import measure_hoisting
+from aadm_workbench.hoisting import HoistingSettings, measure_hoisting
 from aadm_workbench.model import HoistingMeasurement
+from aadm_workbench.report.hoisting_fitness import seconds_of
 from aadm_workbench.report.json import report_schema
 from aadm_workbench.scan.write import write_depth_tiff
 from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM
 from aadm_workbench.twin.scenes import LAB
 from aadm_workbench.twin.study.hoisting import design_of
+from batch.job_file import read_job
 from batch.main import main
-from batch.watch_folder import FolderWatch
+from batch.run import RunOptions, plan_tasks
+from batch.stopwatch import Stopwatch
+from batch.watch_folder import FolderWatch, corner_of
+from batch.watch_run import Watcher, WatchOptions
 from tests import hoisting_scenes as scenes
 
 _FARTHEST_MM = 65_000 * DEPTH_SCALE_MM
@@ -127,7 +134,61 @@ def test_watch_says_its_last_state_as_json(folder: Path, capsysbinary: pytest.Ca
     assert guidance.largest_mm == state["frame"]["max_mm"]
     assert guidance.margin_mm == pytest.approx(3.0 - state["frame"]["max_mm"])
     assert state["running"]["frames"] == 1
+    assert (state["schema"], state["sequence"], state["valid_for_s"], state["limit_mm"]) == (2, 1, 15.0, 3.0)
+    assert seconds_of(state["captured"]) == pytest.approx((folder / "hang.tiff").stat().st_mtime, abs=0.01)
+    assert (seconds_of(state["measured"]) or 0.0) >= (seconds_of(state["captured"]) or 0.0)
+    assert (state["ready"], state["still"], state["swing"]) == (False, False, None)
+    assert state["reason"] == "seen in fewer than three frames: whether it moves is not known"
+    assert state["frame"]["near"] == "-x-y"
     assert len(state["running"]["pairs"]) == 12
+
+
+def moved_by(found: HoistingMeasurement, shift_mm: float) -> HoistingMeasurement:
+    """The measurement of the same column, displaced along x: its correction and offsets follow."""
+    assert found.report.correction is not None
+    correction = replace(found.report.correction, dx_mm=found.report.correction.dx_mm - shift_mm)
+    report = replace(found.report, correction=correction)
+    return replace(found, report=report, offsets_mm=found.offsets_mm - [shift_mm, 0.0])
+
+
+def test_a_swinging_column_is_never_ready_and_is_pushed_from_its_rest(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nine millimetres to either side, and in the frames that happen to show it in place it passes."""
+    usual = measure_hoisting(
+        scenes.usual().frame.scan(), design_of(LAB), near=scenes.NEAR, settings=HoistingSettings(load_profile("cn"))
+    )
+    (folder / "cut.tiff").unlink()
+    times_s = 1.3 * np.arange(8)
+    shifts = 9.0 * np.sin(2.0 * np.pi * times_s / 4.7)
+    frames = iter([moved_by(usual, float(shift)) for shift in shifts])
+    monkeypatch.setattr("batch.watch_run.measure_hoisting", lambda *_, **__: next(frames))
+    clock = {"s": 0.0}
+    watched = folder / "frames"
+    watched.mkdir()
+    job = read_job(folder / "job.toml")
+    _, _, tasks = plan_tasks(job, RunOptions(only=("L-1",)), Stopwatch())
+    state_file = folder / "state.json"
+    options = WatchOptions(state_file, frames=1, present=True)
+    watcher = Watcher(tasks[0], watched, options, lambda _: None, lambda: NOON_NS + int(clock["s"] * 1e9))
+    states = []
+    for number, time_s in enumerate(times_s, start=1):
+        clock["s"] = float(time_s) + 0.2
+        path = watched / f"{number}.tiff"
+        path.write_bytes((folder / "hang.tiff").read_bytes())
+        os.utime(path, ns=(0, NOON_NS + int(time_s * 1e9)))
+        watcher.options = replace(options, frames=number)
+        watcher.run(lambda _: None)
+        states.append(json.loads(state_file.read_text(encoding="utf-8")))
+    assert [state["sequence"] for state in states] == list(range(1, 9))
+    assert not any(state["ready"] or state["still"] for state in states)
+    assert (states[1]["move"], states[1]["moving"]) == (None, True)
+    assert states[1]["reason"].startswith("moving")
+    last, aim = states[-1], usual.report.correction
+    assert aim is not None
+    assert (last["move"]["dx_mm"], last["move"]["dy_mm"]) == pytest.approx((aim.dx_mm, aim.dy_mm), abs=0.3)
+    assert last["swing"]["amplitude_mm"] == pytest.approx(9.0, abs=1.0)
+    assert last["swing"]["period_s"] == pytest.approx(4.7, abs=0.3)
 
 
 def test_an_hour_of_frames_leaves_no_trace_in_memory(tmp_path: Path) -> None:
@@ -141,6 +202,61 @@ def test_an_hour_of_frames_leaves_no_trace_in_memory(tmp_path: Path) -> None:
         if number % 500 == 0:
             assert watch.ready() == []
     assert len(watch.names_done) <= 2000
+
+
+NOON_NS = 1_796_040_000 * 10**9
+
+
+def put(path: Path, at_s: float) -> Path:
+    """A file that was written so many seconds after noon."""
+    path.parent.mkdir(exist_ok=True)
+    path.write_bytes(b"x")
+    os.utime(path, ns=(0, NOON_NS + int(at_s * 1e9)))
+    return path
+
+
+def ready(watch: FolderWatch) -> list[tuple[str, float | None]]:
+    """Names of the files that are ready, with the seconds after noon of their capture; they count as done then."""
+    watch.ready()
+    found = []
+    for path in watch.ready():
+        captured_s = watch.captured_s(path)
+        found.append((watch.name_of(path), None if captured_s is None else round(captured_s - NOON_NS / 1e9, 3)))
+        watch.done(path)
+    return found
+
+
+@pytest.mark.parametrize("present", [True, False])
+def test_a_file_from_the_future_deafens_nobody(tmp_path: Path, present: bool) -> None:
+    """The clock was two hours ahead when the first file came, and was set right since."""
+    now_s = 0.0
+    watch = FolderWatch(tmp_path, lambda: NOON_NS + int(now_s * 1e9))
+    put(tmp_path / "old.tiff", 7200.0)
+    if present:
+        assert ready(watch) == [("old.tiff", None)]  # when it was captured nobody knows
+    else:
+        watch.skip_present()
+    now_s = 10.0
+    put(tmp_path / "a.tiff", 9.0)
+    assert ready(watch) == [("a.tiff", 9.0)]
+    put(tmp_path / "b.tiff", 7300.0)  # a camera whose clock is still wrong: not captured after it came
+    assert ready(watch) == [("b.tiff", 10.0)]
+    now_s = -3600.0  # set back once more
+    put(tmp_path / "c.tiff", -3601.0)
+    assert ready(watch) == [("c.tiff", -3601.0)]
+    put(tmp_path / "a.tiff", -3600.0)  # written anew under a name that was done
+    assert ready(watch) == [("a.tiff", -3600.0)]
+    assert ready(watch) == []
+
+
+def test_each_corner_may_have_a_subfolder(tmp_path: Path) -> None:
+    watch = FolderWatch(tmp_path, lambda: NOON_NS)
+    watch.skip_present()
+    for name in ("+x-y/a.tiff", "-x-y/a.tiff", "a.tiff", "cam1/a.tiff", "-x+y/notes.md"):
+        put(tmp_path / name, -1.0)
+    assert sorted(name for name, _ in ready(watch)) == ["+x-y/a.tiff", "-x-y/a.tiff", "a.tiff"]
+    assert corner_of(tmp_path / "+x-y" / "a.tiff") == (1, -1)
+    assert corner_of(tmp_path / "a.tiff") is None
 
 
 def still_frames(count: int, shift_mm: float = 0.0, seed: int = 0) -> list[HoistingMeasurement]:

@@ -105,6 +105,50 @@ def test_every_key_is_understood(tmp_path: Path) -> None:
     assert second.design.embedded_length_mm == 160.0
 
 
+FRAMES_JOB = """\
+schema = 1
+model = { path = "m.ifc" }
+[[columns]]
+id = "C"
+near = "-x-y"
+hoisting = HOISTING
+"""
+
+
+@pytest.mark.parametrize(
+    ("hoisting", "files", "corners"),
+    [
+        ('"a.tiff"', ("a.tiff",), ((-1, -1),)),
+        ('["a.tiff", "b.tiff"]', ("a.tiff", "b.tiff"), ((-1, -1), (-1, -1))),
+        ('[{file = "a.tiff", near = "+x-y"}, "b.tiff"]', ("a.tiff", "b.tiff"), ((1, -1), (-1, -1))),
+        ('[{file = "a.tiff"}, {file = "a.tiff", near = "+x+y"}]', ("a.tiff", "a.tiff"), ((-1, -1), (1, 1))),
+        ('{file = "a.tiff", near = "-x+y"}', ("a.tiff",), ((-1, 1),)),
+    ],
+)
+def test_each_frame_may_have_its_own_corner(
+    tmp_path: Path, hoisting: str, files: tuple[str, ...], corners: tuple[tuple[int, int], ...]
+) -> None:
+    (column,) = read_job(written(tmp_path, FRAMES_JOB.replace("HOISTING", hoisting))).columns
+    assert (column.hoisting, column.hoisting_near) == (files, corners)
+
+
+@pytest.mark.parametrize(
+    ("hoisting", "message"),
+    [
+        ('[{file = "a.tiff", near = "x"}]', "line 6: near must be one of the corners"),
+        ('[{near = "+x-y"}]', "line 6: a frame of hoisting has no file"),
+        ('[\n{file = "a.tiff"},\n{file = "b.tiff", neer = "+x-y"}]', 'line 8: unknown key "neer"'),
+        ("[{file = 3}]", "line 6: file must be text"),
+        ('[{file = "a.tiff"}, 3]', "line 6: hoisting must hold files or"),
+        ("3", "line 6: hoisting must be text in quotes or a list of texts"),
+    ],
+)
+def test_a_wrong_frame_names_its_line(tmp_path: Path, hoisting: str, message: str) -> None:
+    with pytest.raises(JobError) as caught:
+        read_job(written(tmp_path, FRAMES_JOB.replace("HOISTING", hoisting)))
+    assert message in str(caught.value)
+
+
 def test_what_is_not_said(tmp_path: Path) -> None:
     job = read_job(written(tmp_path, 'schema = 1\n[model]\npath = "m.ifc"\n[[columns]]\nid = "C"\n'))
     assert (job.name, job.units, job.profile.name, job.decision) == ("job", "mm", "cn", "guarded")

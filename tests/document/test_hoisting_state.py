@@ -3,18 +3,44 @@
 import json
 import os
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from aadm_workbench.document.hoisting_state import SIDES, guidance_of, newest_measurement, read_measurement
+from aadm_workbench.document.hoisting_state import SIDES, Guidance, guidance_of, newest_measurement, read_measurement
 from aadm_workbench.errors import ReportError
 
 FRAME = {
     "source": "frame.tiff",
     "verdict": "fail",
+    "orientation": "declared",
     "max_mm": 5.0,
     "correction": {"dx_mm": 4.0, "dy_mm": 3.0, "yaw_deg": -0.5},
     "pairs": [],
+}
+
+NOON = 1_796_040_000.0
+READY: dict[str, Any] = {
+    "schema": 2,
+    "column": "C-1",
+    "captured": "2026-11-30T12:00:00Z",
+    "valid_for_s": 15.0,
+    "limit_mm": 3.0,
+    "still": True,
+    "moving": False,
+    "swing": {"amplitude_mm": 0.1, "period_s": None},
+    "largest_mm": 1.0,
+    "move": {"dx_mm": 0.4, "dy_mm": -0.2, "yaw_deg": 0.01},
+    "frame": {
+        "source": "frame.tiff",
+        "verdict": "pass",
+        "max_mm": 1.1,
+        "orientation": "declared",
+        "height_mm": 90.0,
+        "column_tilt_deg": 0.1,
+        "pairs": [{"sleeve": f"S{k}", "rebar": f"R{k}", "seen": True, "rebar_seen": True} for k in range(1, 5)],
+        "correction": {"dx_mm": 0.1, "dy_mm": 0.0, "yaw_deg": 0.0, "over": ["S1", "S2", "S3", "S4"]},
+    },
 }
 
 
@@ -41,13 +67,61 @@ def test_directions_are_the_readers(tmp_path: Path, standing: str, right_mm: flo
 
 
 @pytest.mark.parametrize(
-    ("verdict", "light"),
-    [("pass", "go"), ("fail", "push"), ("inconclusive", "hold"), ("not_measured", "hold"), ("nonsense", "hold")],
+    ("verdict", "largest_mm", "light"),
+    [
+        ("pass", 1.0, "go"),
+        ("fail", 5.0, "push"),
+        ("inconclusive", 2.9, "hold"),
+        ("not_measured", 1.0, "hold"),
+        ("nonsense", 1.0, "hold"),
+    ],
 )
-def test_only_a_pass_is_green(tmp_path: Path, verdict: str, light: str) -> None:
-    found = read_measurement(write(tmp_path, "state.json", FRAME | {"verdict": verdict}))
+def test_only_a_pass_that_is_fit_is_green(tmp_path: Path, verdict: str, largest_mm: float, light: str) -> None:
+    state = READY | {"frame": READY["frame"] | {"verdict": verdict}, "largest_mm": largest_mm}
+    found = read_measurement(write(tmp_path, "aadm-state.json", state))
     assert found is not None
-    assert guidance_of(found, "-y").light == light
+    assert guidance_of(found, "-y", NOON + 1.0).light == light
+    for unfit in (NOON + 60.0, NOON - 60.0, None):  # old, from the future, recorded
+        assert guidance_of(found, "-y", unfit).light != "go"
+        assert guidance_of(found, "-y", unfit).margin_light != "go"
+
+
+def test_an_old_frame_shows_no_arrow(tmp_path: Path) -> None:
+    found = read_measurement(write(tmp_path, "aadm-state.json", READY))
+    assert found is not None
+    assert guidance_of(found, "-y", NOON).right_mm == 0.4
+    old = guidance_of(found, "-y", NOON + 16.0)
+    assert (old.right_mm, old.ahead_mm, old.light) == (None, None, "hold")
+    assert old.reason == "captured 16 s ago: take a new frame"
+
+
+def test_the_arrow_is_that_of_the_rest_of_the_swing(tmp_path: Path) -> None:
+    swinging = READY | {"still": False, "swing": {"amplitude_mm": 9.0, "period_s": 4.5}}
+    found = read_measurement(write(tmp_path, "aadm-state.json", swinging))
+    assert found is not None
+    guidance = guidance_of(found, "-y", NOON)
+    assert (guidance.right_mm, guidance.light) == (0.4, "hold")  # its frame by itself passes, and says 0.1
+    unknown = swinging | {"swing": None, "moving": True, "move": None}
+    found = read_measurement(write(tmp_path, "aadm-state.json", unknown))
+    assert found is not None
+    assert guidance_of(found, "-y", NOON).right_mm is None
+
+
+def test_an_ambiguous_frame_shows_no_arrow(tmp_path: Path) -> None:
+    for record in (FRAME | {"orientation": "ambiguous"}, {key: FRAME[key] for key in FRAME if key != "orientation"}):
+        found = read_measurement(write(tmp_path, "state.json", record))
+        assert found is not None
+        guidance = guidance_of(found, "-y")
+        assert (guidance.right_mm, guidance.turn_deg, guidance.light) == (None, None, "hold")
+
+
+def test_the_arrow_grows_with_the_amount() -> None:
+    shares = [Guidance(mm, 0.0, 0.0, mm, None, "push").arrow_share for mm in (0.2, 1.0, 5.0, 20.0, 90.0)]
+    assert shares == sorted(shares)
+    assert shares[0] < 0.11
+    assert shares[1] > 0.2  # 1 mm is seen from afar
+    assert shares[2] == pytest.approx(0.5)
+    assert shares[3:] == [1.0, 1.0]
 
 
 @pytest.mark.parametrize("correction", [None, {}, {"dx_mm": None, "dy_mm": 1.0}, {"dx_mm": float("nan"), "dy_mm": 1.0}])
@@ -77,6 +151,17 @@ def test_the_newest_frame_counts_and_half_a_file_does_not(tmp_path: Path) -> Non
     found = newest_measurement(tmp_path)
     assert found is not None
     assert found.frame["max_mm"] == 7.0
+
+
+def test_a_fresh_state_goes_before_a_file_from_the_future(tmp_path: Path) -> None:
+    write(tmp_path, "aadm-state.json", READY, age_s=500.0)
+    write(tmp_path, "old.json", FRAME, age_s=-9000.0)
+    found = newest_measurement(tmp_path, NOON + 2.0)
+    assert found is not None
+    assert found.column == "C-1"
+    gone_stale = newest_measurement(tmp_path, NOON + 99.0)
+    assert gone_stale is not None
+    assert gone_stale.file.name == "old.json"
 
 
 def test_last_frame_of_a_report_is_shown(tmp_path: Path) -> None:

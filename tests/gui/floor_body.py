@@ -107,24 +107,34 @@ FreeCAD.closeDocument(far.Name)
 # Hoisting.
 measured = folder / "measured"
 measured.mkdir()
-frame = {"source": "frame-1.tiff", "verdict": "fail", "max_mm": 12.9, "pairs": []}
-frame["correction"] = {"dx_mm": 8.0, "dy_mm": -5.0, "yaw_deg": 0.4}
+pairs = [{"sleeve": f"S{k}", "rebar": f"R{k}", "seen": True, "rebar_seen": True} for k in range(1, 5)]
+move = {"dx_mm": 8.0, "dy_mm": -5.0, "yaw_deg": 0.4}
+frame = {"source": "frame-1.tiff", "verdict": "fail", "max_mm": 12.9, "pairs": pairs, "orientation": "declared"}
+frame |= {"height_mm": 90.0, "column_tilt_deg": 0.1, "correction": {**move, "over": ["S1", "S2", "S3", "S4"]}}
+
+
+def put_state(age_s, **changes):
+    from aadm_workbench.report.hoisting_fitness import stamp_of
+
+    state = {"schema": 2, "column": "C-302", "captured": stamp_of(time.time() - age_s), "valid_for_s": 15.0}
+    state |= {"still": True, "swing": {"amplitude_mm": 0.2}, "limit_mm": 3.0, "move": move, "largest_mm": 12.9}
+    (measured / "state.json").write_text(json.dumps({**state, "frame": frame, **changes}))
+    hoisting.look()
+    result["lights"].append(hoisting.picture._light())
+
+
+result["lights"] = []
 hoisting = open_window(str(measured))
 hoisting.look()
 screenshot("waiting.png")
-(measured / "state.json").write_text(json.dumps({"column": "C-302", **frame}))
-hoisting.look()
+put_state(0.0, still=False)
 result["hoisting"] = [hoisting.picture._guidance.right_mm, hoisting.picture._guidance.ahead_mm]
-result["lights"] = [hoisting.picture._light()]
 screenshot("hoisting.png")
-(measured / "state.json").write_text(json.dumps({"column": "C-302", **frame, "verdict": "pass", "max_mm": 1.2}))
-hoisting.look()
-result["lights"].append(hoisting.picture._light())
-import os
-
-os.utime(measured / "state.json", (time.time() - 60, time.time() - 60))
-hoisting.look()
-result["lights"].append(hoisting.picture._light())
+passing = {**frame, "verdict": "pass", "max_mm": 1.2}
+put_state(0.0, frame=passing, largest_mm=1.2)
+put_state(60.0, frame=passing, largest_mm=1.2)
+screenshot("stale.png")
+put_state(0.0, frame=passing, largest_mm=1.2, still=False, swing=None, moving=True, move=None)
 (measured / "state.json").write_text("{")
 hoisting.look()
 result["text_for_broken_state"] = hoisting.picture._text

@@ -367,10 +367,6 @@
    <translation>余量</translation>
   </message>
   <message>
-   <source>no new frame for {age:.0f} s: do not rely on it</source>
-   <translation>{age:.0f} 秒没有新数据：不可依据</translation>
-  </message>
-  <message>
    <source>not measured</source>
    <translation>未测得</translation>
   </message>
