@@ -52,7 +52,6 @@ def read_job(path: Path) -> Job:
     _check_schema(top)
     camera, depth_scale_mm = _camera(top)
     model, units = _model(top), top.one_of("units", ("mm", "m"), "mm")
-    columns = read_columns(top, units=units, has_model=model is not None)
     return Job(
         source=str(path),
         folder=path.parent,
@@ -66,7 +65,7 @@ def read_job(path: Path) -> Job:
         model=model,
         camera=camera,
         depth_scale_mm=depth_scale_mm,
-        columns=columns,
+        columns=(columns := read_columns(top, units=units, has_model=model is not None)),
         capture=_capture(top),
         lines={column.id: top.line("columns", place, "id") for place, column in enumerate(columns)},
     )
