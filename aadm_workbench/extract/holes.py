@@ -15,6 +15,7 @@ _RING = (1.15, 1.6)  # of the radius: this part around a hole holds face points
 # cells of an empty disc that strays and a tape fill (a choice: ±30 % moves nothing on sound scans)
 _DISC_FILL_MAX = 0.45
 _RING_FILL_MIN = 0.55  # a mouth at an edge of the face has half a ring (a choice: ±30 % moves nothing on sound scans)
+_MOST_FOUND = 400  # no foot has so many: they are noise, and what is further sought in it takes minutes
 _EXTENT_FROM = 20_000  # points
 
 
@@ -91,10 +92,12 @@ def _merged(
     scores = score[rows, columns][order].astype(np.float64)
     found: list[Array] = []
     kept: list[float] = []
-    for centre, value in zip(centres, scores, strict=True):
-        if any(np.hypot(*(centre - other)) < 1.2 * radius_mm for other in found):
-            continue
-        alike = (np.hypot(*(centres - centre).T) < 0.8 * radius_mm) & (scores > value - 0.03)
+    free = np.ones(len(centres), bool)
+    while free.any() and len(found) < _MOST_FOUND:
+        best = int(free.argmax())
+        alike = (np.hypot(*(centres - centres[best]).T) < 0.8 * radius_mm) & (scores > scores[best] - 0.03)
         found.append(np.average(centres[alike], axis=0, weights=scores[alike]))
-        kept.append(value)
+        kept.append(float(scores[best]))
+        free[best] = False
+        free &= np.hypot(*(centres - found[-1]).T) >= 1.2 * radius_mm
     return np.array(found).reshape(-1, 2), np.array(kept)
