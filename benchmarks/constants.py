@@ -196,7 +196,7 @@ def main() -> None:
     parser.add_argument("--by", type=float, default=0.3)
     options = parser.parse_args()
     if unknown := {*options.groups} - GROUPS.keys():
-        parser.error(f"there is no group {sorted(unknown)[0]!r}; write one of {', '.join(GROUPS)}")
+        parser.error(f"there is no group {min(unknown)!r}; write one of {', '.join(GROUPS)}")
     print(json.dumps({"machine": platform.platform(), "python": platform.python_version(), "numpy": np.__version__}))
     for group in options.groups or GROUPS:
         make, belongs = GROUPS[group]
