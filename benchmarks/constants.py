@@ -191,12 +191,14 @@ def studied(find: Callable[[], Found], parts: Mapping[str, ModuleType], only: se
 def main() -> None:
     """Print the machine and a line for each constant and direction, as JSON."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("group", nargs="*", choices=[*GROUPS, []], default=list(GROUPS))
+    parser.add_argument("groups", nargs="*", metavar="GROUP", help=f"{', '.join(GROUPS)} (default: all)")
     parser.add_argument("--only", nargs="+", default=[], metavar="NAME")
     parser.add_argument("--by", type=float, default=0.3)
     options = parser.parse_args()
+    if unknown := {*options.groups} - GROUPS.keys():
+        parser.error(f"there is no group {min(unknown)!r}; write one of {', '.join(GROUPS)}")
     print(json.dumps({"machine": platform.platform(), "python": platform.python_version(), "numpy": np.__version__}))
-    for group in options.group:
+    for group in options.groups or GROUPS:
         make, belongs = GROUPS[group]
         parts = {name: module for name, module in modules().items() if belongs(name)}
         for line in studied(make(), parts, {*options.only}, options.by):
