@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
@@ -50,11 +50,14 @@ def within(begun: set[int], entity: Any) -> Iterator[None]:
 class Placements:
     """Evaluates placements; ``mm`` is the length of one unit of the file.
 
+    ``on_grid`` evaluates those on grids, whose axes are curves: these need placements themselves.
+
     Coordinates of 6,700 km keep a millionth of a millimetre in float64, so long as no large numbers are turned:
     the chain is multiplied from the outside inwards, and each translation stays where it was written.
     """
 
     mm: float
+    on_grid: Callable[[Placements, Any], Array]
     _known: dict[int, Array] = field(default_factory=dict, repr=False)
     _begun: set[int] = field(default_factory=set, repr=False)
 
@@ -110,10 +113,8 @@ class Placements:
         return T
 
     def _on_grid(self, placement: Any) -> Array:
-        from aadm_workbench.design.ifc_grid_placement import grid_frame  # axes are curves, which need placements
-
         with within(self._begun, placement):
-            return grid_frame(self, placement)
+            return self.on_grid(self, placement)
 
     def of_axes(self, axes: Any) -> Array:
         """An IfcAxis2Placement3D or 2D, or an IfcAxis1Placement; None is the identity."""

@@ -13,6 +13,7 @@ import numpy as np
 from aadm_workbench.design.bar_courses import Course, courses, whole_bars
 from aadm_workbench.design.ifc_curve import Curves
 from aadm_workbench.design.ifc_entity import optional
+from aadm_workbench.design.ifc_grid_placement import grid_frame
 from aadm_workbench.design.ifc_placement import NothingThereError, Placements
 from aadm_workbench.design.ifc_profile import Profiles
 from aadm_workbench.design.ifc_representation import axis_items, body_of
@@ -200,6 +201,6 @@ def _coarse_tubes(shape: Shape) -> list[Tube]:
 
 def evaluator(mm: float, radians: float, *, coarse: bool = False) -> Shapes:
     """An evaluator for a file whose units of length and angle are given in millimetres and radians."""
-    placements = Placements(mm)
+    placements = Placements(mm, grid_frame)
     curves = Curves(placements, radians)
     return Shapes(Solids(placements, curves, Profiles(placements, curves)), coarse)
