@@ -141,7 +141,16 @@ def clear_asides(folder: Path) -> None:
             with suppress(OSError), looked_up(folder / name) as (place, opened):
                 os.unlink(place, dir_fd=opened)
         elif name.startswith(ASIDE_FOLDER):
-            shutil.rmtree(folder / name, ignore_errors=True)
+            remove(folder / name)
+
+
+def remove(path: Path) -> None:
+    """Remove a folder and what is in it, or whatever stands for it; no link is followed and no pipe opened."""
+    with suppress(OSError):
+        if stat.S_ISDIR(path.lstat().st_mode):
+            shutil.rmtree(path, ignore_errors=True)
+        else:
+            path.unlink()
 
 
 def _status(path: Path, name: str | Path, folder: int | None, *, replace: bool) -> os.stat_result | None:

@@ -19,8 +19,8 @@ _COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "axes", "near", "desi
 MOST_COLUMNS = 20_000
 """Ten shipments of the largest kind."""
 
-LONGEST_ID = 255
-"""What IFC allows a label to have (IfcLabel)."""
+LONGEST_ID = 1024
+"""Four times what IFC allows a label to have (IfcLabel)."""
 
 _LENGTHS = ("embedded_length", "exposed_length")
 _SIZES = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter")

@@ -6,9 +6,8 @@ report is the same.
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -22,6 +21,7 @@ from aadm_workbench.check import CheckSettings
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.errors import AadmError, DesignError, JobError
 from aadm_workbench.model import ColumnDesign, ColumnReport, JobReport
+from aadm_workbench.own_files import remove
 
 from .engine import Death, Pool, work_through
 from .inputs import ShippedFile
@@ -166,8 +166,8 @@ def _scratch(stack: ExitStack, folder: Path | None) -> Path:
     if folder is None:
         return Path(stack.enter_context(TemporaryDirectory(prefix="aadm-workers-", ignore_cleanup_errors=True)))
     scratch = folder / SCRATCH_NAME
-    stack.callback(_removed, scratch)
-    _removed(scratch)
+    stack.callback(remove, scratch)
+    remove(scratch)
     try:
         # Nobody else may write into it, whoever may write beside it.
         scratch.mkdir(mode=0o700)
@@ -175,13 +175,6 @@ def _scratch(stack: ExitStack, folder: Path | None) -> Path:
         reason = f"cannot be made ({error.strerror}); remove what is there, or name another folder with --out"
         raise AadmError(f"{scratch}: the folder of the workers {reason}") from error
     return scratch
-
-
-def _removed(scratch: Path) -> None:
-    """Remove a folder and what is in it, or whatever stands for it; no link is followed."""
-    shutil.rmtree(scratch, ignore_errors=True)
-    with suppress(OSError):
-        scratch.unlink()
 
 
 class _Watcher:

@@ -111,7 +111,7 @@ def test_a_pipe_is_refused_at_once(job: Path, repository: Path, name: str) -> No
 
 
 def test_pipes_in_place_of_other_files_hold_nothing_up(job: Path, repository: Path) -> None:
-    for name in ("workers.log", "report.json", "timing.json", "report.bcf"):
+    for name in ("workers.log", "report.json", "timing.json", "report.bcf", ".aadm-workers", ".aadm-freecad-1"):
         os.mkfifo(job.parent / "job-report" / name)
     command = [sys.executable, "-m", "batch", "check", str(job), "--quiet", "--jobs", "2", "--bcf"]
     done = subprocess.run(command, cwd=repository, timeout=60, capture_output=True, check=False)
@@ -241,7 +241,7 @@ def test_texts_of_any_length_never_keep_a_report_from_being_made(
     """Every text that may be anything is four thousand signs long; ids as long as they may be."""
     report = json.loads(json.dumps(floor | {"columns": floor["columns"][1:3]}))
     for number, entry in enumerate(report["columns"]):
-        entry["id"] = f"{number}{LONG[sign]}"[:255]
+        entry["id"] = f"{number}{LONG[sign]}"[:1024]
         entry["storey"] = entry["grid"] = entry["piece_mark"] = LONG[sign]
         entry["reasons"] = [LONG[sign]] * 2
         for kind in ("sleeves", "rebars"):
@@ -258,13 +258,13 @@ def test_texts_of_any_length_never_keep_a_report_from_being_made(
 
 
 def test_an_id_that_is_too_long(tmp_path: Path, floor: dict[str, Any], capsys: pytest.CaptureFixture[str]) -> None:
-    job = write_job(tmp_path, "schema = 1\n" + column("x" * 256, sleeves="none.ply"))
+    job = write_job(tmp_path, "schema = 1\n" + column("x" * 1025, sleeves="none.ply"))
     assert main(["check", str(job), "--quiet"]) == 2
-    assert "the id has 256 characters, 255 are the most" in capsys.readouterr().err
-    job = write_job(tmp_path, "schema = 1\n" + column("x" * 255, sleeves="none.ply"))
+    assert "the id has 1025 characters, 1024 are the most" in capsys.readouterr().err
+    job = write_job(tmp_path, "schema = 1\n" + column("x" * 1024, sleeves="none.ply"))
     assert main(["check", str(job), "--quiet"]) == 12
     report = json.loads(json.dumps(floor))
-    report["columns"][0]["id"] = "x" * 256
+    report["columns"][0]["id"] = "x" * 1025
     (tmp_path / "report.json").write_text(json.dumps(report), encoding="utf-8")
     assert main(["report", str(tmp_path / "report.json"), "--csv"]) == 2
     assert "columns.0.id is not what a report holds" in capsys.readouterr().err
