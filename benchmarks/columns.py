@@ -23,6 +23,7 @@ LONGEST_MARGIN_MM = 1.5
 
 _CORNERS = 96
 _HALVINGS = 12
+_REWEIGHTED = 60
 _OUTLIER_SCALE = 0.4
 _ODD = 4.0
 
@@ -122,13 +123,17 @@ class Built:
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """k columns as built: ``tops``, ``feet``, ``mouths``, ``depths`` (k, n, 2) mm, ``rooms_mm`` (k, n)."""
+    """k columns as built: ``tops``, ``feet``, ``mouths``, ``depths`` (k, n, 2) mm, ``rooms_mm`` (k, n).
+
+    ``kinks`` (k, n, 2) mm is how far a foot would be from under its top if the seen part of the bar were upright.
+    """
 
     tops: Array
     feet: Array
     mouths: Array
     depths: Array
     rooms_mm: Array
+    kinks: Array
 
     def margins_mm(self) -> Array:
         """Slack (k,) of the best pose of each."""
@@ -140,15 +145,32 @@ class Truth:
     def only(self, case: int, kept: Array | None = None) -> Truth:
         """One of the columns, with the pairs ``kept`` (n,) alone."""
         chosen = slice(None) if kept is None else kept
-        parts = (self.tops, self.feet, self.mouths, self.depths, self.rooms_mm)
+        parts = (self.tops, self.feet, self.mouths, self.depths, self.rooms_mm, self.kinks)
         return Truth(*(part[case : case + 1, chosen] for part in parts))
+
+    def off_mm(self) -> Array:
+        """How far each bar (n,) of one column stands off the place that most of the others give it."""
+        offsets, about = self.tops[0] - self.mouths[0], self.mouths[0] - self.mouths[0].mean(axis=0)
+        rows = np.zeros((len(about), 2, 3))
+        rows[:, 0, 0] = rows[:, 1, 1] = 1.0
+        rows[:, :, 2] = np.column_stack([-about[:, 1], about[:, 0]]) / np.abs(about).max()
+        left = offsets
+        for _ in range(_REWEIGHTED):
+            weight = 1.0 / np.maximum(np.hypot(*left.T), 1e-3)
+            normal = np.einsum("n,nij,nik->jk", weight, rows, rows)
+            pose = np.linalg.solve(normal, np.einsum("n,nij,ni->j", weight, rows, offsets))
+            left = offsets - rows @ pose
+        return np.asarray(np.hypot(*left.T))
 
     def bent(self, labels: list[str], repair: RepairReport) -> Truth:
         """One column once its bars were bent as advised."""
-        by = np.zeros_like(self.tops)
+        tops, feet = self.tops.copy(), self.feet.copy()
         for step in repair.steps:
-            by[0, labels.index(step.rebar)] = step.bend_mm or (0.0, 0.0)
-        return replace(self, tops=self.tops + by, feet=self.feet + by)
+            bar = labels.index(step.rebar)
+            tops[0, bar] += step.bend_mm or (0.0, 0.0)
+            lean = self.kinks[0, bar] if step.upright else self.tops[0, bar] - self.feet[0, bar]
+            feet[0, bar] = tops[0, bar] - lean
+        return replace(self, tops=tops, feet=feet)
 
 
 def true_margin_mm(source: Array, target: Array, limits_mm: Array) -> float:
@@ -188,7 +210,7 @@ def build_columns(
         tops = mouths + size * offsets
         feet = tops - size * bar_leans * scene.embedded_mm - kinks
         places = np.broadcast_to(mouths, shape)
-        return Truth(tops, feet, places, places + size * sleeve_leans * scene.embedded_mm, rooms_mm)
+        return Truth(tops, feet, places, places + size * sleeve_leans * scene.embedded_mm, rooms_mm, kinks)
 
     scales = np.full(cases, _OUTLIER_SCALE)
     if outlier_mm is None:

@@ -272,15 +272,18 @@ def _print_columns(cases: int, rng: Callable[[int], np.random.Generator]) -> Non
     from benchmarks.periodic import periodic_views
 
     each = max(cases // len(SCENES), 1)
-    judged = [judged_columns(scene, each, rng(100 + number)) for number, scene in enumerate(SCENES)]
-    for found in judged:
-        print("f. columns:", found)
+    judged = []
+    for number, scene in enumerate(SCENES):
+        judged.append(judged_columns(scene, each, rng(100 + number)))
+        print("f. columns:", judged[-1], flush=True)
     print(f"   all {sum(found.cases for found in judged)} columns, by the probability that was stated:")
     stated, true = (np.concatenate(parts) for parts in ([j.stated for j in judged], [j.true for j in judged]))
     for one in calibration(stated, true):
         print(f"   stated {one.stated:.4f}, true {one.true:.4f} of {one.cases}: {one.sigmas:+.1f} sigma")
     for number, scene in enumerate(SCENES[:_REPAIRED]):
-        print("g. one bar off:", repaired_columns(scene, max(cases // 40, 1), rng(200 + number)))
+        print("g. one bar off:", repaired_columns(scene, max(cases // 40, 1), rng(200 + number)), flush=True)
+        scattered = repaired_columns(scene, max(cases // 40, 1), rng(250 + number), None)
+        print("g. any scatter:", scattered, flush=True)
     print("h. assignments:", matched_margins(max(cases // 2, 1), rng(300)))
     print("i. parts of rows:", periodic_views(max(cases // 20, 1), rng(301)))
 
