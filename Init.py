@@ -6,5 +6,5 @@ FreeCAD.addImportType(
     "AADM: structured-light scan (*.ply *.pcd *.xyz *.pts *.ptx *.las *.laz *.e57 *.asc *.npz *.tif *.tiff)",
     "aadm_workbench.document.open_scan",
 )
-FreeCAD.addImportType("AADM: report of a check (*.json)", "aadm_workbench.document.open_report")
+FreeCAD.addImportType("AADM: report of a check (*.json)", "aadm_workbench.document.report.opened")
 FreeCAD.__unit_test__ += ["aadm_workbench.document.selftest"]

@@ -13,7 +13,7 @@ from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.model_file import sha256_of
 from aadm_workbench.design.model_units import MM_PER_UNIT, check_units
 from aadm_workbench.design.published import PublishedPoint, published_points, sampled_surfaces
-from aadm_workbench.design.recognise import Origin, Rules, recognise
+from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
 from aadm_workbench.errors import DesignError, ScanError
 from aadm_workbench.model import Array, ColumnDesign
 

@@ -11,23 +11,23 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.assembly.absolute import DatumRules, inspect_absolute
 from aadm_workbench.assembly.blame import with_blame
 from aadm_workbench.assembly.column import rules_of_the_erected_column, sum_up
-from aadm_workbench.assembly.control import ControlPose, fit_control_points, shown_up_deg
-from aadm_workbench.assembly.datum import with_absolute
 from aadm_workbench.assembly.decision import DecisionRule
-from aadm_workbench.assembly.eopa import NoFit
 from aadm_workbench.assembly.file_axes import axes_not_told, in_coordinates_of_the_file, in_scan_frame
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.of_column import Seen, with_findings
 from aadm_workbench.assembly.group_notes import of_the_files, typical_u_mm, unsupported
 from aadm_workbench.assembly.inspect import describe_ambiguity, inspect_group
-from aadm_workbench.assembly.match import Match, match_extraction
+from aadm_workbench.assembly.matching.match import Match, match_extraction
+from aadm_workbench.assembly.matching.views import merge_views
 from aadm_workbench.assembly.place import place_points
-from aadm_workbench.assembly.repair import advise_repair
-from aadm_workbench.assembly.trial import try_scans
-from aadm_workbench.assembly.views import merge_views
+from aadm_workbench.assembly.pose.eopa import NoFit
+from aadm_workbench.assembly.repair.bends import advise_repair
+from aadm_workbench.assembly.survey.absolute import DatumRules, inspect_absolute
+from aadm_workbench.assembly.survey.control import ControlPose, fit_control_points, shown_up_deg
+from aadm_workbench.assembly.survey.datum import with_absolute
+from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.errors import JobError
 from aadm_workbench.extract.missing import explain_missing
 from aadm_workbench.extract.sizes import extract_sizes

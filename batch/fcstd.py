@@ -14,7 +14,7 @@ from aadm_workbench.errors import AadmError
 from aadm_workbench.own_files import ASIDE_FOLDER
 from aadm_workbench.report.json import encode
 
-_MODULE = "aadm_workbench.document.annotate"
+_MODULE = "aadm_workbench.document.report.annotate"
 
 
 def write_fcstd(report: dict[str, Any], path: Path) -> None:

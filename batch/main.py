@@ -29,7 +29,7 @@ from .commands import (
     writeback,
 )
 from .exit_codes import BAD_USAGE, INTERNAL, INTERRUPTED
-from .printable import printable
+from .shown.printable import printable
 
 
 class Command(Protocol):

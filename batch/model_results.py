@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 from aadm_workbench.errors import JobError
 
 if TYPE_CHECKING:
-    from aadm_workbench.report.ifc import WriteBack
+    from aadm_workbench.report.ifc.model import WriteBack
     from aadm_workbench.report.read import Report
 
-    from .job import Job
+    from .job.model import Job
 
 _REPORTS = ("report.html", "report.json")
 """What the columns of the model are linked to: the first of these that lies in the folder of the report."""
@@ -38,7 +38,7 @@ def ifc_model_of(job: Job) -> Path:
 
 def write_results(report: Report, report_folder: Path, model: Path, out: Path, *, force: bool = False) -> WriteBack:
     """Write a report into a model and link the columns to the report's file; errors as ``write_ifc``."""
-    from aadm_workbench.report.ifc import write_ifc
+    from aadm_workbench.report.ifc.model import write_ifc
 
     return write_ifc(report, model, out, report_location=_link(report_folder, out), force=force)
 

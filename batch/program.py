@@ -12,7 +12,7 @@ from pathlib import Path
 import aadm_workbench
 from aadm_workbench import __version__
 
-from .exact_json import to_exact_json
+from .runner.exact_json import to_exact_json
 
 _NUMERICAL_PACKAGES = ("numpy", "scipy", "opencv-python-headless", "ifcopenshell")
 _CODE = (".py", ".toml", ".json")

@@ -88,19 +88,19 @@ def write_reports(
 def _write(name: str, report: Report, path: Path, language: Literal["en", "zh"] | None) -> None:
     """One report; the packages of a format are imported only where it is asked for."""
     if name == "html":
-        from aadm_workbench.report.html import write_html
+        from aadm_workbench.report.pages.html import write_html
 
         write_html(report, path, language or "en")
     elif name == "pdf":
-        from aadm_workbench.report.pdf import write_pdf
+        from aadm_workbench.report.pages.pdf import write_pdf
 
         write_pdf(report, path, language or "en")
     elif name == "xlsx":
-        from aadm_workbench.report.xlsx import write_xlsx
+        from aadm_workbench.report.sheets.xlsx import write_xlsx
 
         write_xlsx(report, path, language or "en")
     elif name == "csv":
-        from aadm_workbench.report.csv import write_csv
+        from aadm_workbench.report.sheets.csv import write_csv
 
         write_csv(report, path)
     elif name == "fcstd":
@@ -109,7 +109,7 @@ def _write(name: str, report: Report, path: Path, language: Literal["en", "zh"] 
         write_fcstd(report, path)
     elif name in ("bcf", "bcf_pairs"):
         from aadm_workbench.own_files import is_there
-        from aadm_workbench.report.bcf import write_bcf
+        from aadm_workbench.report.bcf.topics import write_bcf
 
         per: Literal["column", "pair"] = "pair" if name == "bcf_pairs" else "column"
         write_bcf(report, path, existing=path if is_there(path) else None, per=per)
@@ -119,11 +119,11 @@ def _write(name: str, report: Report, path: Path, language: Literal["en", "zh"] 
 
 def _write_pages(name: str, report: Report, path: Path, language: Literal["en", "zh"] | None) -> None:
     if name == "crew":
-        from aadm_workbench.report.crew_page import write_crew_pages
+        from aadm_workbench.report.pages.crew_page import write_crew_pages
 
         write_crew_pages(report, path, language or "zh")
     else:
-        from aadm_workbench.report.scan_card import scan_cards
-        from aadm_workbench.report.scan_card_page import write_scan_cards
+        from aadm_workbench.report.pages.scan_card import scan_cards
+        from aadm_workbench.report.pages.scan_card_page import write_scan_cards
 
         write_scan_cards(scan_cards(report), path, language or "zh", title=report["job"]["name"])

@@ -9,8 +9,8 @@ from dataclasses import fields, is_dataclass, replace
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any, TypeVar
 
-from .column_files import files_of
-from .job import Job
+from .job.column_files import files_of
+from .job.model import Job
 
 Part = TypeVar("Part")
 

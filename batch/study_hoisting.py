@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .exit_codes import ALL_PASS
-from .job_command import METHODS
-from .one_thread import calculate_in_one_thread
+from .job.command import METHODS
+from .runner.one_thread import calculate_in_one_thread
 from .switches import add_switches, whole_number
 
 if TYPE_CHECKING:
@@ -53,9 +53,9 @@ def _study(options: argparse.Namespace) -> int:
     from aadm_workbench.report.json import encode
     from aadm_workbench.twin.study.hoisting import cells_of, study_hoisting
 
-    from .progress import StepProgress
-    from .study_hoisting_tables import hoisting_document, hoisting_tables
-    from .terminal import show, show_json
+    from .shown.progress import StepProgress
+    from .shown.study_hoisting_tables import hoisting_document, hoisting_tables
+    from .shown.terminal import show, show_json
 
     cells = cells_of(options.study)
     with StepProgress("rendering", quiet=options.quiet) as progress:

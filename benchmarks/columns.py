@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import linprog
 
-from aadm_workbench.design.pattern import inline_design
+from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, RepairReport
 from aadm_workbench.twin.parts import ring
 from benchmarks.smooth_margin import margins_mm

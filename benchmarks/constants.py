@@ -88,7 +88,7 @@ def centres(scan: Scan, kind: Kind, diameter_mm: float, method: str) -> tuple[Ar
 
 def hoisting() -> Callable[[], Found]:
     """Finds the sleeves and the bars that are seen in three frames of a hanging column."""
-    from aadm_workbench.hoisting import HoistingSettings, measure_hoisting
+    from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
     from aadm_workbench.twin.scenes import FIELD, LAB
     from aadm_workbench.twin.study.hoisting import design_of
 

@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.design.ifc import read_ifc
+from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.design.model_design import ModelDesign
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "samples"))

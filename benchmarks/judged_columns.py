@@ -7,9 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from aadm_workbench.assembly.repair import advise_repair
+from aadm_workbench.assembly.repair.bends import advise_repair
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.assembly.trial import try_assembly
+from aadm_workbench.assembly.trial.virtual import try_assembly
 from aadm_workbench.model import Array, RepairAction, Verdict
 from benchmarks.columns import Built, Scene, build_columns
 

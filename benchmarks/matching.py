@@ -7,7 +7,7 @@ from itertools import permutations
 
 import numpy as np
 
-from aadm_workbench.assembly.assign import best_assignment
+from aadm_workbench.assembly.matching.assign import best_assignment
 from aadm_workbench.model import Array
 
 _LARGEST = 6

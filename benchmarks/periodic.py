@@ -8,8 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from aadm_workbench.assembly.match import match_extraction
-from aadm_workbench.assembly.views import merge_views
+from aadm_workbench.assembly.matching.match import match_extraction
+from aadm_workbench.assembly.matching.views import merge_views
 from aadm_workbench.model import AssemblyPoint, Extraction, Kind
 
 Plane = npt.NDArray[np.complex128]

@@ -24,9 +24,9 @@ from typing import Any
 
 import psutil
 
-from batch.job_file import read_job
-from batch.one_thread import calculate_in_one_thread
+from batch.job.file import read_job
 from batch.program import program_versions
+from batch.runner.one_thread import calculate_in_one_thread
 from benchmarks.floors import SMALL, write_floor
 
 PARTS = ("start", "floor", "growth")
@@ -138,8 +138,8 @@ def _bare_loops(job: Path, processes: int) -> float:
 def loop(job: Path, part: str) -> None:
     """Check every so many-th column of a job, one after the other."""
     calculate_in_one_thread()
-    from batch.column_task import check_task
-    from batch.run import RunOptions, plan_tasks
+    from batch.runner.column_task import check_task
+    from batch.runner.run import RunOptions, plan_tasks
     from batch.stopwatch import Stopwatch
 
     first, step = (int(number) for number in part.split("/"))

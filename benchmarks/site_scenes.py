@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.design.pattern import inline_design, label_order
+from aadm_workbench.design.recognise.pattern import inline_design, label_order
 from aadm_workbench.model import Array, Camera, ColumnDesign
 from aadm_workbench.twin.camera import PRO_M
 from aadm_workbench.twin.filters import NO_FILTERS, Filters, filtered

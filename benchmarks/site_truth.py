@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.assembly.inspect import inspect_group
-from aadm_workbench.assembly.match import match_extraction
+from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.assembly.trial import try_scans
+from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.model import Array, BoolArray, ColumnReport, Extraction, GroupReport, Kind, Verdict
 from aadm_workbench.twin.camera import PRO_M
 from aadm_workbench.twin.scene import truth_of

@@ -14,7 +14,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "aadm_workbench"
-STAGES = ("design", "scan", "extract", "assembly", "report")
+STAGES = ("design", "scan", "extract", "assembly", "hoisting", "report")
 NOUNS = {"errors", "model", "atomic", "bounded", "own_files"}
 
 Finding: TypeAlias = tuple[int, str]
@@ -101,7 +101,7 @@ open3d_only_in_published_and_twin = only_in(
 
 
 def stages_import_from_the_left(path: PurePosixPath, tree: ast.Module) -> Iterator[Finding]:
-    """Rule: design, scan, extract, assembly, report: each may know those to its left, and nothing beyond them.
+    """Rule: design, scan, extract, assembly, hoisting, report: each may know those to its left, and nothing beyond them.
 
     The nouns know each other alone; what else lies at the root (the recipe of a whole check) joins the stages.
     """
@@ -246,11 +246,11 @@ def test_every_module_keeps_the_rules() -> None:
 
 
 BREAKS = [
-    (freecad_only_in_document_and_gui, "aadm_workbench/report/html.py", "import FreeCAD"),
+    (freecad_only_in_document_and_gui, "aadm_workbench/report/pages/html.py", "import FreeCAD"),
     (freecad_only_in_document_and_gui, "batch/main.py", "def go():\n    import FreeCAD as App"),
     (
         freecad_only_in_document_and_gui,
-        "aadm_workbench/scan/ply.py",
+        "aadm_workbench/scan/formats/ply.py",
         "from importlib import import_module as m\nm.import_module('Part')",
     ),
     (window_only_in_gui, "aadm_workbench/document/column.py", "from PySide import QtCore"),
@@ -261,17 +261,21 @@ BREAKS = [
     (ifcopenshell_only_in_ifc_files, "batch/main.py", "import ifcopenshell"),
     (open3d_only_in_published_and_twin, "aadm_workbench/extract/plane.py", "import open3d as o3d"),
     (open3d_only_in_published_and_twin, "aadm_workbench/extract/published.py", "__import__('open3d')"),
-    (stages_import_from_the_left, "aadm_workbench/scan/ply.py", "from aadm_workbench.extract.plane import Plane"),
+    (
+        stages_import_from_the_left,
+        "aadm_workbench/scan/formats/ply.py",
+        "from aadm_workbench.extract.plane import Plane",
+    ),
     (stages_import_from_the_left, "aadm_workbench/design/mesh.py", "from aadm_workbench import scan"),
-    (stages_import_from_the_left, "aadm_workbench/assembly/trial.py", "from ..report import json"),
+    (stages_import_from_the_left, "aadm_workbench/assembly/trial/virtual.py", "from ..report import json"),
     (stages_import_from_the_left, "aadm_workbench/extract/published/hough.py", "from ...assembly.eopa import fit"),
     (stages_import_from_the_left, "aadm_workbench/report/json.py", "import aadm_workbench.twin.scene"),
     (stages_import_from_the_left, "aadm_workbench/model.py", "from aadm_workbench.scan import read"),
     (stages_import_from_the_left, "aadm_workbench/model/scan.py", "from aadm_workbench.scan import read"),
     (stages_import_from_the_left, "aadm_workbench/check.py", "from aadm_workbench.twin import scene"),
     (stages_import_from_the_left, "aadm_workbench/report/json.py", "from aadm_workbench.check import check_column"),
-    (package_never_imports_batch, "aadm_workbench/gui/check.py", "from aadm_batch.job import Job"),
-    (package_never_imports_batch, "aadm_workbench/report/html.py", "import batch"),
+    (package_never_imports_batch, "aadm_workbench/gui/check.py", "from aadm_batch.job.model import Job"),
+    (package_never_imports_batch, "aadm_workbench/report/pages/html.py", "import batch"),
     (extract_and_assembly_are_pure, "aadm_workbench/extract/plane.py", "with open('x') as f: pass"),
     (
         extract_and_assembly_are_pure,
@@ -281,37 +285,49 @@ BREAKS = [
     (extract_and_assembly_are_pure, "aadm_workbench/extract/plane.py", "import numpy as np\nnp.load('x.npy')"),
     (extract_and_assembly_are_pure, "aadm_workbench/extract/plane.py", "import cv2\ncv2.imread('x.png')"),
     (extract_and_assembly_are_pure, "aadm_workbench/extract/published/hough.py", "from pathlib import Path"),
-    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial.py", "print('passed')"),
-    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial.py", "from time import perf_counter"),
-    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial.py", "import datetime"),
-    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial.py", "import random"),
-    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial.py", "import numpy as np\nnp.random.normal(0, 1)"),
-    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial.py", "import numpy as np\nnp.random.default_rng(1)"),
-    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial.py", "from numpy.random import default_rng"),
+    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial/virtual.py", "print('passed')"),
+    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial/virtual.py", "from time import perf_counter"),
+    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial/virtual.py", "import datetime"),
+    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial/virtual.py", "import random"),
+    (
+        extract_and_assembly_are_pure,
+        "aadm_workbench/assembly/trial/virtual.py",
+        "import numpy as np\nnp.random.normal(0, 1)",
+    ),
+    (
+        extract_and_assembly_are_pure,
+        "aadm_workbench/assembly/trial/virtual.py",
+        "import numpy as np\nnp.random.default_rng(1)",
+    ),
+    (extract_and_assembly_are_pure, "aadm_workbench/assembly/trial/virtual.py", "from numpy.random import default_rng"),
     (extract_and_assembly_are_pure, "aadm_workbench/assembly/tolerances.py", "import time"),
     (extract_and_assembly_are_pure, "aadm_workbench/assembly/tolerances.py", "print(1)"),
     (no_grab_bags, "aadm_workbench/scan/utils.py", ""),
     (no_grab_bags, "aadm_workbench/common/plane.py", ""),
     (no_grab_bags, "batch/Manager.py", ""),
-    (core_starts_without_extras, "aadm_workbench/report/xlsx.py", "import openpyxl"),
+    (core_starts_without_extras, "aadm_workbench/report/sheets/xlsx.py", "import openpyxl"),
     (core_starts_without_extras, "aadm_workbench/design/mesh.py", "from trimesh.proximity import signed_distance"),
-    (nothing_listens, "batch/cluster.py", "import distributed\ndistributed.LocalCluster(host='127.0.0.1')"),
-    (nothing_listens, "batch/local_worker.py", "distributed.Worker('tcp://127.0.0.1:1')"),
-    (nothing_listens, "batch/run.py", "import socket\nsocket.socket().bind(('127.0.0.1', 0))"),
+    (nothing_listens, "batch/runner/cluster.py", "import distributed\ndistributed.LocalCluster(host='127.0.0.1')"),
+    (nothing_listens, "batch/runner/local_worker.py", "distributed.Worker('tcp://127.0.0.1:1')"),
+    (nothing_listens, "batch/runner/run.py", "import socket\nsocket.socket().bind(('127.0.0.1', 0))"),
     (nothing_listens, "aadm_workbench/gui/jobs.py", "from http.server import HTTPServer"),
-    (nothing_listens, "batch/run.py", "from multiprocessing.connection import Listener"),
-    (no_long_files, "aadm_workbench/scan/ply.py", "x = 1\n" * 401),
+    (nothing_listens, "batch/runner/run.py", "from multiprocessing.connection import Listener"),
+    (no_long_files, "aadm_workbench/scan/formats/ply.py", "x = 1\n" * 401),
 ]
 KEEPS = [
     (freecad_only_in_document_and_gui, "aadm_workbench/document/column.py", "import FreeCAD, Part"),
     (freecad_only_in_document_and_gui, "aadm_workbench/twin/parts.py", "from aadm_workbench.twin.Part import Part"),
     (window_only_in_gui, "aadm_workbench/gui/panel.py", "from PySide import QtGui\nfrom pivy import coin"),
     (window_only_in_gui, "InitGui.py", "import FreeCADGui"),
-    (ifcopenshell_only_in_ifc_files, "aadm_workbench/design/ifc_placement.py", "import ifcopenshell"),
-    (ifcopenshell_only_in_ifc_files, "aadm_workbench/report/ifc.py", "import ifcopenshell.api"),
+    (ifcopenshell_only_in_ifc_files, "aadm_workbench/design/ifc/geometry/placement.py", "import ifcopenshell"),
+    (ifcopenshell_only_in_ifc_files, "aadm_workbench/report/ifc/model.py", "import ifcopenshell.api"),
     (open3d_only_in_published_and_twin, "aadm_workbench/extract/published/cloud.py", "import open3d"),
     (open3d_only_in_published_and_twin, "aadm_workbench/twin/raycast.py", "def f():\n    import open3d"),
-    (stages_import_from_the_left, "aadm_workbench/report/json.py", "from aadm_workbench.design.ifc import columns"),
+    (
+        stages_import_from_the_left,
+        "aadm_workbench/report/json.py",
+        "from aadm_workbench.design.ifc.model import columns",
+    ),
     (
         stages_import_from_the_left,
         "aadm_workbench/report/json.py",
@@ -322,11 +338,15 @@ KEEPS = [
         "aadm_workbench/model/scan.py",
         "from .camera import Camera\nfrom ..errors import AadmError",
     ),
-    (stages_import_from_the_left, "aadm_workbench/scan/ply.py", "from .points import Points\nfrom ..model import Scan"),
+    (
+        stages_import_from_the_left,
+        "aadm_workbench/scan/formats/ply.py",
+        "from .points import Points\nfrom ..model import Scan",
+    ),
     (stages_import_from_the_left, "aadm_workbench/twin/scene.py", "from aadm_workbench.scan.camera import Camera"),
     (stages_import_from_the_left, "aadm_workbench/check.py", "from aadm_workbench.report import json"),
     (stages_import_from_the_left, "batch/main.py", "from aadm_workbench.report import json"),
-    (package_never_imports_batch, "batch/main.py", "from aadm_batch.job import Job"),
+    (package_never_imports_batch, "batch/main.py", "from aadm_batch.job.model import Job"),
     (
         extract_and_assembly_are_pure,
         "aadm_workbench/assembly/tolerances.py",
@@ -337,7 +357,7 @@ KEEPS = [
         "aadm_workbench/extract/plane.py",
         "def f(rng: 'np.random.Generator'): return rng.normal()",
     ),
-    (extract_and_assembly_are_pure, "aadm_workbench/scan/ply.py", "open('x')"),
+    (extract_and_assembly_are_pure, "aadm_workbench/scan/formats/ply.py", "open('x')"),
     (
         extract_and_assembly_are_pure,
         "aadm_workbench/extract/published/ransac_plane.py",
@@ -347,10 +367,10 @@ KEEPS = [
     (core_starts_without_extras, "aadm_workbench/design/mesh.py", "import json\ndef read():\n    import trimesh"),
     (core_starts_without_extras, "aadm_workbench/design/mesh.py", "import numpy as np\nfrom .paths import kind"),
     (core_starts_without_extras, "aadm_workbench/twin/meshes.py", "import manifold3d"),
-    (nothing_listens, "batch/cluster.py", "import distributed\ndistributed.Client('tls://h:1')"),
+    (nothing_listens, "batch/runner/cluster.py", "import distributed\ndistributed.Client('tls://h:1')"),
     (nothing_listens, "batch/link/opcua.py", "server.start_server()"),
     (nothing_listens, "tests/batch/test_tls.py", "socket.create_server(('127.0.0.1', 0))"),
-    (no_long_files, "aadm_workbench/scan/ply.py", "x = 1\n" * 400),
+    (no_long_files, "aadm_workbench/scan/formats/ply.py", "x = 1\n" * 400),
 ]
 
 

@@ -11,10 +11,10 @@ import pytest
 pytest.importorskip("open3d")
 pytest.importorskip("manifold3d")
 
-from aadm_workbench.assembly.minimax import MinimaxPose, fit_minimax
+from aadm_workbench.assembly.pose.minimax import MinimaxPose, fit_minimax
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.design.pattern import inline_design
-from aadm_workbench.hoisting import HoistingSettings, measure_hoisting
+from aadm_workbench.design.recognise.pattern import inline_design
+from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
 from aadm_workbench.model import ColumnDesign, HoistingMeasurement, Scan, Verdict
 from aadm_workbench.twin.hoisting import HoistingScan
 from aadm_workbench.twin.scenes import FIELD, LAB, Setting

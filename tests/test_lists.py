@@ -17,14 +17,14 @@ from aadm_workbench.design.read import SUPPORTED
 from aadm_workbench.extract.method import METHODS
 from aadm_workbench.extract.published import hoisting
 from aadm_workbench.model import SUMMED, WORST_FIRST, Verdict, worst
-from aadm_workbench.report import xlsx
-from aadm_workbench.report.sketch import STYLES
-from aadm_workbench.report.words import COLOUR, FAINT, HEAD, INK
+from aadm_workbench.report.drawing.sketch import STYLES
+from aadm_workbench.report.sheets import xlsx
+from aadm_workbench.report.words.labels import COLOUR, FAINT, HEAD, INK
 from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, TABLES
 from aadm_workbench.scan.read import supported_formats
-from batch import job_command
 from batch.commands import design
 from batch.exit_codes import exit_code_of
+from batch.job import command as job_command
 from batch.report_files import _PACKAGES, FORMATS
 
 ROOT = Path(__file__).resolve().parents[1]

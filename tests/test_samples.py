@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from aadm_workbench.report.json import report_document, report_schema
-from batch.job_file import read_job
-from batch.run import RunOptions, run_job
+from batch.job.file import read_job
+from batch.runner.run import RunOptions, run_job
 from tests.frozen import KEPT, frozen
 
 SAMPLES = Path(__file__).resolve().parents[1] / "samples"

@@ -15,8 +15,9 @@ from aadm_workbench.assembly.agreement import agree_on_points, agree_on_spacing,
 from aadm_workbench.assembly.blame import blame_of_group
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.exposed import inspect_exposed_length
-from aadm_workbench.assembly.match import Match, Placement
+from aadm_workbench.assembly.matching.match import Match, Placement
 from aadm_workbench.assembly.place import PlacedPoint, place_points
+from aadm_workbench.assembly.pose.upright import wrap
 from aadm_workbench.assembly.position import inspect_positions
 from aadm_workbench.assembly.rules import (
     applicable_rules,
@@ -27,7 +28,6 @@ from aadm_workbench.assembly.rules import (
 )
 from aadm_workbench.assembly.spacing import inspect_spacing
 from aadm_workbench.assembly.tolerances import rules_for
-from aadm_workbench.assembly.upright import wrap
 from aadm_workbench.model import (
     AssemblyPoint,
     Candidate,

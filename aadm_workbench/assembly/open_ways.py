@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from aadm_workbench.assembly.match import Match, Placement
+from aadm_workbench.assembly.matching.match import Match, Placement
 from aadm_workbench.model import ColumnDesign
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.assembly.match import Placement
+from aadm_workbench.assembly.matching.match import Placement
 from aadm_workbench.model import Array, AssemblyPoint, Extraction
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from aadm_workbench.assembly.decision import Decision, DecisionRule, decide_signed
 from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
 from aadm_workbench.assembly.tolerances import describe_clause
-from aadm_workbench.design.pattern import adjacent
+from aadm_workbench.design.recognise.pattern import adjacent
 from aadm_workbench.model import Array, AssemblyPoint, Rule, SpacingResult, Verdict
 
 

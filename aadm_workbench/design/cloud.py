@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.design.elements import Element, Solid
-from aadm_workbench.design.flat_circle import flat_circle, plane_across, widest_gap
-from aadm_workbench.design.tubes import Tube
+from aadm_workbench.design.recognise.flat_circle import flat_circle, plane_across, widest_gap
+from aadm_workbench.design.recognise.tubes import Tube
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Array, BoolArray, IntArray
 

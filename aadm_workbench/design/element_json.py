@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.design.bar_courses import Course
 from aadm_workbench.design.elements import Element, Solid
-from aadm_workbench.design.paths import Arc, Leg, Straight
-from aadm_workbench.design.tubes import Tube
+from aadm_workbench.design.recognise.bar_courses import Course
+from aadm_workbench.design.recognise.paths import Arc, Leg, Straight
+from aadm_workbench.design.recognise.tubes import Tube
 from aadm_workbench.model import Array
 
 _TEXTS = (

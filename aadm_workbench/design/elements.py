@@ -9,9 +9,9 @@ from itertools import product
 
 import numpy as np
 
-from aadm_workbench.design.bar_courses import Course
-from aadm_workbench.design.shapes import Mesh
-from aadm_workbench.design.tubes import Tube, moved
+from aadm_workbench.design.recognise.bar_courses import Course
+from aadm_workbench.design.recognise.shapes import Mesh
+from aadm_workbench.design.recognise.tubes import Tube, moved
 from aadm_workbench.model import Array
 
 _SAME_SCALE_RATIO = 1e-6  # rounding of a transform that files write with seven digits

@@ -11,10 +11,10 @@ from aadm_workbench.design.element_json import from_json
 from aadm_workbench.design.freecad_program import CrashError, ask_freecad
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.model_file import sha256_of
-from aadm_workbench.design.recognise import Origin, Rules, recognise
+from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
 from aadm_workbench.errors import DesignError
 
-_MODULE = "aadm_workbench.document.sample_export"
+_MODULE = "aadm_workbench.document.sample.export"
 
 
 def read_with_kernel(path: Path, check: Callable[[Path], None], rules: Rules, *, schema: str) -> ModelDesign:

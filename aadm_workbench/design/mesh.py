@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.design.elements import Element, Solid
-from aadm_workbench.design.facets import facet_solid, sharp_edges
 from aadm_workbench.design.mesh_sections import round_walls
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.model_file import MESHES, sha256_of
 from aadm_workbench.design.model_units import MM_PER_UNIT, check_units
-from aadm_workbench.design.recognise import Origin, Rules, recognise
-from aadm_workbench.design.round_faces import tubes_of
-from aadm_workbench.design.tubes import Tube
+from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
+from aadm_workbench.design.recognise.facets import facet_solid, sharp_edges
+from aadm_workbench.design.recognise.round_faces import tubes_of
+from aadm_workbench.design.recognise.tubes import Tube
 from aadm_workbench.errors import DesignError, MissingDependencyError
 from aadm_workbench.model import Array, ColumnDesign, IntArray
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.design.flat_circle import flat_circle, plane_across, widest_gap
-from aadm_workbench.design.round_faces import RoundFace
+from aadm_workbench.design.recognise.flat_circle import flat_circle, plane_across, widest_gap
+from aadm_workbench.design.recognise.round_faces import RoundFace
 from aadm_workbench.model import Array, BoolArray, IntArray
 
 _DEPTHS_MM = (1.3, 3.1, 7.3, 13.7, 24.9, 41.3, 77.7, 131.3, 211.7, 303.1)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.design.flat_circle import plane_across
+from aadm_workbench.design.recognise.flat_circle import plane_across
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
 POINTS_PER_MM2 = 0.25

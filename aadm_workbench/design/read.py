@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from aadm_workbench.design.ifc import read_ifc
+from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.model_file import KERNEL, MESHES
-from aadm_workbench.design.recognise import Rules
+from aadm_workbench.design.recognise.columns import Rules
 from aadm_workbench.errors import DesignError
 
 _IFC = (".ifc", ".ifczip")

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from aadm_workbench.design.paths import joined
-from aadm_workbench.design.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned
+from aadm_workbench.design.recognise.paths import joined
+from aadm_workbench.design.recognise.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned
 from aadm_workbench.model import Array
 
 FARTHEST_MM = 1e12

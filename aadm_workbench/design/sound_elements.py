@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from aadm_workbench.design.bar_courses import Course
 from aadm_workbench.design.elements import Element, Solid
+from aadm_workbench.design.recognise.bar_courses import Course
+from aadm_workbench.design.recognise.tubes import Tube
 from aadm_workbench.design.sound import FARTHEST_MM
-from aadm_workbench.design.tubes import Tube
 from aadm_workbench.model import Array
 
 _NO_LENGTH_MM = 1e-6

@@ -7,7 +7,7 @@ from pathlib import Path
 from aadm_workbench.design.kernel import read_with_kernel
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.model_file import KERNEL
-from aadm_workbench.design.recognise import Rules
+from aadm_workbench.design.recognise.columns import Rules
 from aadm_workbench.errors import DesignError
 
 _HEAD_BYTES = 4096  # what the format begins and ends with stands in the first, and the last, of them

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from aadm_workbench.design.shapes import Cut, HalfSpace, Shape, Turned
+from aadm_workbench.design.recognise.shapes import Cut, HalfSpace, Shape, Turned
 from aadm_workbench.model import Array
 
 _ACROSS_COS = 1.0 - 1e-9

@@ -26,11 +26,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from aadm_workbench.document.annotate import show_report, write_fcstd
 from aadm_workbench.document.checking import keep, prepare, run
 from aadm_workbench.document.column import column_design, columns_in, make_column, set_design
-from aadm_workbench.document.document_report import report_of
-from aadm_workbench.document.report_file import load_report
+from aadm_workbench.document.report.annotate import show_report, write_fcstd
+from aadm_workbench.document.report.file import load_report
+from aadm_workbench.document.report.of_document import report_of
 from aadm_workbench.document.result import found_of
 from aadm_workbench.document.scan_reading import read_for, take_scan
 from aadm_workbench.model import Camera
@@ -81,7 +81,7 @@ def describe(document: Any, name: str, design: Mapping[str, Any]) -> Any:
     DesignError
         Where a value is missing or cannot be.
     """
-    from aadm_workbench.design.pattern import inline_design
+    from aadm_workbench.design.recognise.pattern import inline_design
 
     return make_column(document, inline_design(name, design))
 

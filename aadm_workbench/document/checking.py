@@ -20,7 +20,7 @@ from aadm_workbench import __version__
 from aadm_workbench.design.directions import up_deg
 from aadm_workbench.document.cloud import distance_from_design
 from aadm_workbench.document.column import column_design
-from aadm_workbench.document.design_text import FROM_REPORT, write_design
+from aadm_workbench.document.display.design_text import FROM_REPORT, write_design
 from aadm_workbench.document.packages import naming_packages
 from aadm_workbench.document.result import make_result
 from aadm_workbench.document.scan_cloud import camera_of, kind_of, lay_on_design
@@ -172,7 +172,7 @@ def _source(cloud: Any) -> ScanSource:
 
 
 def _read(source: ScanSource, request: CheckRequest) -> Any:
-    from aadm_workbench.design.extent import extent_mm
+    from aadm_workbench.design.recognise.extent import extent_mm
     from aadm_workbench.scan.plausible import check_plausible
     from aadm_workbench.scan.read import read_scan
 

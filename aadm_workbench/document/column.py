@@ -11,7 +11,7 @@ from typing import Any
 import FreeCAD
 import numpy as np
 
-from aadm_workbench.document.design_text import read_design, write_design
+from aadm_workbench.document.display.design_text import read_design, write_design
 from aadm_workbench.document.groups import put_into_group
 from aadm_workbench.document.places import global_placement, move_to, placement_of, transform_of
 from aadm_workbench.document.properties import HIDDEN, READ_ONLY, Property, apply_properties

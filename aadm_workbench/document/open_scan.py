@@ -13,7 +13,7 @@ import FreeCAD
 
 from aadm_workbench.document.asking import SCAN_PANELS
 from aadm_workbench.document.column import columns_in
-from aadm_workbench.document.messages import complain, tell
+from aadm_workbench.document.display.messages import complain, tell
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError, ScanError
 

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from aadm_workbench.document.annotate import objects_by_global_id
 from aadm_workbench.document.column import columns_in, make_column, set_design
 from aadm_workbench.document.packages import naming_packages
+from aadm_workbench.document.report.annotate import objects_by_global_id
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import ColumnDesign
 
@@ -27,7 +27,7 @@ def sample_columns(document: Any, objects: Sequence[Any] | None = None) -> list[
         Where there is none; says what was looked at.
     """
     with naming_packages():
-        from aadm_workbench.document.sample import sample_column, sample_document
+        from aadm_workbench.document.sample.columns import sample_column, sample_document
 
         if objects is not None:
             # All are read before the first is made: a document is not left half done.

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from pivy import coin
 
-from aadm_workbench.document.colours import Rgb
+from aadm_workbench.document.display.colours import Rgb
 from aadm_workbench.model import Array
 
 

@@ -10,9 +10,9 @@ from typing import Any
 import FreeCAD
 import numpy as np
 
-from aadm_workbench.document.colours import DESIGN
 from aadm_workbench.document.column import column_design
-from aadm_workbench.document.marks import ring
+from aadm_workbench.document.display.colours import DESIGN
+from aadm_workbench.document.display.marks import ring
 from aadm_workbench.document.properties import Property
 from aadm_workbench.gui import coin_shapes
 from aadm_workbench.gui.view_provider import MarksView
@@ -65,7 +65,7 @@ class ColumnView(MarksView):
 
     def doubleClicked(self, vobj: Any) -> bool:
         """Open the panel of the check."""
-        from aadm_workbench.gui.check_panel import open_panel
+        from aadm_workbench.gui.panels.check import open_panel
 
         open_panel(vobj.Object)
         return True

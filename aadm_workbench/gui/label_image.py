@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pivy import coin
 from PySide import QtCore, QtGui
 
-from aadm_workbench.document.colours import Rgb
+from aadm_workbench.document.display.colours import Rgb
 
 _MARGIN_PX = 5  # a text does not touch the edge of its plate
 

@@ -8,8 +8,8 @@ from typing import Any, Protocol
 import numpy as np
 from PySide import QtCore
 
-from aadm_workbench.document.label_layout import Box, Wanted, place_labels
-from aadm_workbench.document.projection import ViewCamera, project
+from aadm_workbench.document.display.label_layout import Box, Wanted, place_labels
+from aadm_workbench.document.display.projection import ViewCamera, project
 from aadm_workbench.gui.view_camera import active_view, camera_of
 from aadm_workbench.model import Array
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import FreeCADGui
 
-from aadm_workbench.report.words_reasons import in_both_languages
+from aadm_workbench.report.words.reasons import in_both_languages
 
 
 def is_chinese() -> bool:

@@ -7,7 +7,7 @@ from typing import Any
 
 import FreeCADGui
 
-from aadm_workbench.document.messages import tell
+from aadm_workbench.document.display.messages import tell
 from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.label_keeper import KEEPER
 

@@ -9,8 +9,8 @@ from typing import Any
 import FreeCAD
 from PySide import QtCore, QtGui
 
-from aadm_workbench.document.colours import of_verdict
-from aadm_workbench.document.result_rows import (
+from aadm_workbench.document.display.colours import of_verdict
+from aadm_workbench.document.display.result_rows import (
     ABSOLUTE,
     DISTANCE,
     POSITION,

@@ -13,10 +13,10 @@ import FreeCADGui
 import numpy as np
 from pivy import coin
 
-from aadm_workbench.document.colours import of_verdict
 from aadm_workbench.document.column import column_design, owner_of
-from aadm_workbench.document.design_text import design_of_report
-from aadm_workbench.document.marks import (
+from aadm_workbench.document.display.colours import of_verdict
+from aadm_workbench.document.display.design_text import design_of_report
+from aadm_workbench.document.display.marks import (
     SHOWN,
     Label,
     Marks,
@@ -105,7 +105,7 @@ class ResultView(MarksView):
 
     def doubleClicked(self, vobj: Any) -> bool:
         """Open the panel of its column's check."""
-        from aadm_workbench.gui.check_panel import open_panel
+        from aadm_workbench.gui.panels.check import open_panel
 
         column = owner_of(vobj.Object)
         if column is not None:

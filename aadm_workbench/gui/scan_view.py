@@ -10,7 +10,7 @@ from typing import Any
 import FreeCAD
 import numpy as np
 
-from aadm_workbench.document.colours import FAR, of_distances
+from aadm_workbench.document.display.colours import FAR, of_distances
 from aadm_workbench.document.properties import Property
 from aadm_workbench.gui import coin_shapes
 from aadm_workbench.gui.view_provider import MarksView

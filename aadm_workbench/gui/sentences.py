@@ -10,7 +10,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from aadm_workbench.document.messages import complain
+from aadm_workbench.document.display.messages import complain
 from aadm_workbench.errors import AadmError, MissingDependencyError
 
 translate = FreeCAD.Qt.translate
@@ -37,7 +37,7 @@ def show_error(title: str, error: BaseException) -> None:
     box.setText(sentence_of(error))
     box.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
     if isinstance(error, MissingDependencyError):
-        from aadm_workbench.gui.install import offer_to_install
+        from aadm_workbench.gui.panels.install import offer_to_install
 
         offer_to_install(box, error)
     box.open()

@@ -8,7 +8,7 @@ import FreeCADGui
 import numpy as np
 from pivy import coin
 
-from aadm_workbench.document.projection import ViewCamera
+from aadm_workbench.document.display.projection import ViewCamera
 from aadm_workbench.model import Array
 
 

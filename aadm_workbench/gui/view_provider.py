@@ -10,7 +10,7 @@ from typing import Any
 import FreeCAD
 from pivy import coin
 
-from aadm_workbench.document.messages import complain
+from aadm_workbench.document.display.messages import complain
 from aadm_workbench.document.properties import Property, apply_properties
 from aadm_workbench.document.stateless import Stateless
 from aadm_workbench.errors import AadmError

@@ -57,6 +57,6 @@ def set_up() -> None:
 
 
 def _open_import_panel(document: Any, files: list[Path]) -> None:
-    from aadm_workbench.gui.import_panel import open_panel
+    from aadm_workbench.gui.panels.import_scan import open_panel
 
     open_panel(document, files)

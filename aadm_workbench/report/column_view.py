@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from aadm_workbench.report.drawing.foot import FootSketch, foot_sketch, group_marks, pair_marks
+from aadm_workbench.report.drawing.sketch import Circle, Label, Polyline, Shape, Sketch, rectangle
 from aadm_workbench.report.shown_pose import shown_pose
-from aadm_workbench.report.sketch import Circle, Label, Polyline, Shape, Sketch, rectangle
-from aadm_workbench.report.sketch_foot import FootSketch, foot_sketch, group_marks, pair_marks
-from aadm_workbench.report.words import Phrase, phrase
+from aadm_workbench.report.words.labels import Phrase, phrase
 
 BAR_DIAMETER_MM, SLEEVE_DIAMETER_MM = 20.0, 36.0
 """Drawn where no diameter was measured."""

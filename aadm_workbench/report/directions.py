@@ -15,10 +15,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, NamedTuple
 
+from aadm_workbench.report.drawing.plan import grid_tags, place_mm
+from aadm_workbench.report.drawing.sketch import Point
 from aadm_workbench.report.read import Report
-from aadm_workbench.report.sketch import Point
-from aadm_workbench.report.sketch_plan import grid_tags, place_mm
-from aadm_workbench.report.words import Phrase
+from aadm_workbench.report.words.labels import Phrase
 
 SMALLEST_MM = 0.05
 """A component below this is left out: it would print as 0.0 mm."""

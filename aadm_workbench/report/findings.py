@@ -7,8 +7,8 @@ from typing import Any
 
 from aadm_workbench.report.hoist import Hoist, hoist_of, worst_first
 from aadm_workbench.report.read import Report
-from aadm_workbench.report.words import Phrase
-from aadm_workbench.report.words_reasons import in_both_languages
+from aadm_workbench.report.words.labels import Phrase
+from aadm_workbench.report.words.reasons import in_both_languages
 
 _SHOWN = 2  # reasons: a person reads two, the table has all
 

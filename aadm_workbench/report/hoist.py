@@ -11,8 +11,8 @@ from typing import Any, Literal, TypeAlias
 
 from aadm_workbench.model import WORST_FIRST
 from aadm_workbench.report.read import Report
-from aadm_workbench.report.words import Phrase, phrase
-from aadm_workbench.report.words_reasons import in_both_languages
+from aadm_workbench.report.words.labels import Phrase, phrase
+from aadm_workbench.report.words.reasons import in_both_languages
 
 HoistState: TypeAlias = Literal["no", "not_yet", "yes"]
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 from aadm_workbench.errors import ScanError
 from aadm_workbench.scan.file import ScanFile
+from aadm_workbench.scan.formats.tiff_pages import SIGNATURES as TIFF_SIGNATURES
+from aadm_workbench.scan.formats.tiff_pages import Page, pages_of
 from aadm_workbench.scan.picture_size import PNG_SIGNATURE
-from aadm_workbench.scan.tiff_pages import SIGNATURES as TIFF_SIGNATURES
-from aadm_workbench.scan.tiff_pages import Page, pages_of
 
 _PNG_CHANNELS = {0: 1, 2: 3, 3: 3, 4: 2, 6: 4}
 """Of the types of colour in a PNG; 3 is a palette."""

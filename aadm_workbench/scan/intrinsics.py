@@ -13,8 +13,8 @@ from typing import Any, TypeAlias
 from aadm_workbench.errors import CameraError
 from aadm_workbench.model import Camera
 from aadm_workbench.scan.distortion import as_float, coefficients_in, is_coefficients, numbers_in
+from aadm_workbench.scan.formats.xml_table import parse_xml
 from aadm_workbench.scan.printed import Entry, entries_of, kind_of
-from aadm_workbench.scan.xml_table import parse_xml
 
 _SHORTEST_FOCAL_LENGTH = 10.0
 """In pixels; a rotation matrix also has three rows, but its entries are at most 1."""

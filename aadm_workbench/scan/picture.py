@@ -13,10 +13,10 @@ import numpy.typing as npt
 from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.scan.depth_picture import DepthPicture
 from aadm_workbench.scan.file import ScanFile
-from aadm_workbench.scan.packed_tiff import is_beyond_opencv, unpacked
+from aadm_workbench.scan.formats.packed_tiff import is_beyond_opencv, unpacked
+from aadm_workbench.scan.formats.tiff_pages import SIGNATURES as TIFF_SIGNATURES
+from aadm_workbench.scan.formats.tiff_pages import Page, alone, pages_of
 from aadm_workbench.scan.picture_size import check_whole, picture_size
-from aadm_workbench.scan.tiff_pages import SIGNATURES as TIFF_SIGNATURES
-from aadm_workbench.scan.tiff_pages import Page, alone, pages_of
 
 Pixels = np.ndarray[Any, np.dtype[Any]]
 

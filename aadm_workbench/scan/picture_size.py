@@ -5,8 +5,8 @@ from __future__ import annotations
 import struct
 
 from aadm_workbench.scan.file import ScanFile
-from aadm_workbench.scan.tiff_pages import SIGNATURES as TIFF_SIGNATURES
-from aadm_workbench.scan.tiff_pages import pages_of
+from aadm_workbench.scan.formats.tiff_pages import SIGNATURES as TIFF_SIGNATURES
+from aadm_workbench.scan.formats.tiff_pages import pages_of
 
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _JPEG_SIGNATURE, _BMP_SIGNATURE = b"\xff\xd8\xff", b"BM"

@@ -17,18 +17,18 @@ from aadm_workbench.scan.axes import AXES, TAKEN_FOR_OPENGL, axes_of, turned
 from aadm_workbench.scan.camera import seen_by
 from aadm_workbench.scan.capture import find_capture
 from aadm_workbench.scan.depth import read_depth_map
-from aadm_workbench.scan.e57 import read_e57
 from aadm_workbench.scan.file import DEPTH_MAPS, Cloud, Declared, ScanFile, load
-from aadm_workbench.scan.las import read_las
-from aadm_workbench.scan.npz import read_npz
-from aadm_workbench.scan.pcd import read_pcd
+from aadm_workbench.scan.formats.e57 import read_e57
+from aadm_workbench.scan.formats.las import read_las
+from aadm_workbench.scan.formats.npz import read_npz
+from aadm_workbench.scan.formats.pcd import read_pcd
+from aadm_workbench.scan.formats.ply import read_ply
+from aadm_workbench.scan.formats.pts import read_pts
+from aadm_workbench.scan.formats.ptx import read_ptx
+from aadm_workbench.scan.formats.text import read_text
 from aadm_workbench.scan.picture import grey_of
 from aadm_workbench.scan.pixels import is_picture, on_pixels
-from aadm_workbench.scan.ply import read_ply
 from aadm_workbench.scan.points import to_millimetres, without_return
-from aadm_workbench.scan.pts import read_pts
-from aadm_workbench.scan.ptx import read_ptx
-from aadm_workbench.scan.text import read_text
 
 Reader = Callable[[ScanFile, Declared], Cloud]
 

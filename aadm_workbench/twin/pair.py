@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.atomic import write_atomically
-from aadm_workbench.design.pattern import inline_design, label_order
+from aadm_workbench.design.recognise.pattern import inline_design, label_order
 from aadm_workbench.model import AssemblyPoint, ColumnDesign
 from aadm_workbench.scan.write import write_depth_tiff, write_pcd, write_ply
 from aadm_workbench.twin.camera import DEPTH_SCALE_MM, PRO_M, capture_tables

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.design.pattern import label_order
+from aadm_workbench.design.recognise.pattern import label_order
 from aadm_workbench.model import Array, Camera
 from aadm_workbench.twin.camera import PRO_M, facing
 from aadm_workbench.twin.noise import CameraNoise

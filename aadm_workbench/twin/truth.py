@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.assembly.inspect import inspect_group
-from aadm_workbench.assembly.match import match_extraction
+from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.assembly.trial import try_scans
-from aadm_workbench.design.pattern import inline_design
+from aadm_workbench.assembly.trial.virtual import try_scans
+from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Kind, TrialPose, TrialReport, Verdict, worst
 from aadm_workbench.twin.parts import BarGroup, Foot
 from aadm_workbench.twin.scene import TrueScan, truth_of

@@ -16,14 +16,14 @@ from typing import TYPE_CHECKING
 from aadm_workbench.errors import AadmError, JobError
 
 from ..exit_codes import INTERNAL, INTERRUPTED, exit_code_of
-from ..job_command import add_job_arguments, pool_options, report_folder
-from ..one_thread import calculate_in_one_thread
+from ..job.command import add_job_arguments, pool_options, report_folder
 from ..report_files import add_format_switches, chosen_formats, require_packages
+from ..runner.one_thread import calculate_in_one_thread
 
 if TYPE_CHECKING:
-    from ..events import Events
-    from ..job import Job
-    from ..run import JobRun
+    from ..job.model import Job
+    from ..runner.run import JobRun
+    from ..shown.events import Events
 
 SUMMARY = "check the columns of a job"
 EXAMPLE = """\
@@ -68,7 +68,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Check a job; the exit code is that of its worst column."""
     calculate_in_one_thread()
-    from ..job_file import read_job
+    from ..job.file import read_job
 
     # Before the rest is imported: who has mistyped a key should not wait for it.
     job = read_job(options.job)
@@ -79,9 +79,9 @@ def run(options: argparse.Namespace) -> int:
         from ..model_results import ifc_model_of
 
         ifc_model_of(job)  # before the night's work, not after it
-    from ..events import Events
-    from ..folder_lock import locked
-    from ..interrupts import end_requests
+    from ..runner.folder_lock import locked
+    from ..runner.interrupts import end_requests
+    from ..shown.events import Events
 
     folder = report_folder(options)
     with closing(Events(options.events)) as events, locked(folder), end_requests():
@@ -90,11 +90,11 @@ def run(options: argparse.Namespace) -> int:
 
 def _run_in(folder: Path, job: Job, events: Events, options: argparse.Namespace) -> int:
     """Check a job into a folder that nobody else writes into."""
-    from ..follow import ShownCheck
-    from ..journal import PREVIOUS_NAME, Journal
-    from ..run import RunOptions, run_job
+    from ..runner.journal import PREVIOUS_NAME, Journal
+    from ..runner.run import RunOptions, run_job
     from ..served_report import without_absolute_paths
-    from ..terminal import say
+    from ..shown.follow import ShownCheck
+    from ..shown.terminal import say
 
     with closing(Journal(folder, resume=options.resume)) as journal:
         if journal.put_aside:
@@ -127,8 +127,8 @@ def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:
     from aadm_workbench.atomic import write_atomically
     from aadm_workbench.report.json import encode, report_document, write_report
 
-    from ..terminal import say, show, show_json
-    from ..verdict_table import advice_lines, summary_line, verdict_table
+    from ..shown.terminal import say, show, show_json
+    from ..shown.verdict_table import advice_lines, summary_line, verdict_table
 
     if options.debug:
         for name, trace in done.traces.items():
@@ -167,7 +167,7 @@ def _write_model(done: JobRun, job: Job, folder: Path, options: argparse.Namespa
     from aadm_workbench.report.json import report_document
 
     from ..model_results import write_checked_model, written_lines
-    from ..terminal import say
+    from ..shown.terminal import say
 
     try:
         written = write_checked_model(report_document(done.report), job, folder)

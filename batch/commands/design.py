@@ -64,8 +64,8 @@ def run(options: argparse.Namespace) -> int:
     """Print a model's design; without any column the exit code is 11."""
     from aadm_workbench.as_designed import read_design
 
-    from ..published_table import published_tables
-    from ..terminal import say, show
+    from ..shown.published_table import published_tables
+    from ..shown.terminal import say, show
     from ..unforeseen import unforeseen_in
 
     wanted: str | None = options.column
@@ -103,8 +103,8 @@ def _warnings(model: ModelDesign, columns: Sequence[ColumnDesign]) -> Iterator[s
 def _print_json(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: bool, published: bool) -> None:
     from aadm_workbench.report.json import encode
 
-    from ..published_table import published_entries
-    from ..terminal import show_json
+    from ..shown.published_table import published_entries
+    from ..shown.terminal import show_json
 
     document: dict[str, Any] = {
         "model": {"source": model.source, "sha256": model.sha256, "schema": model.schema},
@@ -226,7 +226,7 @@ def _table(headings: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequ
     from rich.cells import cell_len
     from rich.text import Text
 
-    from ..terminal import new_table
+    from ..shown.terminal import new_table
 
     if sys.stdout.isatty():
         table = new_table(*headings, numbers=tuple(numbers))

@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> int:
     from aadm_workbench.report.changes import compare_reports
     from aadm_workbench.report.read import read_report
 
-    from ..terminal import show, show_json
+    from ..shown.terminal import show, show_json
 
     changes = compare_reports(read_report(options.before), read_report(options.after))
     if options.json:
@@ -93,7 +93,7 @@ def _parts(changes: Changes) -> Iterator[Table | str]:
 def _columns(changes: Changes) -> Table:
     from rich.text import Text
 
-    from ..terminal import new_table
+    from ..shown.terminal import new_table
 
     table = new_table("Column", "Trend", "Verdict", "Goes on", "Largest distance", "New reason")
     for change in changes.changed:
@@ -111,7 +111,7 @@ def _columns(changes: Changes) -> Table:
 def _points(points: list[tuple[ColumnChange, PointChange]]) -> Table:
     from rich.text import Text
 
-    from ..terminal import new_table
+    from ..shown.terminal import new_table
 
     table = new_table("Column", "Point", "From", "To", "Moved", "u", "Verdict", numbers=("From", "To", "Moved", "u"))
     for change, point in points:

@@ -123,7 +123,7 @@ def _print(findings: Sequence[Finding], freecad: str | None) -> None:
         rows = [f"{one.package}: {one.problem or one.version or 'installed'} {one.remedy}" for one in findings]
         sys.stdout.write("\n".join([*lines, "", *rows, "", found, _conclusion(missing_core)]) + "\n")
         return
-    from ..terminal import show
+    from ..shown.terminal import show
 
     show(*lines, "", _table(findings), "", found, _conclusion(missing_core))
 
@@ -133,7 +133,7 @@ def _conclusion(missing_core: Sequence[str]) -> str:
 
 
 def _table(findings: Sequence[Finding]) -> Table:
-    from ..terminal import new_table
+    from ..shown.terminal import new_table
 
     table = new_table("Package", "Version", "Needed for", "", "Install it with")
     for finding in findings:

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..exit_codes import ALL_PASS, UNDECIDED
-from ..job_command import METHODS
-from ..one_thread import calculate_in_one_thread
+from ..job.command import METHODS
+from ..runner.one_thread import calculate_in_one_thread
 from ..switches import add_switches, length, whole_number
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
     from aadm_workbench.model import Kind
     from aadm_workbench.report.json import encode
 
-    from ..terminal import say, show, show_json
+    from ..shown.terminal import say, show, show_json
 
     scan = _read(options)
     extraction = extract(scan, Kind(options.kind), options.diameter, options.method, np.random.default_rng(0))
@@ -144,7 +144,7 @@ def _uncertainty_mm(point: AssemblyPoint, vertical: Array | None) -> float | Non
 
 
 def _table(extraction: Extraction) -> Table:
-    from ..terminal import new_table
+    from ..shown.terminal import new_table
 
     numbers = ("", "x mm", "y mm", "z mm", "Diameter mm", "u mm")
     table = new_table(*numbers, "Evidence", numbers=numbers)

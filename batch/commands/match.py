@@ -16,11 +16,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..exit_codes import INTERNAL, exit_code_of
-from ..job_command import add_job_arguments, pool_options, report_folder
-from ..one_thread import calculate_in_one_thread
+from ..job.command import add_job_arguments, pool_options, report_folder
+from ..runner.one_thread import calculate_in_one_thread
 
 if TYPE_CHECKING:
-    from ..match_run import MatchRun
+    from ..matching.run import MatchRun
 
 SUMMARY = "find out which column goes on which bars"
 EXAMPLE = """\
@@ -39,13 +39,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Match a job; the exit code is that of its worst assignment."""
     calculate_in_one_thread()
-    from ..job_file import read_job
+    from ..job.file import read_job
 
     job = read_job(options.job)
-    from ..match_run import run_match
-    from ..progress import StepProgress
-    from ..run import RunOptions
+    from ..matching.run import run_match
+    from ..runner.run import RunOptions
     from ..served_report import without_absolute_paths
+    from ..shown.progress import StepProgress
 
     folder = report_folder(options)
     with StepProgress("measuring", quiet=options.quiet) as progress:
@@ -59,8 +59,8 @@ def _hand_over(done: MatchRun, folder: Path, options: argparse.Namespace) -> int
     from aadm_workbench.errors import AadmError
     from aadm_workbench.report.json import encode, shipment_document
 
-    from ..match_table import match_tables
-    from ..terminal import say, show, show_json
+    from ..shown.match_table import match_tables
+    from ..shown.terminal import say, show, show_json
 
     if options.debug:
         for name, trace in done.traces.items():

@@ -11,13 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..exit_codes import ALL_PASS, UNDECIDED
-from ..job_direction import NEAR
+from ..job.direction import NEAR
 from ..switches import add_switches, length
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from aadm_workbench.assembly.hoisting_plan import CameraPlan, View
+    from aadm_workbench.hoisting.plan import CameraPlan, View
     from aadm_workbench.model import Camera, ColumnDesign
 
 SUMMARY = "say where to put the camera while a column hangs"
@@ -69,11 +69,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Plan; the exit code says whether all sleeves of interest are seen."""
-    from aadm_workbench.assembly.hoisting_plan import plan_camera
     from aadm_workbench.errors import AadmError
+    from aadm_workbench.hoisting.plan import plan_camera
     from aadm_workbench.report.json import encode
 
-    from ..terminal import show, show_json
+    from ..shown.terminal import show, show_json
 
     design, camera = _subject(options)
     labels = [point.label for point in design.sleeves]
@@ -109,8 +109,8 @@ def _subject(options: argparse.Namespace) -> tuple[ColumnDesign, Camera]:
         if options.size is None:
             raise JobError("name a job with --column, or a column with --size")
         return _square(options), camera or PRO_M
-    from ..job_file import read_job
-    from ..run import RunOptions, plan_tasks
+    from ..job.file import read_job
+    from ..runner.run import RunOptions, plan_tasks
     from ..stopwatch import Stopwatch
 
     if options.column is None:
@@ -123,7 +123,7 @@ def _subject(options: argparse.Namespace) -> tuple[ColumnDesign, Camera]:
 
 
 def _square(options: argparse.Namespace) -> ColumnDesign:
-    from aadm_workbench.design.pattern import inline_design
+    from aadm_workbench.design.recognise.pattern import inline_design
     from aadm_workbench.errors import JobError
     from aadm_workbench.twin.parts import ring
 
@@ -140,7 +140,7 @@ def _square(options: argparse.Namespace) -> ColumnDesign:
 
 
 def _shown(plan: CameraPlan, design: ColumnDesign) -> list[Table | str]:
-    from ..terminal import new_table
+    from ..shown.terminal import new_table
 
     numbers = ("From the first bar", "Below the tops", "Sleeves", "Bars", "u", "Depth")
     table = new_table("Frame", "Corner", *numbers, numbers=numbers)

@@ -37,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
     from aadm_workbench.assembly.tolerances import load_profile, profile_names
     from aadm_workbench.report.json import encode, profile_document
 
-    from ..terminal import show, show_json
+    from ..shown.terminal import show, show_json
 
     names = profile_names() if options.name is None else (options.name,)
     profiles = [load_profile(name, Path()) for name in names]
@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _profile_table(profiles: list[Profile]) -> Table:
-    from ..terminal import new_table
+    from ..shown.terminal import new_table
 
     table = new_table("Profile", "Rules", "Unverified", "Title", numbers=("Rules", "Unverified"))
     for profile in profiles:
@@ -62,7 +62,7 @@ def _profile_table(profiles: list[Profile]) -> Table:
 
 
 def _rule_table(profile: Profile) -> Table:
-    from ..terminal import new_table
+    from ..shown.terminal import new_table
 
     table = new_table("Rule", "Limit mm", "How", "Clause", "Severity", "Source", numbers=("Limit mm",))
     for rule in profile.rules:

@@ -68,8 +68,8 @@ def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
     """Scan cards of columns that were not scanned yet: all that a job alone can give."""
     from aadm_workbench.errors import JobError
 
-    from ..job_cards import job_cards
-    from ..job_file import read_job
+    from ..job.cards import job_cards
+    from ..job.file import read_job
     from ..report_files import FORMATS
 
     if chosen_formats(options) != ("scan_card",):
@@ -78,7 +78,7 @@ def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
             "then name its report.json"
         )
     require_packages(("scan_card",))
-    from aadm_workbench.report.scan_card_page import write_scan_cards
+    from aadm_workbench.report.pages.scan_card_page import write_scan_cards
 
     job = read_job(options.report)
     path = _folder(options, options.report.parent) / FORMATS["scan_card"][0]
@@ -96,7 +96,7 @@ def only_columns(report: Report, ids: list[str], source: Path) -> Report:
     """
     from aadm_workbench.errors import ReportError
 
-    from ..job_table import did_you_mean
+    from ..job.table import did_you_mean
 
     known = [column["id"] for column in report["columns"]]
     for name in ids:
@@ -119,7 +119,7 @@ def _folder(options: argparse.Namespace, otherwise: Path) -> Path:
 
 
 def _say(files: dict[str, Path], options: argparse.Namespace) -> None:
-    from ..terminal import show, show_json
+    from ..shown.terminal import show, show_json
 
     if options.json:
         from aadm_workbench.report.json import encode

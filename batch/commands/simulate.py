@@ -93,7 +93,7 @@ def _simulate_pair(options: argparse.Namespace) -> int:
     from aadm_workbench.twin.site import known_site
     from aadm_workbench.twin.slips import slip_of
 
-    from ..terminal import show
+    from ..shown.terminal import show
 
     filters, slip = filters_of(options.filter), slip_of(options.slip)
     known_site(options.site)
@@ -118,7 +118,7 @@ def _simulate_job(options: argparse.Namespace) -> int:
     from aadm_workbench.twin.floor import make_floor
     from aadm_workbench.twin.lab import make_lab
 
-    from ..terminal import say, show
+    from ..shown.terminal import say, show
 
     _prepare(options)
     for line in {"floor": make_floor, "lab": make_lab}[options.what](options.out, options.seed):

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..exit_codes import ALL_PASS
-from ..job_command import METHODS
-from ..one_thread import calculate_in_one_thread
+from ..job.command import METHODS
+from ..runner.one_thread import calculate_in_one_thread
 from ..study_hoisting import add_hoisting_studies
 from ..switches import add_switches, whole_number
 
@@ -66,9 +66,9 @@ def _study_methods(options: argparse.Namespace) -> int:
     from aadm_workbench.twin.pair import SETTINGS
     from aadm_workbench.twin.study.methods import study_methods, thinned_camera
 
-    from ..progress import StepProgress
-    from ..study_tables import study_tables
-    from ..terminal import show, show_json
+    from ..shown.progress import StepProgress
+    from ..shown.study_tables import study_tables
+    from ..shown.terminal import show, show_json
 
     names = _SETTINGS if options.setting == "both" else (options.setting,)
     with StepProgress("rendering", quiet=options.quiet) as progress:

@@ -12,8 +12,8 @@ import argparse
 from pathlib import Path
 
 from ..exit_codes import exit_code_of
-from ..job_direction import NEAR
-from ..one_thread import calculate_in_one_thread
+from ..job.direction import NEAR
+from ..runner.one_thread import calculate_in_one_thread
 from ..switches import add_switches, length, whole_number
 
 SUMMARY = "measure each new hoisting frame in a folder"
@@ -45,13 +45,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Watch a folder; the exit code is that of the last frame."""
     calculate_in_one_thread()
-    from ..job_file import read_job
+    from ..job.file import read_job
 
     job = read_job(options.job)
-    from ..run import RunOptions, plan_tasks
+    from ..runner.run import RunOptions, plan_tasks
+    from ..shown.terminal import say, show_json
     from ..stopwatch import Stopwatch
-    from ..terminal import say, show_json
-    from ..watch_run import Watcher, WatchOptions
+    from ..watch.run import Watcher, WatchOptions
 
     _, _, tasks = plan_tasks(job, RunOptions(only=(options.column,)), Stopwatch())
     state = options.state or options.folder / STATE_NAME

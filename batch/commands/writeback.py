@@ -15,7 +15,7 @@ from ..exit_codes import ALL_PASS
 from ..switches import add_switches
 
 if TYPE_CHECKING:
-    from aadm_workbench.report.ifc import WriteBack
+    from aadm_workbench.report.ifc.model import WriteBack
 
 SUMMARY = "write the results of a check into the IFC model"
 EXAMPLE = """\
@@ -58,7 +58,7 @@ def run(options: argparse.Namespace) -> int:
     done = _remove(options) if options.remove else _write(options)
     if options.ids is not None:
         from aadm_workbench.atomic import write_atomically
-        from aadm_workbench.report.ifc import ids_path
+        from aadm_workbench.report.ifc.model import ids_path
 
         write_atomically(options.ids, ids_path().read_bytes())
     _show(done, options)
@@ -78,7 +78,7 @@ def _write(options: argparse.Namespace) -> WriteBack:
 
 
 def _remove(options: argparse.Namespace) -> WriteBack:
-    from aadm_workbench.report.ifc import remove_ifc
+    from aadm_workbench.report.ifc.model import remove_ifc
 
     model: Path = options.model or options.report
     return remove_ifc(model, model if options.in_place else options.out or _beside(model, "restored"))
@@ -90,7 +90,7 @@ def _beside(model: Path, suffix: str) -> Path:
 
 def _show(done: WriteBack, options: argparse.Namespace) -> None:
     from ..model_results import written_json, written_lines
-    from ..terminal import show, show_json
+    from ..shown.terminal import show, show_json
 
     if options.json:
         show_json(written_json(done))

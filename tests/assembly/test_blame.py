@@ -8,16 +8,16 @@ import pytest
 
 from aadm_workbench.assembly.blame import with_blame
 from aadm_workbench.assembly.column import sum_up
-from aadm_workbench.assembly.eopa import EopaFit, fit_eopa_planar
 from aadm_workbench.assembly.inspect import inspect_group
-from aadm_workbench.assembly.match import match_extraction
-from aadm_workbench.assembly.repair import advise_repair
-from aadm_workbench.assembly.robust_fit import robust_offsets
+from aadm_workbench.assembly.matching.match import match_extraction
+from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar
+from aadm_workbench.assembly.pose.robust_fit import robust_offsets
+from aadm_workbench.assembly.pose.upright import turn
+from aadm_workbench.assembly.repair.bends import advise_repair
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.assembly.trial import try_assembly
-from aadm_workbench.assembly.upright import turn
+from aadm_workbench.assembly.trial.virtual import try_assembly
 from aadm_workbench.model import Kind, Verdict
-from aadm_workbench.report.words_reasons import in_both_languages
+from aadm_workbench.report.words.reasons import in_both_languages
 
 CN = load_profile("cn")
 

@@ -20,7 +20,7 @@ from aadm_workbench.assembly.findings.rules import findings_of
 from aadm_workbench.assembly.findings.same_scan import with_same_scans
 from aadm_workbench.assembly.findings.scales import student_quantile
 from aadm_workbench.assembly.findings.shape import design_shape
-from aadm_workbench.assembly.match import match_extraction
+from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.model import (
     AssemblyPoint,
     ColumnDesign,
@@ -33,7 +33,7 @@ from aadm_workbench.model import (
     Verdict,
 )
 from aadm_workbench.model.finding_sentences import FINDING_SENTENCES
-from aadm_workbench.report.words_reasons import in_both_languages
+from aadm_workbench.report.words.reasons import in_both_languages
 
 UP = np.array([0.0, 0.0, 1.0])
 CHINESE = re.compile(r"[\u4e00-\u9fff]")

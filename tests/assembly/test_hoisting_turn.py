@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from aadm_workbench.assembly.findings.hoisting_turn import with_turn_finding
-from aadm_workbench.assembly.hoisting_match import Matched, match_hoisting
+from aadm_workbench.hoisting.match import Matched, match_hoisting
 from aadm_workbench.model import Array, HoistingReport, Verdict
-from aadm_workbench.report.words_reasons import in_both_languages
+from aadm_workbench.report.words.reasons import in_both_languages
 
 NEAR = (-1, -1)
 

@@ -12,8 +12,8 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from aadm_workbench.assembly.match import Match, match_extraction
-from aadm_workbench.assembly.views import merge_views
+from aadm_workbench.assembly.matching.match import Match, match_extraction
+from aadm_workbench.assembly.matching.views import merge_views
 from aadm_workbench.model import AssemblyPoint, Extraction, Kind
 
 Plane = npt.NDArray[np.complex128]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from batch.job_file import read_job
+from batch.job.file import read_job
 from benchmarks.chaos import run_chaos
 from benchmarks.floors import write_floor
 from benchmarks.strangers import Strangers

@@ -9,7 +9,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from batch.pipes import Failed, answer
+from batch.runner.pipes import Failed, answer
 from benchmarks.floors import write_floor
 
 NOBODY = 65534

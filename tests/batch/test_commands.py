@@ -13,7 +13,7 @@ import pytest
 
 from aadm_workbench.design import read
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
-from aadm_workbench.design.pattern import inline_design
+from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import PACKAGES
 from aadm_workbench.extract import method
 from aadm_workbench.model import AssemblyPoint, Extraction, Kind, Plane, Scan

@@ -10,9 +10,9 @@ import pytest
 from typing_extensions import TypeAliasType
 
 from aadm_workbench.model import Array, ColumnReport, JobReport, Verdict
-from batch.exact_json import from_exact_json, to_exact_json
-from batch.job_file import read_job
-from batch.run import RunOptions, run_job
+from batch.job.file import read_job
+from batch.runner.exact_json import from_exact_json, to_exact_json
+from batch.runner.run import RunOptions, run_job
 
 SAMPLES = Path(__file__).resolve().parents[2] / "samples"
 

@@ -16,10 +16,10 @@ import pytest
 pytest.importorskip("open3d")
 pytest.importorskip("manifold3d")
 
-from aadm_workbench.assembly.hoisting_running import combined
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.document.hoisting_state import guidance_of, read_measurement
-from aadm_workbench.hoisting import HoistingSettings, measure_hoisting
+from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
+from aadm_workbench.hoisting.running import combined
 from aadm_workbench.model import HoistingMeasurement
 from aadm_workbench.report.hoisting_fitness import seconds_of
 from aadm_workbench.report.json import report_schema
@@ -27,12 +27,12 @@ from aadm_workbench.scan.write import write_depth_tiff
 from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM
 from aadm_workbench.twin.scenes import LAB
 from aadm_workbench.twin.study.hoisting import design_of
-from batch.job_file import read_job
+from batch.job.file import read_job
 from batch.main import main
-from batch.run import RunOptions, plan_tasks
+from batch.runner.run import RunOptions, plan_tasks
 from batch.stopwatch import Stopwatch
-from batch.watch_folder import FolderWatch, corner_of
-from batch.watch_run import Watcher, WatchOptions
+from batch.watch.folder import FolderWatch, corner_of
+from batch.watch.run import Watcher, WatchOptions
 from tests import hoisting_scenes as scenes
 
 _FARTHEST_MM = 65_000 * DEPTH_SCALE_MM
@@ -162,7 +162,7 @@ def test_a_swinging_column_is_never_ready_and_is_pushed_from_its_rest(
     times_s = 1.3 * np.arange(8)
     shifts = 9.0 * np.sin(2.0 * np.pi * times_s / 4.7)
     frames = iter([moved_by(usual, float(shift)) for shift in shifts])
-    monkeypatch.setattr("batch.watch_run.measure_hoisting", lambda *_, **__: next(frames))
+    monkeypatch.setattr("batch.watch.run.measure_hoisting", lambda *_, **__: next(frames))
     clock = {"s": 0.0}
     watched = folder / "frames"
     watched.mkdir()

@@ -10,16 +10,16 @@ from typing import Any
 import pytest
 
 from aadm_workbench.design.model_design import ModelDesign
-from aadm_workbench.design.pattern import inline_design
+from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import DesignError, JobError
 from aadm_workbench.model import Verdict
-from batch import run
-from batch.job_file import read_job
+from batch.job.file import read_job
 from batch.main import main
+from batch.runner import run
 from tests.design.step_yard import Step, Yard, yard
 
 from .conftest import CENTRES, DESIGN, HEAD, WriteJob, column_text
-from .test_run import finished, of_model
+from .runner.test_run import finished, of_model
 
 MODEL_HEAD = HEAD + '[model]\npath = "model.ifc"\n'
 

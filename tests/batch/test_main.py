@@ -15,8 +15,9 @@ import pytest
 from aadm_workbench import __version__
 from aadm_workbench.extract import method
 from aadm_workbench.report.json import report_schema
-from batch import column_task, job_command
+from batch.job import command as job_command
 from batch.main import COMMANDS, build_parser, main
+from batch.runner import column_task
 
 from .conftest import WriteJob, column_text
 
@@ -188,7 +189,7 @@ def test_an_error_that_nobody_foresaw(
     def read_job(*_: object) -> None:
         raise ZeroDivisionError("by zero")
 
-    monkeypatch.setattr("batch.job_file.read_job", read_job)
+    monkeypatch.setattr("batch.job.file.read_job", read_job)
     assert main(["check", str(path)]) == 70
     assert capsys.readouterr().err == (
         "aadm: internal error: ZeroDivisionError: by zero; repeat the command with --debug to see where it happened\n"

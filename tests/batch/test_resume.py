@@ -12,13 +12,13 @@ from typing import Any
 import pytest
 
 from aadm_workbench.errors import AadmError
-from batch import column_task, order
-from batch.journal import Journal
 from batch.main import main
-from batch.task import ColumnTask
+from batch.runner import column_task, order
+from batch.runner.journal import Journal
+from batch.runner.task import ColumnTask
 
 from .conftest import WriteJob, column_text
-from .test_run import raising
+from .runner.test_run import raising
 
 NAMES = [f"C-{number}" for number in range(6)]
 
@@ -107,7 +107,7 @@ def test_what_has_changed_is_checked_again(job: Path, monkeypatch: pytest.Monkey
 @pytest.mark.usefixtures("exact_extraction")
 def test_another_version_checks_everything_again(job: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     check(job, "out")
-    monkeypatch.setattr("batch.run.program_key", lambda: "another")
+    monkeypatch.setattr("batch.runner.run.program_key", lambda: "another")
     seen = counted(monkeypatch)
     check(job, "out", "--resume")
     assert seen == NAMES

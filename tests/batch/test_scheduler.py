@@ -16,9 +16,9 @@ import psutil
 import pytest
 
 from aadm_workbench.errors import JobError
-from batch.engine import Unwatched, work_through
 from batch.main import main
-from batch.pools import PoolOptions, open_pool
+from batch.runner.engine import Unwatched, work_through
+from batch.runner.pools import PoolOptions, open_pool
 
 from .conftest import WriteJob, column_text
 from .killers import Chore, do, give_up

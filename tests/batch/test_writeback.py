@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from aadm_workbench.report.ifc_read import read_ifc_results
+from aadm_workbench.report.ifc.read import read_ifc_results
 from batch.main import main
 from tests.report.floor_schemas import SCHEMAS, converted
 

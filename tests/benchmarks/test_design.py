@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from aadm_workbench.design.ifc import read_ifc
+from aadm_workbench.design.ifc.model import read_ifc
 from benchmarks.design import measure, write_floor
 
 
@@ -32,7 +32,7 @@ def test_nothing_else_is_taken(floor: Path) -> None:
 
 def test_only_what_may_be_a_sleeve_is_evaluated(floor: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Facets of fittings and brackets, walls, beams and pipes stay closed."""
-    from aadm_workbench.design.ifc_solids import Solids
+    from aadm_workbench.design.ifc.geometry.solids import Solids
 
     opened: set[tuple[str, int]] = set()
     evaluate = Solids.of_item

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aadm_workbench.design.ifc import read_ifc
+from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.model import ColumnDesign
 from tests.design import dialects
 from tests.design.dialects import BENT, BENT_SINCE_IFC4, SLEEVES, SLEEVES_SINCE_IFC4, STRAIGHT, motion, on, shift

@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from aadm_workbench.design.bar_courses import Course
 from aadm_workbench.design.element_json import from_json, to_json
 from aadm_workbench.design.elements import Element, Solid, counted_once, even_scale
-from aadm_workbench.design.paths import Arc, Straight
-from aadm_workbench.design.recognise import Origin, Rules, recognise
-from aadm_workbench.design.round_faces import Bend, RoundFace, bar_of, tubes_of
-from aadm_workbench.design.selectors import select
-from aadm_workbench.design.tubes import Tube
+from aadm_workbench.design.recognise.bar_courses import Course
+from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
+from aadm_workbench.design.recognise.paths import Arc, Straight
+from aadm_workbench.design.recognise.round_faces import Bend, RoundFace, bar_of, tubes_of
+from aadm_workbench.design.recognise.selectors import select
+from aadm_workbench.design.recognise.tubes import Tube
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Array
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aadm_workbench.design.ifc import read_ifc
+from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.model import ColumnDesign
 from tests.design import dialects

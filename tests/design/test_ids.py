@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import ifcopenshell
 import pytest
 
-from aadm_workbench.design.ifc_words import NOT_SLEEVE, REBAR, SLEEVE
+from aadm_workbench.design.ifc.words import NOT_SLEEVE, REBAR, SLEEVE
 
 ids = pytest.importorskip("ifctester.ids", reason="ifctester is not installed: pip install ifctester")
 

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aadm_workbench.design import ifc_kernel
-from aadm_workbench.design.ifc import read_ifc
-from aadm_workbench.design.ifc_kernel import Kernel
-from aadm_workbench.design.ifc_placement import UnreadableGeometryError
+from aadm_workbench.design.ifc.geometry import kernel as ifc_kernel
+from aadm_workbench.design.ifc.geometry.kernel import Kernel
+from aadm_workbench.design.ifc.geometry.placement import UnreadableGeometryError
+from aadm_workbench.design.ifc.model import read_ifc
 from tests.design.authoring import Author
+from tests.design.ifc.text.test_prepared import check_whole, read
 from tests.design.step_yard import Step, Yard, yard
-from tests.design.test_ifc_text import check_whole, read
 
 Item = Callable[[Step], str]
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aadm_workbench.design.ifc import read_ifc
+from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.errors import DesignError
 from tests.design import dialects
 from tests.design.dialects import mapped, shift

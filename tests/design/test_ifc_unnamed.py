@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aadm_workbench.design.ifc import read_ifc
+from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.errors import DesignError
-from tests.design.test_ifc_sleeves import Ring, check, draw
+from tests.design.ifc.test_sleeves import Ring, check, draw
 
 
 @pytest.mark.parametrize("voiding", [0, 5, 11], ids=["no relation", "some relations", "all but one"])

@@ -22,8 +22,8 @@ from aadm_workbench.model.finding_sentences import FINDING_SENTENCES
 from aadm_workbench.scan.read import supported_formats
 from aadm_workbench.twin.filters import NAMES as FILTERS
 from batch import exit_codes
-from batch.job_file import read_job
-from batch.job_table import JobTable
+from batch.job.file import read_job
+from batch.job.table import JobTable
 from batch.main import build_parser, main
 from batch.report_files import FORMATS
 

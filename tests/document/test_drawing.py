@@ -5,14 +5,14 @@ import itertools
 import numpy as np
 import pytest
 
-from aadm_workbench.design.pattern import inline_design
+from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.document.cloud import distance_from_design, thinned
-from aadm_workbench.document.colours import FAR, of_distances
-from aadm_workbench.document.design_text import design_of_report, read_design, write_design
-from aadm_workbench.document.label_layout import Wanted, overlap, place_labels
-from aadm_workbench.document.marks import arrow_outline, best_magnification, marks_of, pitch_of, ring
-from aadm_workbench.document.projection import ViewCamera, project
-from aadm_workbench.document.result_rows import only_what_fails, result_rows
+from aadm_workbench.document.display.colours import FAR, of_distances
+from aadm_workbench.document.display.design_text import design_of_report, read_design, write_design
+from aadm_workbench.document.display.label_layout import Wanted, overlap, place_labels
+from aadm_workbench.document.display.marks import arrow_outline, best_magnification, marks_of, pitch_of, ring
+from aadm_workbench.document.display.projection import ViewCamera, project
+from aadm_workbench.document.display.result_rows import only_what_fails, result_rows
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Kind
 from tests.document.test_objects import point, report

@@ -323,5 +323,5 @@ def test_import_hooks_are_registered(freecad: Any) -> None:
     # FreeCAD has better things to do with pictures and tables; there Import scan is the way in.
     assert ours <= {*supported_formats()}
     assert ours >= {".ply", ".pcd", ".tiff", ".npz"}
-    assert "aadm_workbench.document.open_report" in result["types"]["json"]
+    assert "aadm_workbench.document.report.opened" in result["types"]["json"]
     assert result["types"]["ply"][0] != "aadm_workbench.document.open_scan", "others keep the first place"

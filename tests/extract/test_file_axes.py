@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.extract.file_axes import in_coordinates_of_the_file
-from aadm_workbench.extract.hoisting_frame import HoistingFrame, frame_of
 from aadm_workbench.extract.method import extract
+from aadm_workbench.hoisting.frame import HoistingFrame, frame_of
 from aadm_workbench.model import OPENGL_AXES, Kind
 from tests.scenes import lab_bars, lab_scan
 

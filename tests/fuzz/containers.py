@@ -21,8 +21,8 @@ import numpy as np
 from aadm_workbench.design.fcstd import check_archive
 from aadm_workbench.design.read import read_model
 from aadm_workbench.errors import AadmError
-from aadm_workbench.report.bcf import write_bcf
-from batch.journal import Journal
+from aadm_workbench.report.bcf.topics import write_bcf
+from batch.runner.journal import Journal
 from tests.report.checked_floor import CASES, floor_report
 
 from .zips import Entry, harmed, harmed_text

@@ -15,7 +15,7 @@ import numpy as np
 from aadm_workbench.design.element_json import from_json, to_json
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.read import read_model
-from aadm_workbench.design.recognise import Origin, recognise
+from aadm_workbench.design.recognise.columns import Origin, recognise
 from aadm_workbench.errors import AadmError
 from tests.fuzz.dice import Dice
 from tests.fuzz.ifc_mutations import mutated

@@ -7,7 +7,7 @@ It finds what :mod:`tests.gui.session_body` finds, and what that has defined.
 import copy
 import subprocess
 
-from aadm_workbench.gui.hoisting_window import open_window
+from aadm_workbench.gui.hoisting.window import open_window
 from aadm_workbench.gui.view_camera import active_view as view_in_front
 
 # Thirty columns.
@@ -26,7 +26,7 @@ for number in range(30):
 big = FreeCAD.newDocument("thirty")
 begin = time.perf_counter()
 Gui.Control.closeDialog()
-from aadm_workbench.document import open_report
+from aadm_workbench.document.report import opened as open_report
 
 open_report.insert(str(folder / "thirty.json"), big.Name)
 view = view_in_front()
@@ -66,7 +66,7 @@ entry["global_id"] = "1rW1CmykLUif254YhpKjBc"
 (folder / "one.json").write_text(json.dumps({**one_floor, "columns": [entry]}))
 words = [str(folder / "one.json"), str(folder / "annotated.FCStd"), str(folder / "plain.FCStd")]
 code = f"import sys, runpy; sys.argv[1:] = {words!r}; "
-code += "runpy.run_module('aadm_workbench.document.annotate', run_name='__main__', alter_sys=True)"
+code += "runpy.run_module('aadm_workbench.document.report.annotate', run_name='__main__', alter_sys=True)"
 ended = subprocess.run([FREECADCMD, "-c", code], capture_output=True, text=True, timeout=60, check=False)
 result["annotate"] = [ended.returncode, (folder / "annotated.FCStd").is_file()]
 result["annotate_said"] = ended.stdout[-2000:] + ended.stderr[-2000:]

@@ -55,7 +55,7 @@ def sentences():
 
 
 def panel(kind):
-    from aadm_workbench.gui.task_panel import open_panel_of
+    from aadm_workbench.gui.panels.task_panel import open_panel_of
 
     return open_panel_of(kind)
 
@@ -120,7 +120,7 @@ Gui.runCommand("AADM_SampleDesign")
 settle(0.2)
 from aadm_workbench.document import api
 from aadm_workbench.document.places import transform_of
-from aadm_workbench.gui.design_panel import DesignPanel
+from aadm_workbench.gui.panels.design import DesignPanel
 
 (column,) = api.columns_in(document)
 design_panel = panel(DesignPanel)
@@ -146,7 +146,7 @@ undo_name = document.UndoNames[0] if document.UndoNames else ""
 result["undo_names"] = list(document.UndoNames)
 
 # Import: a broken scan, then the two good ones.
-from aadm_workbench.gui.import_panel import ImportPanel
+from aadm_workbench.gui.panels.import_scan import ImportPanel
 
 scans = Path(SAMPLES) / "floor" / "scans"
 intrinsics = folder / "camera.toml"
@@ -181,7 +181,7 @@ result["said_for_good_scans"] = import_scan(scans / "C-302-foot.tiff", "sleeves"
 result["scans"] = [[cloud.Kind, cloud.PointCount, len(cloud.Points)] for cloud in column.Scans]
 
 # Check: cancelled, then to its end, while the window lives.
-from aadm_workbench.gui.check_panel import CheckPanel
+from aadm_workbench.gui.panels.check import CheckPanel
 
 Gui.Selection.clearSelection()
 Gui.Selection.addSelection(column_body)
@@ -207,8 +207,8 @@ checking.only_failing.setChecked(True)
 result["failing_rows"] = checking.table.rowCount()
 
 # What is seen: the whole, and the foot from below with the colours at their places.
+from aadm_workbench.document.display.projection import project
 from aadm_workbench.document.places import world_point
-from aadm_workbench.document.projection import project
 from aadm_workbench.document.result import found_of
 from aadm_workbench.gui.label_keeper import KEEPER
 from aadm_workbench.gui.picture import save_picture
@@ -287,8 +287,8 @@ if panel(CheckPanel) is not None:
     checking.reject()
 
 # Write results onto the model, save, write report.json.
-from aadm_workbench.gui.report_panel import ReportPanel
-from aadm_workbench.gui.write_panel import WritePanel
+from aadm_workbench.gui.panels.report import ReportPanel
+from aadm_workbench.gui.panels.write import WritePanel
 
 column_body.ViewObject.Visibility = True
 document.saveAs(str(folder / "session.FCStd"))
@@ -344,7 +344,7 @@ result["back_after_undo"] = sorted(obj.Name for obj in document.Objects if obj.N
 FreeCAD.closeDocument(document.Name)
 
 # A job of a whole floor: cancelled, refused, then done.
-from aadm_workbench.gui.job_panel import JobPanel
+from aadm_workbench.gui.panels.job import JobPanel
 
 floor = FreeCAD.newDocument("floor")
 Gui.runCommand("AADM_RunJob")

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from aadm_workbench import __version__
-from aadm_workbench.document.colours import VERDICTS, of_verdict
-from aadm_workbench.document.label_layout import overlap
+from aadm_workbench.document.display.colours import VERDICTS, of_verdict
+from aadm_workbench.document.display.label_layout import overlap
 from aadm_workbench.report.read import read_report
 
 pytestmark = pytest.mark.freecad

@@ -16,13 +16,13 @@ from typing import Any
 import pytest
 
 from aadm_workbench.errors import AadmError, ReportError
-from aadm_workbench.report.bcf import write_bcf
+from aadm_workbench.report.bcf.topics import write_bcf
 from aadm_workbench.report.read import read_report
-from batch.journal import Journal
 from batch.main import main
-from batch.record import read_record
 from batch.report_files import FORMATS, write_reports
-from batch.run import _column
+from batch.runner.journal import Journal
+from batch.runner.record import read_record
+from batch.runner.run import _column
 from tests.report.checked_floor import CASES, floor_report
 
 from .test_pipeline import column
@@ -172,7 +172,7 @@ def test_a_result_that_makes_no_sense_is_said() -> None:
 
 
 def test_a_journal_of_too_many_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("batch.journal.MOST_LINES", 1000)
+    monkeypatch.setattr("batch.runner.journal.MOST_LINES", 1000)
     (tmp_path / "journal.jsonl").write_bytes(FIRST + b'{"began":"C-1"}\n' * 1001)
     with pytest.raises(AadmError, match="has more than 1000 lines, which no check writes; check without --resume"):
         Journal(tmp_path, resume=True)

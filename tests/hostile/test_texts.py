@@ -14,11 +14,11 @@ from aadm_workbench.errors import JobError, ReportError
 from aadm_workbench.model import ColumnReport, Verdict
 from aadm_workbench.report.json import encode
 from aadm_workbench.report.read import read_report
-from batch import terminal
-from batch.job_file import read_job
+from batch.job.file import read_job
 from batch.main import main
-from batch.printable import printable
 from batch.served_report import without_absolute_paths
+from batch.shown import terminal
+from batch.shown.printable import printable
 
 from .test_pipeline import DESIGN, column
 

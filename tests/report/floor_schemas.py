@@ -12,7 +12,7 @@ import ifcopenshell
 import numpy as np
 
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.design.ifc import read_ifc
+from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.model import AssemblyPoint, ColumnDesign
 from aadm_workbench.report.json import profile_document
 from aadm_workbench.report.read import Report, checked_report

@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.errors import ReportError
-from aadm_workbench.report.bcf import write_bcf
+from aadm_workbench.report.bcf.topics import write_bcf
 from aadm_workbench.report.read import Report
 from tests.report.floor_schemas import made_report
 

@@ -9,14 +9,14 @@ from typing import Any
 
 import pytest
 
-from aadm_workbench.report.bcf import write_bcf
+from aadm_workbench.report.bcf.topics import write_bcf
 from aadm_workbench.report.column_view import column_notes, declared_up
-from aadm_workbench.report.crew import crew_advice
-from aadm_workbench.report.csv import csv_content
 from aadm_workbench.report.hoist import hoist_of
-from aadm_workbench.report.html import write_html
-from aadm_workbench.report.sheets import columns_table
-from aadm_workbench.report.words import phrase
+from aadm_workbench.report.pages.crew import crew_advice
+from aadm_workbench.report.pages.html import write_html
+from aadm_workbench.report.sheets.csv import csv_content
+from aadm_workbench.report.sheets.sheets import columns_table
+from aadm_workbench.report.words.labels import phrase
 
 TEXT = "the scan of the sleeves is mirrored: its points fit the pattern only as in a mirror"
 FINDING = {"code": "mirrored", "about": ["sleeves"], "values": {"group": "sleeves"}, "text": TEXT, "holds_back": True}
@@ -40,7 +40,7 @@ def test_labels_that_hang_on_a_declared_up_say_so_everywhere(floor: dict[str, An
 def test_the_crew_page_says_it_too(floor: dict[str, Any], tmp_path: Path) -> None:
     pytest.importorskip("reportlab")
     pypdf = pytest.importorskip("pypdf")
-    from aadm_workbench.report.crew_page import write_crew_pages
+    from aadm_workbench.report.pages.crew_page import write_crew_pages
 
     write_crew_pages(floor, tmp_path / "crew.pdf")
     pages = ["".join(page.extract_text().split()) for page in pypdf.PdfReader(tmp_path / "crew.pdf").pages]

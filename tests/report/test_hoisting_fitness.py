@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from aadm_workbench.report.hoisting_fitness import fitness_of, seconds_of, stamp_of
-from aadm_workbench.report.words_reasons import in_both_languages
+from aadm_workbench.report.words.reasons import in_both_languages
 
 NOON = 1_796_040_000.0  # 2026-11-30T12:00:00Z by `date -u -d`
 PAIRS = [

@@ -10,13 +10,13 @@ import numpy as np
 import pypdf
 import pytest
 
-from aadm_workbench.design.pattern import inline_design
+from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.model import Camera
-from aadm_workbench.report.scan_card import CardDesign, ScanCard, corner_of, design_cards, scan_cards, top_side
-from aadm_workbench.report.scan_card_page import picture_sketch, write_scan_cards
-from aadm_workbench.report.sketch import Label
-from batch.job_cards import job_cards
-from batch.job_file import read_job
+from aadm_workbench.report.drawing.sketch import Label
+from aadm_workbench.report.pages.scan_card import CardDesign, ScanCard, corner_of, design_cards, scan_cards, top_side
+from aadm_workbench.report.pages.scan_card_page import picture_sketch, write_scan_cards
+from batch.job.cards import job_cards
+from batch.job.file import read_job
 from tests.report.checked_floor import DESIGN, HOSTILE
 
 SAMPLE = Path(__file__).resolve().parents[2] / "samples" / "floor"

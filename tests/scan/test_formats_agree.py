@@ -13,8 +13,8 @@ from aadm_workbench.model import Array, Camera
 from aadm_workbench.scan.read import read_scan
 from aadm_workbench.scan.write import write_depth_tiff, write_npz, write_pcd, write_ply, write_xyz
 
-from .test_e57 import cartesian, write_e57
-from .test_ptx import block
+from .formats.test_e57 import cartesian, write_e57
+from .formats.test_ptx import block
 
 OFFSET_MM = np.array([512_345_678.0, 4_096_000_123.0, 88_000.0])
 

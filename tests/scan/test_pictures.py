@@ -17,8 +17,8 @@ import tifffile
 
 from aadm_workbench.errors import AadmError, MissingDependencyError, ScanError
 from aadm_workbench.model import Array, Camera, FloatArray
-from aadm_workbench.scan import packed_tiff
 from aadm_workbench.scan.file import load
+from aadm_workbench.scan.formats import packed_tiff
 from aadm_workbench.scan.picture import grey_of
 from aadm_workbench.scan.read import read_scan
 

@@ -15,7 +15,7 @@ from aadm_workbench.model import Camera, FloatArray
 from aadm_workbench.scan.read import read_scan, supported_formats
 from aadm_workbench.scan.write import write_npz, write_pcd, write_ply, write_xyz
 
-from .test_e57 import cartesian, write_e57
+from .formats.test_e57 import cartesian, write_e57
 from .test_formats_agree import write_las
 
 WRITERS = {

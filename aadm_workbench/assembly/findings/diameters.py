@@ -14,7 +14,7 @@ import numpy as np
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
-from aadm_workbench.design.bar_sizes import OVER_RIBS_MM
+from aadm_workbench.design.recognise.bar_sizes import OVER_RIBS_MM
 from aadm_workbench.extract.sizes import distinct_sizes
 from aadm_workbench.model import AssemblyPoint, Finding, Kind
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from aadm_workbench.assembly.match import Match
+from aadm_workbench.assembly.matching.match import Match
 from aadm_workbench.assembly.place import PlacedPoint, place_points
 from aadm_workbench.model import AssemblyPoint, Extraction, Kind
 

@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from aadm_workbench.assembly.findings.make import make_finding
-from aadm_workbench.assembly.hoisting_match import corner_name
+from aadm_workbench.hoisting.match import corner_name
 from aadm_workbench.model import Finding, HoistingReport, Verdict, worst
 
 DOUBTFUL_DEG = 40.5

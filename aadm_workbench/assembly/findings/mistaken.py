@@ -14,8 +14,8 @@ from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.lengths import length_findings
 from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.assembly.findings.named_scan import FEWEST, FITS_SHARE, NamedScan, fits
-from aadm_workbench.design.bar_sizes import OVER_RIBS_MM
-from aadm_workbench.extract.edge_shift import BLURRED
+from aadm_workbench.design.recognise.bar_sizes import OVER_RIBS_MM
+from aadm_workbench.extract.edges.edge_shift import BLURRED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Finding, Kind
 

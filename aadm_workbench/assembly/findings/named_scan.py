@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from aadm_workbench.assembly.match import match_extraction
+from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.model import AssemblyPoint, Extraction, Kind
 
 FITS_SHARE = 0.75

@@ -15,7 +15,7 @@ import numpy as np
 
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.make import make_finding
-from aadm_workbench.assembly.likelihood import USUAL_SCATTER_MM
+from aadm_workbench.assembly.matching.likelihood import USUAL_SCATTER_MM
 from aadm_workbench.model import Array, Finding
 
 PLAY = 5e-4

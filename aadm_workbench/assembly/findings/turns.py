@@ -7,8 +7,8 @@ from collections.abc import Iterator
 
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.make import make_finding
-from aadm_workbench.assembly.match import FAR_FROM_DECLARED
-from aadm_workbench.assembly.upright import wrap
+from aadm_workbench.assembly.matching.match import FAR_FROM_DECLARED
+from aadm_workbench.assembly.pose.upright import wrap
 from aadm_workbench.model import Finding
 
 

@@ -13,7 +13,7 @@ from PySide import QtCore, QtGui
 from aadm_workbench import __version__
 from aadm_workbench.document.packages import PACKAGES, Package, install_command
 from aadm_workbench.gui.command import Command
-from aadm_workbench.gui.install import install
+from aadm_workbench.gui.panels.install import install
 from aadm_workbench.gui.resources import icon_path
 
 translate = FreeCAD.Qt.translate

@@ -27,6 +27,6 @@ class CheckColumn(Command):
 
     def run(self) -> None:
         """Open the panel."""
-        from aadm_workbench.gui.check_panel import open_panel
+        from aadm_workbench.gui.panels.check import open_panel
 
         open_panel(the_column())

@@ -22,6 +22,6 @@ class Hoisting(Command):
 
     def run(self) -> None:
         """Open the window."""
-        from aadm_workbench.gui.hoisting_window import open_window
+        from aadm_workbench.gui.hoisting.window import open_window
 
         open_window()

@@ -25,7 +25,7 @@ class ImportScan(Command):
 
     def run(self) -> None:
         """Open the panel."""
-        from aadm_workbench.gui.import_panel import open_panel
+        from aadm_workbench.gui.panels.import_scan import open_panel
 
         column = the_column()
         open_panel(column.Document, [], column)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import FreeCAD
 
-from aadm_workbench.document.document_report import report_of
+from aadm_workbench.document.report.of_document import report_of
 from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.command import Command
 from aadm_workbench.gui.commands.write_results import has_results
@@ -28,7 +28,7 @@ class Report(Command):
 
     def run(self) -> None:
         """Open the panel."""
-        from aadm_workbench.gui.report_panel import open_panel
+        from aadm_workbench.gui.panels.report import open_panel
 
         if FreeCAD.ActiveDocument is None:
             raise AadmError(translate("AADM", "No document is open: open the model first."))

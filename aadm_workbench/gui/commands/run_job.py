@@ -20,6 +20,6 @@ class RunJob(Command):
 
     def run(self) -> None:
         """Open the panel."""
-        from aadm_workbench.gui.job_panel import open_panel
+        from aadm_workbench.gui.panels.job import open_panel
 
         open_panel()

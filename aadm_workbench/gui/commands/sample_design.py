@@ -10,7 +10,7 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtCore, QtGui
 
-from aadm_workbench.document.messages import complain, tell
+from aadm_workbench.document.display.messages import complain, tell
 from aadm_workbench.document.sampling import sample_columns, sample_ifc
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError
@@ -59,7 +59,7 @@ def _sample(document: Any, work: Callable[[], list[Any]]) -> None:
             column.Method, column.Tolerances, column.Decision = method(), tolerances(), decision()
     tell(translate("AADM_SampleDesign", "{count} columns were sampled").format(count=len(columns)))
     select(columns[:1])
-    from aadm_workbench.gui.design_panel import open_panel
+    from aadm_workbench.gui.panels.design import open_panel
 
     open_panel(columns[0])
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import FreeCAD
 
 from aadm_workbench.document.column import columns_in
-from aadm_workbench.document.document_report import report_of
+from aadm_workbench.document.report.of_document import report_of
 from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.command import Command
 
@@ -30,7 +30,7 @@ class WriteResults(Command):
 
     def run(self) -> None:
         """Open the panel."""
-        from aadm_workbench.gui.write_panel import open_panel
+        from aadm_workbench.gui.panels.write import open_panel
 
         if FreeCAD.ActiveDocument is None:
             raise AadmError(translate("AADM", "No document is open: open the model first."))

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.design.pattern import adjacent, pair
+from aadm_workbench.design.recognise.pattern import adjacent, pair
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Vector2
 from aadm_workbench.twin.scene import TrueScan
 

@@ -8,12 +8,12 @@ from time import perf_counter
 
 import numpy as np
 
-from aadm_workbench.assembly.eopa import NoFit
-from aadm_workbench.assembly.hoisting_pairs import key_labels
-from aadm_workbench.assembly.hoisting_published import measure_published
-from aadm_workbench.assembly.minimax import fit_minimax
-from aadm_workbench.design.pattern import inline_design
-from aadm_workbench.hoisting import HoistingSettings, measure_hoisting
+from aadm_workbench.assembly.pose.eopa import NoFit
+from aadm_workbench.assembly.pose.minimax import fit_minimax
+from aadm_workbench.design.recognise.pattern import inline_design
+from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
+from aadm_workbench.hoisting.pairs import key_labels
+from aadm_workbench.hoisting.published import measure_published
 from aadm_workbench.model import Array, ColumnDesign, HoistingMeasurement, Scan
 from aadm_workbench.twin.hoisting import Hang, HoistingScan, Stand, hoisting_scan
 from aadm_workbench.twin.noise import CameraNoise

@@ -1,0 +1,1 @@
+"""Which point is which, and which column belongs on which bars."""

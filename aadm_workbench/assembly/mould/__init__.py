@@ -1,0 +1,1 @@
+"""What the moulds of a shipment do to their columns."""

@@ -1,0 +1,132 @@
+"""The moulds of a job: which columns come from one, and what each mould does to its sleeves.
+
+A limit that is radial holds for the length of (dx, dy); process capability is one number for each axis. It is taken
+against the square inscribed in the circle, ± limit/√2: what keeps to it on both axes keeps to the circle. Its mean and
+scatter are those of the position after each column's own fit, because that is what the limit holds for.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from aadm_workbench.assembly.mould.drift import CONFIDENCE, SharedDisplacement, shared_displacement
+from aadm_workbench.assembly.mould.drift_laws import cp_index, cpk_index
+from aadm_workbench.assembly.rules import applicable_rules
+from aadm_workbench.model import Capability, ColumnReport, GroupReport, MouldDrift, Profile, Rule, SleeveDrift, Vector2
+
+FEWEST_COLUMNS = 3
+"""Columns of one mould: of two nobody can say what is the mould's and what is scatter."""
+
+_SHARED_UNCERTAINTIES = 2.0
+"""A displacement below this many uncertainties of a single centre may be one that all scans share."""
+
+_SMALLEST_SCATTER_MM = 1e-9  # keeps a division: a picometre
+
+
+def assess_moulds(columns: Sequence[ColumnReport], profile: Profile) -> tuple[MouldDrift, ...]:
+    """What the columns of each mould have in common, in the order of the job.
+
+    Columns are of one mould where they have the same piece mark, or the same inline design. Moulds of fewer than three
+    columns are left out, and feet whose orientation is ambiguous: it is open which of their sleeves is which.
+    """
+    moulds: dict[object, list[tuple[ColumnReport, GroupReport]]] = {}
+    for column in columns:
+        foot = column.sleeves
+        if foot is not None and foot.fit is not None and foot.fit.orientation != "ambiguous":
+            moulds.setdefault(_mould_of(column, foot), []).append((column, foot))
+    rule = next(iter(applicable_rules(profile, "sleeve_position")[0]), None)
+    found = (_assess(feet, rule) for feet in moulds.values() if len(feet) >= FEWEST_COLUMNS)
+    return tuple(drift for drift in found if drift is not None)
+
+
+def _mould_of(column: ColumnReport, foot: GroupReport) -> tuple[object, ...]:
+    if column.piece_mark is not None:
+        return column.piece_mark, len(foot.points)
+    return None, column.size_mm, tuple(point.design_mm for point in foot.points)
+
+
+def _assess(feet: Sequence[tuple[ColumnReport, GroupReport]], rule: Rule | None) -> MouldDrift | None:
+    points = [foot.points for _, foot in feet]
+    every = np.array([[point.offset_mm is not None for point in row] for row in points])
+    often = np.flatnonzero(every.sum(axis=0) >= FEWEST_COLUMNS)
+    if len(often) < 2:
+        return None
+    measured = every[:, often]
+    offsets = np.array([[row[k].offset_mm or (0.0, 0.0) for k in often] for row in points])
+    design = np.array([points[0][k].design_mm[:2] for k in often])
+    shared = shared_displacement(offsets, measured, design)
+    u_mm = [np.mean([row[k].u_mm or 0.0 for row in points if row[k].offset_mm is not None]) for k in often]
+    limit_mm, axis_mm, said = _axis_limit(rule)
+    sleeves = tuple(
+        _sleeve(points[0][k].label, shared, index, float(u_mm[index]), axis_mm) for index, k in enumerate(often)
+    )
+    return MouldDrift(
+        piece_mark=feet[0][0].piece_mark,
+        columns=tuple(column.id for column, _ in feet),
+        p_value=shared.p_value,
+        scatter_mm=shared.scatter_mm,
+        limit_mm=limit_mm,
+        axis_limit_mm=axis_mm,
+        axis_limit_from=said,
+        sleeves=sleeves,
+        conclusion=_conclusion(sleeves, len(feet), shared.scatter_mm),
+    )
+
+
+def _axis_limit(rule: Rule | None) -> tuple[float | None, float | None, str]:
+    if rule is None:
+        return None, None, "the profile has no limit for the position of sleeves"
+    if rule.kind == "per_axis":
+        return rule.upper, rule.upper, "the limit holds for each axis"
+    return rule.upper, rule.upper / math.sqrt(2.0), "the square inscribed in the circle of the limit: limit / sqrt(2)"
+
+
+def _sleeve(label: str, shared: SharedDisplacement, k: int, u_mm: float, axis_limit_mm: float | None) -> SleeveDrift:
+    mean, fitted = _vector(shared.mean_mm[k]), _vector(shared.fitted_mean_mm[k])
+    scatter = _vector(shared.scatter_each_mm[k])
+    count, p_value = int(shared.counts[k]), float(shared.p_values[k])
+    return SleeveDrift(
+        label=label,
+        columns=count,
+        mean_mm=mean,
+        interval_mm=_vector(shared.interval_mm[k]),
+        scatter_mm=scatter,
+        p_value=p_value,
+        drifts=bool(shared.drifts[k]) and math.hypot(*mean) > _SHARED_UNCERTAINTIES * u_mm,
+        scatters_more=bool(shared.scatters_more[k]),
+        capability=tuple(
+            _capability(axis, axis_limit_mm, fitted[index], scatter[index], count) for index, axis in enumerate("xy")
+        ),
+    )
+
+
+def _capability(axis: str, limit_mm: float | None, mean_mm: float, scatter_mm: float, count: int) -> Capability:
+    if limit_mm is None or scatter_mm <= _SMALLEST_SCATTER_MM:
+        return Capability(axis, None, None, None, None)
+    cp, cp_interval = cp_index(limit_mm, scatter_mm, count, CONFIDENCE)
+    cpk, cpk_interval = cpk_index(limit_mm, mean_mm, scatter_mm, count, CONFIDENCE)
+    return Capability(axis, cp, cp_interval, cpk, cpk_interval)
+
+
+def _conclusion(sleeves: Sequence[SleeveDrift], columns: int, scatter_mm: float) -> str:
+    drifting = [
+        f"{sleeve.label} by ({sleeve.mean_mm[0]:+.2f}, {sleeve.mean_mm[1]:+.2f}) mm"
+        for sleeve in sleeves
+        if sleeve.drifts
+    ]
+    loose = [sleeve.label for sleeve in sleeves if sleeve.scatters_more]
+    parts = [
+        f"displaced alike in {columns} columns: {', '.join(drifting)}; look at the mould"
+        if drifting
+        else f"no sleeve is displaced alike in these {columns} columns"
+    ]
+    if loose:
+        parts.append(f"scatters more than the others: {', '.join(loose)}; look at its fixing")
+    return f"{'. '.join(parts)} (scatter {scatter_mm:.2f} mm per axis)"
+
+
+def _vector(values: Sequence[float]) -> Vector2:
+    return float(values[0]), float(values[1])

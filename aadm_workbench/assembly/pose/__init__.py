@@ -1,0 +1,1 @@
+"""Poses of a pattern on another: fitted, best of all, and how probable one is."""

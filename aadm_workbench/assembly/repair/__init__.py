@@ -1,0 +1,1 @@
+"""What would let a column go on that does not."""

@@ -1,0 +1,151 @@
+"""What would let a column go on its bars: the fewest bars to bend, by which vectors, or the sleeve to reject.
+
+Bars that stand beyond their own limit of position are tried first, then those whose sleeves do, then all: a bar that
+is right is not bent after one that is wrong. Of all sets of the smallest size the one is chosen in which every bar
+stays within its own limit, then the one that bends least. The limits are narrowed by what is not known, and the trial
+is made again with the bars as they then stand. Advice is all that this is: it is subject to the engineer's release, and
+beyond the profile's ``rebar_adjustment`` it is no bend but a disposal plan agreed with the designer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from aadm_workbench.assembly.decision import DecisionRule
+from aadm_workbench.assembly.pose.best_pose import fit_best_pose
+from aadm_workbench.assembly.pose.eopa import NoFit
+from aadm_workbench.assembly.pose.pose_probability import existence_of_a_pose
+from aadm_workbench.assembly.repair.case import RepairCase, guarded_case, repair_case
+from aadm_workbench.assembly.repair.plan import RepairPlan, after_repair, choose_plan
+from aadm_workbench.assembly.repair.search import of_bars_that_stay, smallest_sets, within_reach
+from aadm_workbench.assembly.repair.steps import repair_steps, still_beyond
+from aadm_workbench.assembly.repair.words import ADVICE_TO_RESCAN, NOTHING_FOUND, advice_on_steps
+from aadm_workbench.assembly.tolerances import describe_clause
+from aadm_workbench.assembly.trial.pose import evaluate_best_pose
+from aadm_workbench.model import (
+    AssemblyPoint,
+    BoolArray,
+    ColumnDesign,
+    Profile,
+    RepairAction,
+    RepairReport,
+    TrialReport,
+    Verdict,
+)
+
+SAMPLES = 1000
+"""As of the trial itself (existence.py)."""
+
+_GRAVEST_FIRST = tuple(reversed(RepairAction))
+
+
+def advise_repair(
+    design: ColumnDesign,
+    sleeves: Sequence[AssemblyPoint | None],
+    rebars: Sequence[AssemblyPoint | None],
+    trial: TrialReport,
+    profile: Profile,
+    generator: np.random.Generator,
+    *,
+    decision: DecisionRule = "guarded",
+) -> RepairReport | None:
+    """Advice on a column whose trial fails or is inconclusive; None for any other, and for one without limits.
+
+    Parameters
+    ----------
+    sleeves, rebars
+        What the trial was made with: measured, in the column frame, in the order of the design.
+    trial
+        Its turn is the one that the advice is for.
+    generator
+        For the probability that a pose exists once all is done, in a guarded decision.
+    """
+    if trial.verdict not in (Verdict.FAIL, Verdict.INCONCLUSIVE):
+        return None
+    case = repair_case(design, sleeves, rebars, trial, profile)
+    if case is None:
+        return None
+    if case.best.exists:
+        plan, exact = RepairPlan((), case.best.yaw, case.best.shift, True, case.best.ratio), True
+    else:
+        found = _best_plan(guarded_case(case)) or _best_plan(case)
+        if found is None:
+            return RepairReport(RepairAction.DISPOSAL_PLAN, NOTHING_FOUND, exact=False)
+        plan, exact = found
+    report = _tried_again(_report(case, plan, exact), case, plan, decision, generator)
+    advice = advice_on_steps(report, trial) if plan.bends else ADVICE_TO_RESCAN
+    notes = (f"not measured, and not in this advice: {', '.join(trial.missing)}",) if trial.missing else ()
+    return replace(report, advice=advice, notes=(*report.notes, *notes))
+
+
+def _best_plan(case: RepairCase) -> tuple[RepairPlan, bool] | None:
+    """The plan to advise among the first kind of bars that helps, and whether no smaller set of these would do."""
+    kinds = (case.rebar_fails, case.rebar_fails | case.sleeve_fails, np.ones(len(case.pairs), dtype=bool))
+    tried: list[BoolArray] = []
+    for among in kinds:
+        if not among.any() or any(np.array_equal(among, other) for other in tried):
+            continue
+        found = _plan_among(case, among)
+        if found is not None:
+            return found
+        tried.append(among)
+    return None
+
+
+def _plan_among(case: RepairCase, among: BoolArray) -> tuple[RepairPlan, bool] | None:
+    """The plan to advise of those that bend only some bars (n,).
+
+    A larger set within the adjustment limit takes the place of a smaller one beyond it only where it keeps every bar
+    near its own place: one bar that stands far off is no reason to bend its neighbours after it.
+    """
+    count, stay = len(case.pairs), of_bars_that_stay(case.constraints)
+    near: tuple[RepairPlan, bool, int] | None = None
+    if case.adjustment_mm is not None:
+        reach = within_reach(case.constraints, case.rebars, case.sleeves, case.places, case.adjustment_mm)
+        reachable, proven = smallest_sets([stay, reach], count, among)
+        if reachable:
+            plan = choose_plan(case, reachable, [stay, reach], case.adjustment_mm)
+            if plan.within_own:
+                return plan, proven
+            near = plan, proven, len(reachable[0].bent)
+    sets, exact = smallest_sets([stay], count, among)
+    if near is not None and sets and len(sets[0].bent) == near[2]:
+        return near[:2]
+    return (choose_plan(case, sets, [stay], None), exact) if sets else None
+
+
+def _report(case: RepairCase, plan: RepairPlan, exact: bool) -> RepairReport:
+    steps = repair_steps(case, plan)
+    present = {step.action for step in steps}
+    action = next((action for action in _GRAVEST_FIRST if action in present), RepairAction.RESCAN)
+    return RepairReport(
+        action=action,
+        advice="",
+        steps=steps,
+        exact=exact,
+        adjustment_limit_mm=case.adjustment_mm,
+        clause="" if case.adjustment_rule is None else describe_clause(case.adjustment_rule),
+    )
+
+
+def _tried_again(
+    report: RepairReport, case: RepairCase, plan: RepairPlan, decision: DecisionRule, generator: np.random.Generator
+) -> RepairReport:
+    """The trial once all steps are done, and the bars that then still stand beyond their own limit."""
+    pairs = after_repair(case, plan)
+    fit = fit_best_pose(pairs, case.limits_mm)
+    if isinstance(fit, NoFit) or any(step.bend_mm is None for step in report.steps):
+        return report
+    existence = None
+    if decision == "guarded":
+        existence = existence_of_a_pose(pairs, case.limits_mm, fit, generator, SAMPLES)
+    return replace(
+        report,
+        after=evaluate_best_pose(pairs, case.limits_mm, fit, case.distance_rule, decision),
+        margin=fit.margin,
+        probability=None if existence is None else existence.probability,
+        still_fails=still_beyond(case, pairs),
+    )

@@ -1,0 +1,1 @@
+"""Absolute position: control points and datums."""

@@ -1,0 +1,1 @@
+"""As-designed points from IFC models."""

@@ -1,0 +1,260 @@
+"""Connecting rebars of an IFC model: upright bars whose upper end a column can come down on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from aadm_workbench.design.ifc import names as ifc_names
+from aadm_workbench.design.ifc.attributes import Contradictions, written_diameter_mm
+from aadm_workbench.design.ifc.geometry.shapes import Shapes
+from aadm_workbench.design.ifc.text.file import OpenedIfc
+from aadm_workbench.design.ifc.words import NOT_REBAR, REBAR, SLEEVE
+from aadm_workbench.design.model_design import NotTaken
+from aadm_workbench.design.recognise.bar_courses import Course
+from aadm_workbench.design.recognise.paths import Leg, Straight
+from aadm_workbench.model import Array, AssemblyPoint, Kind
+
+UP = np.array([0.0, 0.0, 1.0])
+
+_UPRIGHT_COS = float(np.cos(np.radians(10.0)))  # 10 degrees: bars lean by a few, stirrups lie
+_SHORTEST_MM = 100.0
+"""A connecting rebar goes eight diameters into its sleeve; a shorter upright end is a hook or a drawing error."""
+
+_HIGHEST_MM = 1.0  # rounding of a level: both legs of a U end highest
+_NOT_CONNECTING = frozenset({"LIGATURE", "SHEAR", "STUD", "RING", "SPACEBAR", "PUNCHING"})
+_OTHER_CLASSES = (
+    "IfcBuildingElementProxy",
+    "IfcElementComponent",
+    "IfcMember",
+    "IfcBeam",
+    "IfcColumn",
+    "IfcFastener",
+    "IfcMechanicalFastener",
+)
+# a rod thicker than that is no reinforcing bar: 50 mm is the largest size (GB/T 1499.2), couplers come on top
+_THICKEST_MM = 80.0
+
+
+@dataclass(frozen=True, eq=False)
+class BarEnd:
+    """An upright end of a bar, in the model frame.
+
+    ``top`` (3,) mm is where the axis meets the top, ``axis`` (3,) points up and out of the bar, ``lowest_mm`` is the
+    height of the bar's lowest point. ``wholes`` are the numbers of what the bar is a part of.
+    """
+
+    global_id: str
+    name: str
+    ifc_class: str
+    top: Array
+    axis: Array
+    lowest_mm: float
+    diameter_mm: float
+    length_mm: float
+    over_ribs_mm: float | None
+    wholes: frozenset[int]
+    why: str
+
+    def point(self, why: str) -> AssemblyPoint:
+        """The assembly point of this end, in the model frame, without a label."""
+        return AssemblyPoint(
+            label="",
+            kind=Kind.REBAR,
+            centre=self.top,
+            axis=self.axis,
+            diameter_mm=self.diameter_mm,
+            global_id=self.global_id,
+            why=f"{self.why}; {why}",
+            length_mm=self.length_mm,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class FoundBars:
+    """Upright ends, the bars that were left out, and what attributes say against the geometry."""
+
+    ends: tuple[BarEnd, ...]
+    not_taken: tuple[NotTaken, ...]
+    warnings: tuple[str, ...]
+
+    @cached_property
+    def tops(self) -> Array:
+        """(n, 3) mm, model frame, of all ends."""
+        return np.array([end.top for end in self.ends]).reshape(-1, 3)
+
+
+def find_bars(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> FoundBars:
+    """All upright bar ends of a model; one element may hold several bars.
+
+    Elements are chosen by class and PredefinedType, then by name, or by the selector instead of both; what the
+    geometry does not support is not taken even so: bars that lean, closed ones, fragments.
+    """
+    ends: list[BarEnd] = []
+    left: list[NotTaken] = []
+    contradictions = Contradictions(opened)
+    for element, evidence in _candidates(opened, selector):
+        with shapes.guarded(element):
+            taken, refused = _ends_of(opened, shapes, element, evidence, selector, contradictions)
+            ends += taken
+            left += refused
+            continue
+        left.append(_undrawn(element, shapes.undrawn(element)))
+    return FoundBars(tuple(ends), tuple(left), tuple(contradictions.lines()))
+
+
+def _ends_of(
+    opened: OpenedIfc,
+    shapes: Shapes,
+    element: Any,
+    evidence: str,
+    selector: str | None,
+    contradictions: Contradictions,
+) -> tuple[list[BarEnd], list[NotTaken]]:
+    """The upright ends of the bars of one element, and those of its bars that have none."""
+    ends: list[BarEnd] = []
+    left: list[NotTaken] = []
+    refused = None if selector else _refused_by_kind(opened, element)
+    bars, drawn = _bars_of(opened, element, shapes)
+    if not bars:
+        left.append(_without_bars(element, shapes, refused))
+    lengths_mm = [bar.length_mm for bar in bars]
+    for bar in bars:
+        sizes = contradictions.compare_bar(element, bar.diameter_mm, lengths_mm)
+        reason = refused or _not_a_bar(bar)
+        tops = [] if reason else upright_ends(list(bar.legs))
+        ends += [_end(opened, element, f"{evidence}{drawn}", bar, sizes, top) for top in tops]
+        if not tops:
+            left.append(_left_out(element, bar, sizes[0], reason or geometric_reason(list(bar.legs))))
+    return ends, left
+
+
+def _undrawn(element: Any, reason: str) -> NotTaken:
+    return NotTaken("rebar", element.is_a(), element.GlobalId, ifc_names.text_of(element.Name), reason)
+
+
+def _not_a_bar(bar: Course) -> str | None:
+    if bar.hollow:
+        return "is hollow: a pipe or a sleeve"
+    if bar.diameter_mm > _THICKEST_MM:
+        return f"is {bar.diameter_mm:g} mm thick: no reinforcing bar"
+    return None
+
+
+def _candidates(opened: OpenedIfc, selector: str | None) -> Iterable[tuple[Any, str]]:
+    if selector:
+        chosen = ifc_names.select(opened.file, opened.source, "rebars", selector)
+        yield from ((element, "chosen by the selector") for element in chosen)
+        return
+    yield from ((element, "IfcReinforcingBar") for element in opened.file.by_type("IfcReinforcingBar"))
+    seen: set[int] = set()
+    for ifc_class in _OTHER_CLASSES:
+        for element in opened.file.by_type(ifc_class):
+            if element.id() in seen or element.is_a() == "IfcReinforcingBar":
+                continue
+            seen.add(element.id())
+            if opened.naming.find(REBAR, element) and not opened.naming.find(SLEEVE, element):
+                yield element, element.is_a()
+
+
+def _refused_by_kind(opened: OpenedIfc, element: Any) -> str | None:
+    kind = opened.naming.predefined_type(element)
+    if kind in _NOT_CONNECTING:
+        return f"is a {kind} by its PredefinedType"
+    named = opened.naming.find(NOT_REBAR, element)
+    if named and not opened.naming.find(REBAR, element):
+        return f"is called {named!r}: a stirrup, tie or spiral"
+    return None
+
+
+def _bars_of(opened: OpenedIfc, element: Any, shapes: Shapes) -> tuple[Sequence[Course], str]:
+    """Bars of one element, from its body, else from its axis; and what is to be said about how it is drawn."""
+    bars = shapes.bars_of_product(element)
+    if bars:
+        return bars, ""
+    lines = shapes.axes_of_product(element)
+    diameter_mm = written_diameter_mm(opened, element) if lines else None
+    if diameter_mm is None:
+        return (), ""
+    return [Course(legs, diameter_mm) for legs in lines], ", drawn as its axis alone"
+
+
+def _without_bars(element: Any, shapes: Shapes, refused: str | None) -> NotTaken:
+    if shapes.axes_of_product(element):
+        reason = "is drawn as its axis alone, and neither it nor its type says its diameter"
+    elif shapes.of_product(element):
+        reason = "is drawn as a body without two round ends: no straight bar"
+    else:
+        reason = shapes.undrawn(element)
+    return _undrawn(element, refused or reason)
+
+
+def upright_ends(legs: list[Leg]) -> list[tuple[Array, Array]]:
+    """(top, axis) of each end that rises straight and to which no other part of the bar comes up."""
+    highest_mm = _highest(legs)
+    found = []
+    for leg in (legs[0].reversed(), legs[-1]):
+        if not isinstance(leg, Straight) or leg.length_mm < _SHORTEST_MM:
+            continue
+        if float(leg.direction @ UP) > _UPRIGHT_COS and float(leg.end @ UP) > highest_mm - _HIGHEST_MM:
+            found.append((leg.end, leg.direction))
+    return found
+
+
+def geometric_reason(legs: list[Leg]) -> str:
+    """Why a bar of this course has no upright end that a column could come down on."""
+    length_mm = sum(leg.length_mm for leg in legs)
+    if length_mm < _SHORTEST_MM:
+        return f"is {length_mm:.2f} mm long: a fragment"
+    if np.linalg.norm(legs[0].start - legs[-1].end) < 1.0:
+        return "is closed: a stirrup"
+    if len(legs) == 1 and isinstance(legs[0], Straight):
+        lean = np.degrees(np.arccos(min(1.0, abs(float(legs[0].direction @ UP)))))
+        return f"leans {lean:.1f}° from the vertical"
+    return f"has no straight upright end of {_SHORTEST_MM:.0f} mm: a stirrup, spiral or bent bar"
+
+
+def _end(
+    opened: OpenedIfc,
+    element: Any,
+    evidence: str,
+    bar: Course,
+    sizes: tuple[float, float | None, tuple[str, ...]],
+    top: tuple[Array, Array],
+) -> BarEnd:
+    said = opened.naming.said(element)
+    return BarEnd(
+        global_id=element.GlobalId,
+        name=ifc_names.text_of(element.Name),
+        ifc_class=element.is_a(),
+        top=top[0],
+        axis=top[1],
+        lowest_mm=float(bar.points[:, 2].min()),
+        diameter_mm=sizes[0],
+        length_mm=bar.length_mm,
+        over_ribs_mm=sizes[1],
+        wholes=frozenset(whole.id() for whole in ifc_names.wholes(element)),
+        why="; ".join([f'{evidence} "{said}"' if said else evidence, *sizes[2]]),
+    )
+
+
+def _left_out(element: Any, bar: Course, diameter_mm: float, reason: str) -> NotTaken:
+    points = bar.points
+    return NotTaken(
+        what="rebar",
+        ifc_class=element.is_a(),
+        global_id=element.GlobalId,
+        name=ifc_names.text_of(element.Name),
+        reason=reason,
+        point=points[int(points[:, 2].argmax())],
+        diameter_mm=diameter_mm,
+        length_mm=bar.length_mm,
+    )
+
+
+def _highest(legs: list[Leg]) -> float:
+    return max(float(leg.points[:, 2].max()) for leg in legs)

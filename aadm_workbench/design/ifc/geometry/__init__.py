@@ -1,0 +1,1 @@
+"""What IFC entities look like: placements, curves, profiles, solids."""

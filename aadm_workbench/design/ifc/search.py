@@ -1,0 +1,187 @@
+"""The search for the sleeves in a column's foot: by selector, class and name, else by geometry."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from aadm_workbench.design.ifc.bars import BarEnd, FoundBars
+from aadm_workbench.design.ifc.columns import ColumnBody, Foot, head_of
+from aadm_workbench.design.ifc.geometry.shapes import Shapes
+from aadm_workbench.design.ifc.sleeves import (
+    BESIDE_MM,
+    FEWEST_UNNAMED,
+    OPENING_CLASSES,
+    SAME_MOUTH_MM,
+    Candidate,
+    Evidence,
+    Mouth,
+    alike,
+    mouths_on,
+    own_candidates,
+    unnamed_candidates,
+)
+from aadm_workbench.design.ifc.text.file import OpenedIfc
+from aadm_workbench.design.ifc.under import bars_below
+from aadm_workbench.model import Array
+
+_BEHIND_MM = 5.0  # beyond this it is said: chamfers and rounding are less
+
+
+@dataclass(frozen=True, eq=False)
+class FoundFoot:
+    """A column's foot face with the sleeves that open in it, in no order."""
+
+    foot: Foot
+    mouths: tuple[Mouth, ...]
+    refused: tuple[tuple[Candidate, str], ...]
+    warnings: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class SleeveSearch:
+    """Looks for sleeves column by column; ``selected`` where a selector named them, which is then the last word."""
+
+    opened: OpenedIfc
+    shapes: Shapes
+    named: Sequence[Candidate]
+    selected: bool
+    bodies: Sequence[ColumnBody]
+    bars: FoundBars
+
+    @cached_property
+    def unnamed(self) -> list[Candidate]:
+        """Round bodies and openings of the whole model; evaluated only where a column needs them."""
+        return unnamed_candidates(self.opened, self.shapes, self._all_feet)
+
+    @cached_property
+    def openings(self) -> list[Candidate]:
+        """Round openings of the whole model: some programs relate only a part of them to the column."""
+        return unnamed_candidates(self.opened, self.shapes, self._all_feet, OPENING_CLASSES)
+
+    @property
+    def _all_feet(self) -> list[Foot]:
+        return [foot for body in self.bodies for foot in body.feet]
+
+    @cached_property
+    def _opening_middles(self) -> Array:
+        return _middles(self.openings)
+
+    @cached_property
+    def _named_middles(self) -> Array:
+        return _middles(self.named)
+
+    @cached_property
+    def _unnamed_middles(self) -> Array:
+        return _middles(self.unnamed)
+
+    @staticmethod
+    def _near(foot: Foot, candidates: Sequence[Candidate], middles: Array) -> list[Candidate]:
+        """Candidates over whose middle the column stands: a floor has thousands, a column a dozen."""
+        across_mm = np.abs(foot.local(middles)[:, :2])
+        near = np.all(across_mm <= foot.half_size_mm + BESIDE_MM, axis=1)
+        return [candidate for candidate, is_near in zip(candidates, near, strict=True) if is_near]
+
+    def on(self, body: ColumnBody) -> FoundFoot:
+        """The foot face of a column with its sleeves: of a lying column's two ends, the one with more."""
+        return max((self._on_foot(body, foot) for foot in body.feet), key=lambda found: len(found.mouths))
+
+    def on_its_head(self, body: ColumnBody) -> int:
+        """How many sleeves open in the upper face of a standing column instead of in its foot."""
+        shapes = [shape for part in body.drawn for shape in self.shapes.of_product(part)]
+        head = head_of(self.shapes.placements.of_product(body.element), shapes)
+        if head is None:
+            return 0
+        named = self._near(head, self.named, self._named_middles)
+        own = () if self.selected else own_candidates(self.opened, body, self.shapes)
+        return len(sleeves_in(head, named, own).mouths)
+
+    def _on_foot(self, body: ColumnBody, foot: Foot) -> FoundFoot:
+        named = self._near(foot, self.named, self._named_middles)
+        if self.selected:
+            return sleeves_in(foot, named)
+        return sleeves_in(
+            foot,
+            named,
+            own_candidates(self.opened, body, self.shapes),
+            lambda: self._near(foot, self.openings, self._opening_middles),
+            lambda: self._near(foot, self.unnamed, self._unnamed_middles),
+            lambda: bars_below(body, foot, self.bars),
+        )
+
+    def refused_in(self, body: ColumnBody, foot: Foot) -> list[tuple[Candidate, str]]:
+        """Round things without a name that lie in a foot face and are no sleeves, with the reason."""
+        unnamed = self._near(foot, self.unnamed, self._unnamed_middles)
+        mouths, refused = mouths_on(foot, [*own_candidates(self.opened, body, self.shapes), *unnamed])
+        few = f"is one of fewer than {FEWEST_UNNAMED} alike, without a name of a sleeve"
+        return [*refused, *((mouth.candidate, few) for mouth in mouths)]
+
+
+def sleeves_in(
+    foot: Foot,
+    named: Sequence[Candidate],
+    own: Sequence[Candidate] = (),
+    openings: Callable[[], Sequence[Candidate]] = tuple,
+    unnamed: Callable[[], Sequence[Candidate]] = tuple,
+    below: Callable[[], Sequence[BarEnd]] = tuple,
+) -> FoundFoot:
+    """The sleeves in a foot face: those with a name, else like holes; and what else a bar of the model goes into.
+
+    ``own`` are the column's own holes, ``openings`` those that nothing relates to it, ``unnamed`` all round bodies and
+    openings of the model, ``below`` the bars under the column; what takes long is looked at only where it is needed.
+    """
+    mouths, refused = mouths_on(foot, named)
+    holes = mouths_on(foot, own if mouths else [*own, *openings()])[0]
+    mouths = mouths or alike(holes)
+    if not mouths:
+        holes = mouths_on(foot, [*own, *unnamed()])[0]
+        mouths = alike(holes)
+    extra = [mouth for mouth in holes if _apart(mouth, mouths)]
+    entered = _entered(foot, extra, below()) if extra else []
+    if len(mouths) + len(entered) >= FEWEST_UNNAMED:
+        mouths = [*mouths, *entered]
+        extra = [mouth for mouth in extra if mouth not in entered]
+    return FoundFoot(foot, tuple(mouths), tuple(refused), (*_warnings(mouths), *_extra(extra if mouths else [])))
+
+
+def _entered(foot: Foot, mouths: Sequence[Mouth], below: Sequence[BarEnd]) -> list[Mouth]:
+    """Mouths that a bar stands under: the sleeves of the few bars of another size."""
+    tops = foot.local(np.array([end.top for end in below]).reshape(-1, 3))[:, :2]
+    diameters_mm = np.array([end.diameter_mm for end in below])
+    return [
+        mouth
+        for mouth in mouths
+        if (np.linalg.norm(tops - mouth.centre, axis=1) + diameters_mm / 2.0 <= mouth.bore_mm / 2.0).any()
+    ]
+
+
+def _middles(candidates: Sequence[Candidate]) -> Array:
+    """(n, 3) mm, model frame."""
+    return np.array([(c.tube.start + c.tube.end) / 2.0 for c in candidates]).reshape(-1, 3)
+
+
+def _apart(mouth: Mouth, others: Sequence[Mouth]) -> bool:
+    return all(np.linalg.norm(mouth.centre - other.centre) >= SAME_MOUTH_MM for other in others)
+
+
+def _extra(mouths: Sequence[Mouth]) -> list[str]:
+    if not mouths:
+        return []
+    bores = ", ".join(f"{bore:g}" for bore in sorted({round(mouth.bore_mm, 1) for mouth in mouths}))
+    return [f"{len(mouths)} more round holes in its foot (Ø {bores} mm) have no name of a sleeve and were not taken"]
+
+
+def _warnings(mouths: Sequence[Mouth]) -> list[str]:
+    found = []
+    solid = sum(mouth.solid for mouth in mouths)
+    if solid:
+        found.append(f"{solid} sleeves are drawn without a bore: the diameter taken may be the outer one")
+    behind_mm = max((mouth.behind_mm for mouth in mouths if not mouth.candidate.is_opening), default=0.0)
+    if behind_mm > _BEHIND_MM:
+        found.append(f"sleeves begin up to {behind_mm:.0f} mm behind the foot face; their centres are on it")
+    if any(mouth.candidate.evidence is Evidence.GEOMETRY for mouth in mouths):
+        found.append("its sleeves have no telling name and were recognised by their shape alone")
+    return found

@@ -1,0 +1,1 @@
+"""IFC files as text: unpacked, decoded, prepared and parsed."""

@@ -1,0 +1,247 @@
+"""IFC files: opened, or refused with the place and the reason; never half read in silence."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from aadm_workbench.bounded import BoundsError, read_bounded
+from aadm_workbench.design.ifc.names import Naming
+from aadm_workbench.design.ifc.text.archive import model_in_archive
+from aadm_workbench.design.ifc.text.prepared import prepared
+from aadm_workbench.design.ifc.text.step import numbered_once
+from aadm_workbench.design.model_file import LARGEST_MODEL_BYTES
+from aadm_workbench.errors import DesignError, MissingDependencyError
+
+_LOG_ERROR = re.compile(r"\[error\]\s*(?:\[[^\]]*\]\s*)*(?P<text>.+)")
+_AT_OFFSET = re.compile(r"\s*at offset (?P<offset>\d+)")
+_COMMENT = re.compile(rb"/\*.*?\*/", re.DOTALL)
+_OVERWRITTEN = re.compile(r"Overwriting instance with name #(\d+)")
+_SHOWN = 4
+
+
+@dataclass(frozen=True, eq=False)
+class OpenedIfc:
+    """An open model: ``file`` is ifcopenshell's, lengths in it are multiples of ``mm``, angles of ``radians``.
+
+    Areas are multiples of ``mm2``; None where the file does not say of what. ``seconds`` is what opening took.
+    """
+
+    source: str
+    sha256: str
+    file: Any
+    mm: float
+    radians: float
+    mm2: float | None
+    warnings: tuple[str, ...]
+    seconds: float
+
+    @property
+    def draws_coarsely(self) -> bool:
+        """Whether it comes from a program that may draw circles with four sides (FreeCAD, in files in metres)."""
+        names = (application.ApplicationFullName for application in self.file.by_type("IfcApplication"))
+        return any("freecad" in name.lower() for name in names if isinstance(name, str))
+
+    @cached_property
+    def naming(self) -> Naming:
+        """What its elements are called."""
+        return Naming(self.file)
+
+
+def open_ifc(path: str | Path) -> OpenedIfc:
+    """Open an IFC model of schema IFC2X3, IFC4 or IFC4X3.
+
+    Raises
+    ------
+    DesignError
+        Where there is no such file, or it is no complete IFC model; names the file, the line and the reason.
+    MissingDependencyError
+        Where ifcopenshell is not installed.
+    """
+    ifcopenshell = _ifcopenshell()
+    began = perf_counter()
+    path = Path(path)
+    packed = path.suffix.lower() == ".ifczip"
+    written = _bytes(path)
+    content = model_in_archive(path) if packed else written
+    _check_frame(path, content)
+    schemas = ifcopenshell.ifcopenshell_wrapper.schema_names()
+    text = prepared(content, schemas)
+    if text.schema not in schemas:
+        named = f"its header names the schema {text.schema}" if text.schema else "its header names no schema"
+        raise DesignError(f"{path} cannot be read as an IFC model: {named}. Export it as IFC2X3, IFC4 or IFC4X3.")
+    file, warnings = _parsed(path, text.content, is_on_disk=text.content == written)
+    return OpenedIfc(
+        source=str(path),
+        sha256=hashlib.sha256(written).hexdigest(),
+        file=file,
+        mm=_length_unit_mm(path, file),
+        radians=_angle_unit(path, file),
+        mm2=_area_unit_mm2(path, file),
+        warnings=(*text.notes, *warnings),
+        seconds=perf_counter() - began,
+    )
+
+
+def _parsed(path: Path, content: bytes, *, is_on_disk: bool) -> tuple[Any, list[str]]:
+    """The file of ifcopenshell, each number in it that of one entity, and what a person should know of it."""
+    file, log = _read(path, content if not is_on_disk else None)
+    complaints = _complaints(log, content)
+    warnings = [f"a line was skipped: {complaint}" for complaint in complaints]
+    twice = list(dict.fromkeys(int(number) for number in _OVERWRITTEN.findall(log)))
+    if twice:
+        # The parser gives both under one number, and what refers to it gets either.
+        file, _ = _read(path, numbered_once(content))
+        warnings.append(
+            f"{_numbers(twice)} given to several entities: the first of each counts, the others were left out"
+        )
+    if file is None or not _holds_project(file):
+        reasons = "; ".join(complaints) or "it holds no IfcProject"
+        raise DesignError(f"{path} cannot be read as an IFC model: {reasons}. Export it again.")
+    return file, warnings
+
+
+def _read(path: Path, content: bytes | None) -> tuple[Any, str]:
+    """A file from its text, or from the disk where that is None, and the parser's log."""
+    ifcopenshell = _ifcopenshell()
+    ifcopenshell.get_log()  # one log for all files: what others left there is not this one's
+    try:
+        if content is None:
+            file = ifcopenshell.open(str(path))
+        else:
+            file = ifcopenshell.file.from_string(content.decode("ascii"))
+    except (ifcopenshell.Error, OSError, RuntimeError, UnicodeDecodeError) as error:
+        complaints = _complaints(ifcopenshell.get_log(), path.read_bytes() if content is None else content)
+        raise DesignError(
+            f"{path} cannot be read as an IFC model: {'; '.join(complaints) or error}. Export it again."
+        ) from error
+    return file, ifcopenshell.get_log()
+
+
+def _holds_project(file: Any) -> bool:
+    try:
+        return bool(file.by_type("IfcProject"))
+    except RuntimeError:  # the parser gave up at a line before it had a schema
+        return False
+
+
+def _numbers(numbers: Sequence[int]) -> str:
+    shown = ", ".join(f"#{number}" for number in numbers[:_SHOWN])
+    more = f" and {len(numbers) - _SHOWN} more" if len(numbers) > _SHOWN else ""
+    return f"the number{'s' if len(numbers) > 1 else ''} {shown}{more} {'are' if len(numbers) > 1 else 'is'}"
+
+
+def _ifcopenshell() -> Any:
+    try:
+        import ifcopenshell
+    except ImportError as error:
+        raise MissingDependencyError("ifcopenshell", "reading IFC models") from error
+    return ifcopenshell
+
+
+def _bytes(path: Path) -> bytes:
+    try:
+        content = read_bounded(path, LARGEST_MODEL_BYTES)
+    except BoundsError as error:
+        raise DesignError(f"{path} {error}: name the model's file.") from error
+    except FileNotFoundError as error:
+        raise DesignError(f"{path} does not exist. Paths in a job are relative to the job file.") from error
+    except (OSError, ValueError) as error:
+        raise DesignError(f"{path} cannot be opened: {getattr(error, 'strerror', None) or error}.") from error
+    if not content.strip():
+        raise DesignError(f"{path} is empty: export the model again.")
+    return content
+
+
+def _check_frame(path: Path, content: bytes) -> None:
+    """Refuse what does not begin and end as a STEP file: a parser would give a part of it, or nothing."""
+    if content.startswith(b"PK"):
+        raise DesignError(f"{path} is a zip archive, not an IFC model: unpack it and name the .ifc file in it.")
+    if content.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
+        raise DesignError(f"{path} is XML: export the model as IFC in STEP format (.ifc), not as ifcXML.")
+    # A comment keeps its line breaks, so that the lines that are named are those of the file.
+    head = _COMMENT.sub(lambda found: b"\n" * found.group().count(b"\n"), content[:65536])
+    passed = 0
+    for word in (b"ISO-10303-21", b"HEADER"):
+        begin = len(head) - len(head[passed:].lstrip(b"\xef\xbb\xbf \t\r\n"))
+        statement = head[begin:].split(b";", 1)[0]
+        if statement.strip().upper() != word:
+            number = head.count(b"\n", 0, begin) + 1
+            shown = head[begin : begin + 40].partition(b"\n")[0].decode("utf-8", "replace")
+            raise DesignError(
+                f"{path} is no IFC model or a damaged one: line {number} reads {shown!r} where '{word.decode()};' is "
+                "due. Export it again, or repair that line."
+            )
+        passed = begin + len(statement) + 1
+    if b"END-ISO-10303-21" not in content[-4096:]:
+        lines = content.count(b"\n") + 1
+        raise DesignError(f"{path} is cut short: line {lines} is its last, without END-ISO-10303-21. Copy it again.")
+
+
+def _complaints(log: str, content: bytes) -> list[str]:
+    """What the parser had to say, with the line instead of the offset."""
+    complaints = []
+    for line in log.splitlines():
+        found = _LOG_ERROR.match(line.strip())
+        if not found or "No support for file schema encountered ()" in line:
+            continue
+        text = found["text"].strip()
+        offset = _AT_OFFSET.search(text)
+        if offset:
+            number = content.count(b"\n", 0, int(offset["offset"])) + 1
+            text = f"line {number}: {_AT_OFFSET.sub('', text)}"
+        complaints.append(text)
+    return complaints
+
+
+def _length_unit_mm(path: Path, file: Any) -> float:
+    scale = _unit(path, file, "LENGTHUNIT", "length")
+    if scale is None:
+        raise DesignError(f"{path} declares no unit of length (IfcUnitAssignment): export it again with units.")
+    return 1000.0 * scale
+
+
+def _unit(path: Path, file: Any, kind: str, called: str) -> float | None:
+    """A unit of the file in SI units; None where it declares none."""
+    from ifcopenshell.util.unit import calculate_unit_scale, get_project_unit
+
+    try:
+        unit = get_project_unit(file, kind)
+        if unit is None:
+            return None
+        _check_chain(unit)
+        scale = float(calculate_unit_scale(file, kind))
+    except (AttributeError, TypeError, ValueError, LookupError, ArithmeticError, RuntimeError) as error:
+        raise DesignError(f"{path} declares a unit of {called} that makes no sense: export it again.") from error
+    if not _SMALLEST_UNIT < scale < _LARGEST_UNIT:
+        raise DesignError(f"{path} declares a unit of {called} of {scale:g} SI units: export it again.")
+    return scale
+
+
+def _check_chain(unit: Any) -> None:
+    """Refuse a unit that is defined by itself: who follows that comes to no end."""
+    passed: set[int] = set()
+    while unit.is_a("IfcConversionBasedUnit"):
+        if unit.id() in passed:
+            raise ValueError("a unit is defined by itself")
+        passed.add(unit.id())
+        unit = unit.ConversionFactor.UnitComponent
+
+
+_SMALLEST_UNIT, _LARGEST_UNIT = 1e-12, 1e9
+"""Square micrometres and square kilometres, with room: programs write no smaller and no larger units."""
+
+
+def _angle_unit(path: Path, file: Any) -> float:
+    return _unit(path, file, "PLANEANGLEUNIT", "angle") or 1.0
+
+
+def _area_unit_mm2(path: Path, file: Any) -> float | None:
+    scale = _unit(path, file, "AREAUNIT", "area")
+    return None if scale is None else 1e6 * scale

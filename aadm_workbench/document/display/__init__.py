@@ -1,0 +1,1 @@
+"""What objects of a document look like."""

@@ -1,0 +1,1 @@
+"""Reports into documents, and documents into reports."""

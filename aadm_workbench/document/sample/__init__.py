@@ -1,0 +1,1 @@
+"""As-designed points of the open document."""

@@ -1,0 +1,1 @@
+"""What the camera does at edges, read from the scan."""

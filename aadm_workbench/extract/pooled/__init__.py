@@ -1,0 +1,1 @@
+"""One fit of all features of a scan, with what they share."""

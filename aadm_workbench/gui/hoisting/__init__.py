@@ -1,0 +1,1 @@
+"""The window that a crew looks at while the column hangs."""

@@ -1,0 +1,215 @@
+"""The panel of a check: how it is done, then what it found, the worst first."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import FreeCAD
+import numpy as np
+from PySide import QtCore, QtGui
+
+from aadm_workbench.document.checking import keep, prepare, run
+from aadm_workbench.document.column import DECISIONS, METHODS
+from aadm_workbench.document.display.colours import of_verdict
+from aadm_workbench.document.display.marks import pitch_of
+from aadm_workbench.document.display.messages import tell
+from aadm_workbench.document.display.result_rows import Row
+from aadm_workbench.document.places import world_point
+from aadm_workbench.document.result import found_of
+from aadm_workbench.document.undo_step import undo_step
+from aadm_workbench.document.words import in_words
+from aadm_workbench.gui.language import in_language
+from aadm_workbench.gui.panels.task_panel import TaskPanel, show_panel
+from aadm_workbench.gui.result_table import ResultTable
+from aadm_workbench.gui.sentences import sentences, show_error
+from aadm_workbench.gui.view_camera import active_view, zoom_to
+from aadm_workbench.gui.worker import Worker
+
+translate = FreeCAD.Qt.translate
+QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
+
+_STEPS = {
+    "read": QT_TRANSLATE_NOOP("AADM_Check", "reading the scans"),
+    "extract": QT_TRANSLATE_NOOP("AADM_Check", "finding centres"),
+    "assembly": QT_TRANSLATE_NOOP("AADM_Check", "comparing with the design"),
+}
+_VIEWS = (
+    ("position", QT_TRANSLATE_NOOP("AADM_Check", "Against the design")),
+    ("minimax", QT_TRANSLATE_NOOP("AADM_Check", "Trial assembly, best position (minimax)")),
+    ("least_squares", QT_TRANSLATE_NOOP("AADM_Check", "Trial assembly, least squares")),
+)
+_SHOWN_REASONS = 3  # the panel is a hand wide; the table has all
+
+
+class CheckPanel(TaskPanel):
+    """Settings on top, result below; the check runs beside the window."""
+
+    ICON = "check-column"
+
+    def __init__(self, column: Any) -> None:
+        super().__init__(translate("AADM_Check", "Check {column}").format(column=column.ColumnId))
+        self.column = column
+        self.worker: Worker | None = None
+        self._add_settings()
+        self._add_result()
+        self.refresh()
+
+    def _add_settings(self) -> None:
+        self.method, self.tolerances, self.decision = QtGui.QComboBox(), QtGui.QComboBox(), QtGui.QComboBox()
+        self.method.addItems(METHODS)
+        self.method.setCurrentText(self.column.Method)
+        self.tolerances.setEditable(True)
+        self.tolerances.addItems(_profiles())
+        self.tolerances.setCurrentText(self.column.Tolerances)
+        self.decision.addItems(DECISIONS)
+        self.decision.setCurrentText(self.column.Decision)
+        self.scans = QtGui.QLabel(wordWrap=True)
+        form = QtGui.QFormLayout()
+        form.addRow(translate("AADM_Check", "Scans"), self.scans)
+        form.addRow(translate("AADM_Check", "Method"), self.method)
+        form.addRow(translate("AADM_Check", "Tolerances"), self.tolerances)
+        form.addRow(translate("AADM_Check", "Decision"), self.decision)
+        self.check_button = QtGui.QPushButton(translate("AADM_Check", "Check"))
+        self.check_button.clicked.connect(self.start)
+        self.cancel_button = QtGui.QPushButton(translate("AADM", "Cancel"), enabled=False)
+        self.cancel_button.clicked.connect(self.cancel)
+        self.progress = QtGui.QProgressBar(maximum=0, visible=False)
+        self.step = QtGui.QLabel()
+        buttons = QtGui.QHBoxLayout()
+        buttons.addWidget(self.check_button, 1)
+        buttons.addWidget(self.cancel_button)
+        self.layout.addLayout(form)
+        self.layout.addLayout(buttons)
+        self.layout.addWidget(self.progress)
+        self.layout.addWidget(self.step)
+
+    def _add_result(self) -> None:
+        self.verdict = QtGui.QLabel(wordWrap=True)
+        self.reasons = QtGui.QLabel(wordWrap=True)
+        self.reasons.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
+        self.shows = QtGui.QComboBox()
+        for name, text in _VIEWS:
+            self.shows.addItem(translate("AADM_Check", text), name)
+        self.shows.currentIndexChanged.connect(self._shows_changed)
+        self.only_failing = QtGui.QCheckBox(translate("AADM_Check", "Only what fails"))
+        self.only_failing.toggled.connect(self._fill_table)
+        self.table = ResultTable()
+        self.table.chosen.connect(self.go_to)
+        for part in (self.verdict, self.reasons, self.shows, self.only_failing):
+            self.layout.addWidget(part)
+        self.layout.addWidget(self.table, 1)
+
+    def start(self) -> None:
+        """Check the column, beside the window."""
+        with sentences(self.form.windowTitle()):
+            with undo_step(self.column.Document, translate("AADM_Check", "Settings of the check")):
+                self.column.Method = self.method.currentText()
+                self.column.Tolerances = self.tolerances.currentText().strip()
+                self.column.Decision = self.decision.currentText()
+            request = prepare(self.column)
+            self._busy(True)
+            self.worker = Worker(lambda stage: run(request, stage))
+            self.worker.stepped.connect(lambda name: self.step.setText(translate("AADM_Check", _STEPS.get(name, name))))
+            self.worker.done.connect(self._done)
+            self.worker.failed.connect(self._failed)
+            self.worker.cancelled.connect(self._cancelled)
+            self.worker.begin()
+
+    def cancel(self) -> None:
+        """End the check at its next step."""
+        if self.worker is not None:
+            self.worker.cancel()
+            self.step.setText(translate("AADM_Check", "cancelling…"))
+
+    def _done(self, report: dict[str, Any]) -> None:
+        with sentences(self.form.windowTitle()):
+            self._busy(False)
+            with undo_step(self.column.Document, translate("AADM_Check", "Check column")):
+                result = keep(self.column, report)
+            tell(f"{self.column.ColumnId}: {in_words(result.Verdict)}")
+            self.refresh()
+
+    def _failed(self, error: BaseException) -> None:
+        self._busy(False)
+        show_error(self.form.windowTitle(), error)
+
+    def _cancelled(self) -> None:
+        self._busy(False)
+        self.step.setText(translate("AADM_Check", "cancelled"))
+
+    def _busy(self, busy: bool) -> None:
+        self.check_button.setEnabled(not busy)
+        self.cancel_button.setEnabled(busy)
+        self.progress.setVisible(busy)
+        self.step.setText("")
+
+    def closing(self) -> None:
+        """A check that still runs is ended, and no point stays picked."""
+        self.cancel()
+        result = self.column.Result if self.column.Document is not None else None
+        if result is not None:
+            result.ViewObject.Proxy.pick(None)
+
+    def refresh(self) -> None:
+        """Show what the column holds now."""
+        scans = [f"{cloud.Kind}: {Path(cloud.File).name}" for cloud in self.column.Scans]
+        self.scans.setText("\n".join(scans) or translate("AADM_Check", "none yet: Import scan"))
+        result = self.column.Result
+        for part in (self.shows, self.only_failing, self.table):
+            part.setVisible(result is not None)
+        if result is None:
+            self.verdict.setText(translate("AADM_Check", "Not checked yet"))
+            self.reasons.setText("")
+            return
+        colour = QtGui.QColor.fromRgbF(*of_verdict(result.Verdict)).name()
+        said = translate("AADM_Check", "{verdict} · goes on: {goes_on}").format(
+            verdict=in_words(result.Verdict).upper(), goes_on=in_words(result.GoesOn)
+        )
+        self.verdict.setText(f'<span style="font-size: large; font-weight: bold; color: {colour}">{said}</span>')
+        found = found_of(result)
+        advice = (found.get("repair") or {}).get("advice")
+        notes = [f"→ {in_language(advice)}"] if advice else []
+        lines = [f"• {in_language(reason)}" for reason in result.Reasons[:_SHOWN_REASONS]]
+        more = len(result.Reasons) - _SHOWN_REASONS
+        if more > 0:
+            lines.append(translate("AADM_Check", "… and {count} more, see the table").format(count=more))
+        lines += notes
+        self.reasons.setText("\n".join(lines))
+        self.shows.blockSignals(True)
+        self.shows.setCurrentIndex(self.shows.findData(result.ViewObject.Shows))
+        self.shows.blockSignals(False)
+        self._fill_table()
+
+    def _shows_changed(self, index: int) -> None:
+        if self.column.Result is not None:
+            self.column.Result.ViewObject.Shows = self.shows.currentData()
+            self._fill_table()
+
+    def _fill_table(self, *_: Any) -> None:
+        if self.column.Result is not None:
+            trial = "least_squares" if self.shows.currentData() == "least_squares" else "minimax"
+            only_failing = self.only_failing.isChecked()
+            self.table.show_rows(found_of(self.column.Result), trial, only_failing=only_failing)
+
+    def go_to(self, row: Row) -> None:
+        """Show a row's point in the 3-D view."""
+        result, view = self.column.Result, active_view()
+        if result is None or row.place_mm is None:
+            return
+        result.ViewObject.Proxy.pick(row.place_mm)
+        if view is not None:
+            zoom_to(view, np.asarray(world_point(result, row.place_mm)), 3.0 * pitch_of(found_of(result)))
+
+
+def open_panel(column: Any) -> CheckPanel:
+    """Show the check of a column."""
+    panel = CheckPanel(column)
+    show_panel(panel)
+    return panel
+
+
+def _profiles() -> tuple[str, ...]:
+    from aadm_workbench.assembly.tolerances import profile_names
+
+    return profile_names()

@@ -1,0 +1,1 @@
+"""Alignment while the column hangs: from frames to corrections."""

@@ -1,0 +1,255 @@
+"""Bars under a hanging foot: all their visible sides fitted together, with one radius of their cores.
+
+A camera beside the bars sees no top, but half of every side that nothing hides. Ribs only ever stand out of a core, so
+the law of the side points is steep inwards and long outwards. Where the axis meets the highest points of the side is
+the centre of the top.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.extract.pooled.edge_law import BracketLaw
+from aadm_workbench.hoisting.frame import HoistingFrame, LocalAxes
+from aadm_workbench.hoisting.pattern_fit import (
+    OWN,
+    Believed,
+    Pattern,
+    State,
+    System,
+    Terms,
+    as_built,
+    loosened,
+    started,
+    wall_terms,
+)
+from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
+
+# of a bar below its top: the shortest of the settings stick out by 120, and no floor is to be taken in
+_LENGTH_MM = 110.0
+_ABOVE_MM = 14.0  # how far above the level of all tops one may end: by right they differ by a centimetre or more
+# about the radius, from a first guess of some mm down to what a rib of 0.9 mm stands out by and its noise
+_BANDS_MM = (3.0, 2.0, 1.6, 1.6, 1.6)
+_SETTLED_MM = 0.01  # a third of the uncertainty's floor below
+_LAST_ROUNDS = 2  # with the scatter that the bars show: all else is settled before
+_INWARDS_MM = 1.0  # ribs only stand outwards: what lies farther inside of the core is a stray
+_POINTS_MAX = 300  # of a side, evenly taken: neighbours share their errors, more of them tell little
+_FEWEST = 40  # points of a side (a choice: ±30 % moves nothing on sound scans)
+# neighbouring points of a side share their errors: standard errors are this much larger; a choice: ±30 % changes what
+# is found
+_CORRELATION = 1.8
+# of the noise that is read from the sides: half to three times that of the reference camera at 1 m (0.10)
+_LAW_WIDTH_MM = (0.05, 0.3)
+# of the points of a side, and how far they stand out on average: ribs of 0.9 mm with slanted flanks; a choice: ±30 %
+# changes what is found
+_RIB_SHARE, _RIB_MM = 0.35, 0.5
+# cores are nominal within half a millimetre across, those of a group alike, and lean by up to twice the usual 0.3
+# degrees
+_RADIUS_SIGMA_MM, _OWN_RADIUS_MM, _LEAN_SIGMA = 0.25, 0.05, 0.010
+_CORE_TO_NOMINAL = 0.965  # of ribbed bars (GB/T 1499.2: 19.3 of 20 mm)
+# 73 degrees to either side of the view: beyond, a side is seen along, and its pixels mix with what is behind
+_FACING_COSINE = 0.30
+# what the warp of a camera leaves (0.025 mm rms of the reference camera), however many points there are
+_FLOOR_MM = 0.03
+_SEEN_MM = 0.25  # known better than this, it has evidence of its own (a choice: ±30 % changes what is found)
+_TOP_BIN_MM = 1.0  # three rows of pixels or more, from 550 to 850 mm away
+# a side falls by 1.1 mm from pixel to pixel where it is still used; three of four neighbours
+_LIKE_DEPTH_MM, _BORNE_BY = 2.5, 3
+_NARROWEST, _WIDE = 0.12, 0.45  # of the diameter: on a narrow strip one rib can stand for the whole bar
+
+
+@dataclass(frozen=True, eq=False)
+class BarFit:
+    """Bars (k) in axes whose z is about their vertical, mm.
+
+    ``tops`` (k, 3) are centres of tops, NaN in height where no bar is seen; ``leans`` (k, 2) mm per mm upwards, with
+    the joint ``covariance`` (2k, 2k) of the plan positions of the tops. ``seen`` (k,) tells which have evidence of
+    their own, ``counts`` (k,) how many points that is. ``pose`` (3,) lays ``places`` (k, 2) on them,
+    its turn with the standard uncertainty ``turn_u``, rad.
+    """
+
+    tops: Array
+    leans: Array
+    covariance: Array
+    seen: BoolArray
+    counts: IntArray
+    pose: Array
+    turn_u: float
+    places: Array
+    radius_mm: float
+    noise_mm: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Side:
+    """Points (n, 3) about one bar, the plan directions (n, 2) in which they were looked at, and its top's height."""
+
+    points: Array
+    view: Array
+    top_mm: float
+
+
+def fit_bars(
+    frame: HoistingFrame,
+    axes: LocalAxes,
+    pattern: Pattern,
+    pose: Array,
+    top_mm: float,
+    diameter_mm: float,
+    starts: Array | None = None,
+) -> BarFit:
+    """Fit the bars of a pattern to a frame.
+
+    Parameters
+    ----------
+    axes
+        Origin and directions, z along the bars' vertical, as far as it is known.
+    pattern
+        Places of the bars, by design or as measured before hoisting, and their scatter.
+    pose
+        (3,): x, y mm and turn, from the places to ``axes``, within some mm.
+    top_mm
+        Level of the tops in ``axes``, within some cm.
+    starts
+        (k, 2) mm: first centres of bars that were found, NaN for the others; a bent bar is far from its place.
+    """
+    state = started(pattern, pose, (_CORE_TO_NOMINAL * diameter_mm / 2,))
+    if starts is not None:
+        state.own[:, :2] = np.where(np.isfinite(starts), starts, state.own[:, :2])
+    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2) for centre in state.centres]
+    sigma = np.tile([_LEAN_SIGMA, _LEAN_SIGMA, 1e-4, _OWN_RADIUS_MM], (len(sides), 1))
+    believed = Believed(state.pooled.copy(), np.array([_RADIUS_SIGMA_MM]), sigma, np.zeros((len(sides), OWN - 2)))
+    state, law = _settled(sides, state, pattern, believed)
+    terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
+    pattern = as_built(loosened(pattern, state), state, counts >= _FEWEST)
+    for _ in range(_LAST_ROUNDS):
+        system = _system(terms, pattern, believed, state)
+        state, _ = system.stepped(state)
+        terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
+    covariance, pose_covariance, _ = system.covariance()
+    own_mm = np.sqrt(np.diag(covariance).reshape(-1, 2).max(axis=1))
+    seen = (counts >= _FEWEST) & (own_mm < np.minimum(_SEEN_MM, np.maximum(0.5 * pattern.scatter_mm, 0.1)))
+    heights = np.array([np.nan if side is None else side.top_mm for side in sides])
+    return BarFit(
+        tops=np.column_stack([state.centres, heights]),
+        leans=-state.own[:, 2:4],
+        covariance=covariance + _FLOOR_MM**2 * np.eye(len(covariance)),
+        seen=seen,
+        counts=counts,
+        pose=state.pose,
+        turn_u=float(np.sqrt(pose_covariance[2, 2])),
+        places=pattern.places,
+        radius_mm=float(state.pooled[0]),
+        noise_mm=law.width_mm,
+    )
+
+
+def _settled(sides: list[_Side | None], state: State, pattern: Pattern, believed: Believed) -> tuple[State, BracketLaw]:
+    """The state to which the sides of all bars settle, and the law of how their points scatter."""
+    law = BracketLaw(0.15, _RIB_SHARE, _RIB_MM)
+    for band_mm in _BANDS_MM:
+        terms, _, width_mm = _terms(sides, state, band_mm, law)
+        law = BracketLaw(float(np.clip(width_mm, *_LAW_WIDTH_MM)), _RIB_SHARE, _RIB_MM)
+        state, step = _system(terms, pattern, believed, state).stepped(state)
+        pattern = loosened(pattern, state)
+        if step < _SETTLED_MM and band_mm == _BANDS_MM[-1]:
+            break
+    return state, law
+
+
+def _system(terms: Terms, pattern: Pattern, believed: Believed, state: State) -> System:
+    system = System(len(state.own), 1)
+    system.add(terms)
+    system.add_pattern(pattern, state)
+    system.add_beliefs(believed, state)
+    return system
+
+
+def _side(frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float) -> _Side | None:
+    """What is seen of a bar about a place; None where nothing is, or it is out of the picture."""
+    reach = radius_mm + _BANDS_MM[0]
+    corners = np.array(
+        [
+            [centre[0] + x * reach, centre[1] + y * reach, top_mm + z]
+            for x in (-1, 1)
+            for y in (-1, 1)
+            for z in (-_LENGTH_MM, _ABOVE_MM)
+        ]
+    )
+    around = axes.to_frame(corners)
+    if (around[:, 2] <= 1.0).any():
+        return None
+    pixels = frame.pixels_of(around)
+    low = np.maximum(np.floor(pixels.min(axis=0)).astype(int), 0)
+    high = np.minimum(np.ceil(pixels.max(axis=0)).astype(int) + 1, frame.shape[::-1])
+    if (high - low < 3).any():
+        return None
+    step = max(1, int(np.sqrt(np.prod(high - low) / 4000)))
+    points = frame.points[low[1] : high[1] : step, low[0] : high[0] : step]
+    local = axes.local(points[_borne(points[..., 2])].astype(np.float64))
+    near = np.hypot(*(local[:, :2] - centre).T) < reach
+    near &= (local[:, 2] > top_mm - _LENGTH_MM) & (local[:, 2] < top_mm + _ABOVE_MM)
+    local = local[near]
+    if len(local) < _FEWEST // 2:
+        return None
+    view = local[:, :2] - axes.eye[:2]
+    return _Side(local, view / np.linalg.norm(view, axis=1)[:, None], _top(local[:, 2]))
+
+
+def _width(about: Array, view: Array) -> float:
+    """How wide (mm) a strip of a bar is seen: points (n, 2) about its axis, looked at along ``view`` (n, 2)."""
+    across = np.sort(about[::5, 1] * view[::5, 0] - about[::5, 0] * view[::5, 1])
+    beyond = len(across) // 20
+    return float(across[-1 - beyond] - across[beyond])
+
+
+def _borne(depth: FloatArray) -> BoolArray:
+    """Pixels (h, w) with neighbours at a like depth: the rest fly, or look past an edge."""
+    framed = np.pad(depth, 1, constant_values=np.nan)
+    count = np.zeros(depth.shape, np.int8)
+    for down, right in ((0, 1), (2, 1), (1, 0), (1, 2)):
+        count += np.abs(framed[down : down + depth.shape[0], right : right + depth.shape[1]] - depth) < _LIKE_DEPTH_MM
+    return np.asarray(count >= _BORNE_BY)
+
+
+def _top(heights: Array) -> float:
+    """Height at which the side of a bar ends: where the points become few."""
+    counts, edges = np.histogram(heights, np.arange(heights.min(), heights.max() + 2 * _TOP_BIN_MM, _TOP_BIN_MM))
+    full = np.median(counts[counts > 0])
+    last = int(np.flatnonzero(counts > 0.4 * full)[-1])
+    return float(edges[last + 1])
+
+
+def _terms(sides: list[_Side | None], state: State, band_mm: float, law: BracketLaw) -> tuple[Terms, IntArray, float]:
+    """Side points of all bars as evidence, how many each has, and how far they scatter inwards, mm."""
+    owners, points, depths, trusts, counts = [], [], [], [], np.zeros(len(sides), np.int64)
+    for k, side in enumerate(sides):
+        if side is None:
+            continue
+        depth = side.top_mm - side.points[:, 2]
+        about = side.points[:, :2] - state.own[k, :2] - state.own[k, 2:4] * depth[:, None]
+        distance = np.hypot(about[:, 0], about[:, 1])
+        off = distance - state.pooled[0] - state.own[k, 5]
+        facing = -np.einsum("ij,ij->i", about, side.view) > _FACING_COSINE * distance
+        used = np.flatnonzero((depth > 1.0) & (off > -max(_INWARDS_MM, 0.6 * band_mm)) & (off < band_mm) & facing)
+        used = used[:: len(used) // _POINTS_MAX + 1]
+        if len(used) < _FEWEST:
+            continue
+        width = _width(about[used], side.view[used]) / (2.0 * state.pooled[0])
+        trusts.append(np.full(len(used), np.clip((width - _NARROWEST) / (_WIDE - _NARROWEST), 1e-4, 1.0) ** 3))
+        owners.append(np.full(len(used), k))
+        points.append(side.points[used, :2])
+        depths.append(depth[used])
+        counts[k] = len(used)
+    owner = np.concatenate(owners or [np.empty(0, np.int64)]).astype(np.int64)
+    xy = np.concatenate(points or [np.empty((0, 2))])
+    depth = np.concatenate(depths or [np.empty(0)])
+    residual, own, pooled = wall_terms(xy, depth, np.zeros_like(xy), owner, state, 0, None)
+    trust = np.concatenate(trusts or [np.empty(0)])
+    pull = -law.slope(-residual) * trust / _CORRELATION**2
+    bend = np.abs(pull) / np.maximum(np.abs(residual), law.softness_mm)
+    inwards = residual[(residual < 0) & (residual > -_INWARDS_MM)]
+    width_mm = 1.4826 * float(np.median(np.abs(inwards))) if len(inwards) > 20 else 0.15
+    return Terms(own, pooled, pull, bend, owner), counts, width_mm

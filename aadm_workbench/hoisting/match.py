@@ -1,0 +1,146 @@
+"""Which mouth of a hanging foot is which sleeve, and which thing below it is which bar."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aadm_workbench.assembly.matching.pattern_search import PlanarPlacement, search_placements
+from aadm_workbench.assembly.pose.upright import turn, wrap
+from aadm_workbench.model import Array, IntArray
+
+# half of a quarter turn, at which the next one begins, and a degree for what is measured
+_LARGEST_TURN = np.radians(46.0)
+_SAME_COST_MM = 12.0  # 1 mm for each of twelve points: placements that differ by less are told apart by nothing
+_CONTRADICTS_MM = 30.0  # 2.5 mm for each of twelve points: then the declared corner is wrong; a choice, not tuned since
+_FEWEST = 3  # two points lie on every pattern
+
+
+@dataclass(frozen=True, eq=False)
+class Laid:
+    """A pattern laid on what was found, in the axes of the foot face.
+
+    ``pose`` (3,) is x, y mm and turn, from the pattern to the axes; ``matched`` (m,) the found thing at each place, -1
+    for none.
+    """
+
+    pose: Array
+    matched: IntArray
+    cost_mm: float
+
+
+@dataclass(frozen=True, eq=False)
+class Matched:
+    """Sleeves and bars, laid; ``orientation`` is ``declared``, ``resolved`` or ``ambiguous``.
+
+    ``off_declared`` is how far, in radians, things hang and stand off what ``near`` claims, where it chose: the turn of
+    the column against its bars, or that of the camera about the corner named. At 45° it would be the next turn.
+    """
+
+    sleeves: Laid
+    rebars: Laid
+    orientation: str
+    off_declared: float = 0.0
+
+
+@dataclass(frozen=True)
+class NoMatch:
+    """Why the patterns do not lie on what was found."""
+
+    reason: str
+
+
+def corner_name(near: tuple[int, int]) -> str:
+    """A corner as jobs write it: ``-x-y``."""
+    return "".join(f"{'+' if sign > 0 else '-'}{axis}" for sign, axis in zip(near, "xy", strict=True))
+
+
+def match_hoisting(
+    mouths: Array, bars: Array, eye: Array, sleeve_places: Array, rebar_places: Array, near: tuple[int, int] | None
+) -> Matched | NoMatch:
+    """Lay both patterns on what was found.
+
+    Parameters
+    ----------
+    mouths, bars
+        (k, 2), (l, 2) mm, in the axes of the foot face, z along the column.
+    eye
+        (2,) mm, where the camera stands.
+    sleeve_places, rebar_places
+        (m, 2) mm, the design in the column frame.
+    near
+        Signs of x and y of the corner of the bars nearest to the camera; the column hangs within 44 degrees of its
+        final turn. None where nobody said it: then a symmetric pattern leaves several answers.
+    """
+    if len(mouths) < _FEWEST:
+        return NoMatch(f"only {len(mouths)} sleeves of the foot are seen: too few to tell how it hangs")
+    if len(bars) < _FEWEST:
+        return NoMatch(f"only {len(bars)} bars are seen under the foot: too few to tell which is which")
+    on_bars = _worth(search_placements(bars, rebar_places))
+    on_foot = _worth(search_placements(mouths, sleeve_places))
+    if not on_bars:
+        return NoMatch("the bars in the frame do not stand as the design says: are they those of another column?")
+    if not on_foot:
+        return NoMatch("the sleeves in the frame do not lie as the design says: is it another column?")
+    best = on_bars[0]
+    alike = [found for found in on_bars if found.cost_mm < best.cost_mm + _SAME_COST_MM and _elsewhere(found, best)]
+    chosen, orientation = best, "ambiguous" if alike else "resolved"
+    if near is not None:
+        fitting = [found for found in on_bars if _nearest_corner(found, eye, rebar_places) == near]
+        if not fitting or fitting[0].cost_mm > best.cost_mm + _CONTRADICTS_MM:
+            return NoMatch(_contradiction(near, _nearest_corner(best, eye, rebar_places)))
+        chosen = fitting[0]
+        orientation = "declared" if alike else "resolved"
+    turned = [found for found in on_foot if abs(wrap(chosen.yaw - found.yaw)) < _LARGEST_TURN]
+    if not turned:
+        return NoMatch("the column hangs turned by more than 45 degrees against its bars: turn it first")
+    cheapest = turned[0].cost_mm
+    close = [found for found in turned if found.cost_mm < cheapest + _SAME_COST_MM]
+    foot = min(close, key=lambda found: abs(wrap(chosen.yaw - found.yaw)))
+    off = 0.0
+    if near is not None:
+        # What a pattern settles by itself, no declaration decides.
+        off = _from_corner(chosen, eye, rebar_places) if orientation == "declared" else 0.0
+        if any(_elsewhere(found, foot) for found in on_foot if found.cost_mm < foot.cost_mm + _SAME_COST_MM):
+            off = max(off, abs(wrap(chosen.yaw - foot.yaw)))
+    return Matched(_laid(foot), _laid(chosen), orientation, off)
+
+
+def _worth(found: list[PlanarPlacement]) -> list[PlanarPlacement]:
+    return [placement for placement in found if (placement.matched >= 0).sum() >= _FEWEST]
+
+
+def _elsewhere(one: PlanarPlacement, other: PlanarPlacement) -> bool:
+    return bool(abs(wrap(one.yaw - other.yaw)) > np.radians(20.0))
+
+
+def _nearest_corner(found: PlanarPlacement, eye: Array, places: Array) -> tuple[int, int]:
+    """Signs of x and y of the corner of the pattern nearest to the camera, if it is laid so."""
+    at = _eye_at(found, eye, places)
+    return (1 if at[0] > 0 else -1), (1 if at[1] > 0 else -1)
+
+
+def _eye_at(found: PlanarPlacement, eye: Array, places: Array) -> Array:
+    """Where the camera stands (2,) mm from the middle of the pattern, if it is laid so."""
+    return np.asarray(turn(found.yaw) @ eye + found.shift - 0.5 * (places.min(axis=0) + places.max(axis=0)))
+
+
+def _from_corner(found: PlanarPlacement, eye: Array, places: Array) -> float:
+    """Angle between the camera's direction and the middle of its quadrant, 0 to 45°, in radians."""
+    x, y = np.abs(_eye_at(found, eye, places))
+    return abs(float(np.arctan2(y, x)) - np.pi / 4.0)
+
+
+def _contradiction(near: tuple[int, int], seen: tuple[int, int]) -> str:
+    said, found = corner_name(near), corner_name(seen)
+    return (
+        f'near = "{said}" contradicts the bars in the frame: their pattern puts corner "{found}" next to the camera; '
+        "correct near in the job, or see whether these are the bars of another column"
+    )
+
+
+def _laid(found: PlanarPlacement) -> Laid:
+    """Found to design, turned round: design to found."""
+    back = turn(-found.yaw)
+    return Laid(np.array([*(-back @ found.shift), -found.yaw]), found.matched, found.cost_mm)

@@ -1,0 +1,151 @@
+"""How the hanging column moves from frame to frame, and what that leaves to do: the correction is that of its rest.
+
+A frame shows the column at one moment of its swing. Its displacement from frame to frame is the rigid move that its
+pairs share; from three frames on these tell where it would come to rest (:mod:`.hoisting_swing`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from aadm_workbench.hoisting.swing import Swing, swing_of
+from aadm_workbench.model import Array, BoolArray, Correction, HoistingMeasurement
+
+_MOST_LOOKS, _LONGEST_S = 10, 40.0  # three swings of the longest rope; older frames say little of today's rest
+_FEWEST_PAIRS = 3
+_NOISE_FLOOR_MM = 0.04  # of a place from frame to frame: the bars' own frame is found anew in each
+_MOVED_SIGMAS, _MOVED_MIN_MM = 4.0, 0.25
+_SURE_SIGMAS = 1.645  # one-sided, 95 %
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """A frame as the motion needs it: its time, offsets (k, 2) mm, their variances (k,) and which pairs are seen."""
+
+    time_s: float
+    offsets_mm: Array
+    variances: Array
+    seen: BoolArray
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What the newest frames say of the column's motion.
+
+    ``still`` tells whether no pair leaves its limit during the swing; None without a limit, or while ``swing`` is None:
+    fewer than three frames since the last push. ``moving`` tells that the column moved and its rest is not known well
+    enough for a correction. ``rest`` is the correction from the rest, ``largest_mm`` the largest distance there.
+    """
+
+    swing: Swing | None
+    moving: bool
+    still: bool | None
+    rest: Correction | None
+    largest_mm: float | None
+
+
+def look_at(measurement: HoistingMeasurement, time_s: float) -> Look:
+    """What the motion needs of a measured frame."""
+    variances = np.trace(measurement.covariances, axis1=1, axis2=2) / 2.0
+    return Look(time_s, measurement.offsets_mm, variances, np.array([pair.seen for pair in measurement.report.pairs]))
+
+
+def with_look(looks: tuple[Look, ...], newest: Look) -> tuple[Look, ...]:
+    """The frames that still matter; a time that goes back begins anew."""
+    if looks and newest.time_s <= looks[-1].time_s:
+        return (newest,)
+    kept = [look for look in looks if newest.time_s - look.time_s < _LONGEST_S]
+    return (*kept[-(_MOST_LOOKS - 1) :], newest)
+
+
+def motion_of(looks: tuple[Look, ...], places: Array, correction: Correction | None, limit_mm: float | None) -> Motion:
+    """The motion that frames show.
+
+    Parameters
+    ----------
+    looks
+        Oldest first; the last is the one that ``correction`` belongs to.
+    places
+        (k, 2) mm, of the bars, in their frame.
+    limit_mm
+        Of the distance of a sleeve from its bar.
+    """
+    now = looks[-1]
+    largest_mm = float(np.hypot(*now.offsets_mm.T).max())
+    places = places - now.offsets_mm
+    moves, noise_mm = _moves(looks, places)
+    if len(moves) < 2:
+        return Motion(None, False, None, correction, largest_mm)
+    times_s = np.array([look.time_s for look in looks[-len(moves) :]])
+    swing = swing_of(times_s, moves[:, :2], noise_mm)
+    if swing is None:
+        limit = max(_MOVED_SIGMAS * np.sqrt(2.0) * noise_mm, _MOVED_MIN_MM)
+        moved = bool(np.abs(moves[-2]).max() > limit)
+        return Motion(None, moved, None, None if moved else correction, largest_mm)
+    turning = swing_of(times_s[-swing.frames :], moves[-swing.frames :, 2:], noise_mm)
+    if turning is None or correction is None:
+        return Motion(swing, turning is None, None, None, largest_mm)
+    return _from_rest(now, places, swing, turning, correction, limit_mm)
+
+
+def _from_rest(
+    now: Look, places: Array, swing: Swing, turning: Swing, correction: Correction, limit_mm: float | None
+) -> Motion:
+    """The motion with three frames and more: what remains to be done from the rest."""
+    reach_mm = _reach_mm(places)
+    yaw = float(turning.rest[0]) / reach_mm
+    at_rest = now.offsets_mm - swing.rest - yaw * np.column_stack([-places[:, 1], places[:, 0]])
+    largest_mm = float(np.hypot(*at_rest.T).max())
+    u_mm = math.hypot(swing.rest_u_mm, turning.rest_u_mm)
+    swing = replace(swing, amplitude_mm=swing.amplitude_mm + turning.amplitude_mm, rest_u_mm=u_mm)
+    still = None if limit_mm is None else swing.amplitude_mm + largest_mm + _SURE_SIGMAS * u_mm <= limit_mm
+    # a correction that is no surer than half of what it has to keep may as well push away
+    unsure = limit_mm is not None and _SURE_SIGMAS * u_mm > limit_mm / 2.0
+    rest = None if unsure else _moved(correction, swing.rest, math.degrees(yaw))
+    return Motion(swing, unsure, still, rest, largest_mm)
+
+
+def _moves(looks: tuple[Look, ...], places: Array) -> tuple[Array, float]:
+    """Displacements (n, 3) of the column against the newest frame: x, y, and turn at its rim, all mm; and their noise.
+
+    Only of the newest frames that see three pairs in common: each pair stands off its place by its own amount, which
+    must not look like a move.
+    """
+    now, common = looks[-1], looks[-1].seen.copy()
+    reach_mm = _reach_mm(places)
+    chosen = [now]
+    for look in reversed(looks[:-1]):
+        if len(look.seen) != len(common) or (common & look.seen).sum() < _FEWEST_PAIRS:
+            break
+        common &= look.seen
+        chosen.append(look)
+    if common.sum() < _FEWEST_PAIRS:
+        return np.zeros((1, 3)), _NOISE_FLOOR_MM
+    about = places[common]
+    system = np.zeros((2 * len(about), 3))
+    system[0::2, 0] = system[1::2, 1] = 1.0
+    system[0::2, 2], system[1::2, 2] = -about[:, 1] / reach_mm, about[:, 0] / reach_mm
+    solve = np.linalg.pinv(system)
+    moves = [solve @ (now.offsets_mm - look.offsets_mm)[common].ravel() for look in reversed(chosen)]
+    # half of a frame's variance is what its neighbours share with it, as in hoisting_running
+    noise = 0.5 * float(np.median(now.variances[common])) / len(about)
+    return np.array(moves), float(np.sqrt(noise + _NOISE_FLOOR_MM**2))
+
+
+def _reach_mm(places: Array) -> float:
+    return float(np.hypot(*places.T).max())
+
+
+def _moved(correction: Correction, displacement: Array, yaw_deg: float) -> Correction:
+    """The correction of a column that stands displaced against where it was measured."""
+    dx, dy = correction.dx_mm - displacement[0], correction.dy_mm - displacement[1]
+    camera = correction.camera
+    if camera is not None:
+        about = math.atan2(camera.away_mm, camera.right_mm) - math.atan2(correction.dy_mm, correction.dx_mm)
+        right = dx * math.cos(about) - dy * math.sin(about)
+        away = dx * math.sin(about) + dy * math.cos(about)
+        camera = replace(camera, right_mm=right, away_mm=away, yaw_deg=camera.yaw_deg - yaw_deg)
+    return replace(correction, dx_mm=float(dx), dy_mm=float(dy), yaw_deg=correction.yaw_deg - yaw_deg, camera=camera)

@@ -1,0 +1,108 @@
+"""Whether what was fitted in a hoisting frame can be this column over these bars."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from aadm_workbench.hoisting.bar_fit import BarFit
+from aadm_workbench.hoisting.bars import SeenBars
+from aadm_workbench.hoisting.face import FootFace
+from aadm_workbench.hoisting.foot import FootFit
+from aadm_workbench.hoisting.frame import HoistingFrame
+from aadm_workbench.hoisting.hidden import hidden_shares
+from aadm_workbench.hoisting.match import Matched
+from aadm_workbench.hoisting.pairs import HungFit
+from aadm_workbench.hoisting.pattern_fit import placed
+from aadm_workbench.model import Array, BoolArray
+
+_FEWEST_SEEN = 3  # a pose has three unknowns, and two points leave nothing to check it by
+_SLEEVE_MISFIT, _BAR_MISFIT = 0.08, 0.15  # relative, as in sleeves.py and rebars.py
+_OUT_OF_PICTURE_SHARE = 1 / 3  # of the sleeves: a foot is aimed at wholly or by half
+_RESIDUAL_MM = 6.0  # twice the limit: what is farther off belongs to no place
+# a tool may stand about; a third of the bars may hide behind hoses and hands: a choice, not tuned since
+_UNEXPECTED_MAX, _ABSENT_SHARE = 1, 0.34
+_STRAY_SHARE = 0.3  # of the openings: some are those of lifting anchors and vents; a choice, not tuned since
+_COVERED_SHARE = 0.5  # of a bar's width: with less in view nobody can say that it is not there
+
+
+def why_half(frame: HoistingFrame, face: FootFace, foot: FootFit) -> str:
+    """Whether so little of the foot is in view that the frame stands for a part of the column only; empty if not."""
+    count = len(foot.centres)
+    in_picture = _in_picture(frame, face.to_frame(np.column_stack([foot.centres, np.zeros(count)])))
+    shown = int((in_picture & foot.shown).sum())
+    if shown >= (1.0 - _OUT_OF_PICTURE_SHARE) * count:
+        return ""
+    return (
+        f"only {shown} of {count} sleeves are in what the frame shows: aim at the whole foot, move the camera back, or "
+        "measure the column in two frames"
+    )
+
+
+def why_not_foot(face: FootFace, foot: FootFit, diameter_mm: float) -> str:
+    """What speaks against the foot; empty where nothing does."""
+    apart = np.hypot(*(face.mouths[:, None] - foot.centres[None]).transpose(2, 0, 1)).min(axis=1)
+    stray = int((apart > max(_RESIDUAL_MM, 0.6 * foot.radius_mm)).sum())
+    if stray > max(1.0, _STRAY_SHARE * len(face.mouths)):
+        return f"{stray} openings of the foot lie where the design has no sleeve: is it another column?"
+    if foot.seen.sum() < _FEWEST_SEEN:
+        return f"only {int(foot.seen.sum())} sleeves can be measured: their mouths are covered, hidden or too far away"
+    if abs(2.0 * foot.radius_mm / diameter_mm - 1.0) > _SLEEVE_MISFIT:
+        return (
+            f"openings of {2.0 * foot.radius_mm:.1f} mm are seen in the foot, the design's sleeves have "
+            f"{diameter_mm:g} mm: is it another column?"
+        )
+    return ""
+
+
+def why_not_bars(frame: HoistingFrame, hung: HungFit, found: SeenBars, matched: Matched, diameter_mm: float) -> str:
+    """What speaks against the bars; empty where nothing does."""
+    bars = hung.bars
+    if bars.seen.sum() < _FEWEST_SEEN:
+        return f"only {int(bars.seen.sum())} bars under the foot can be measured"
+    if abs(2.0 * bars.radius_mm / diameter_mm - 1.0) > _BAR_MISFIT:
+        return (
+            f"the bars in the frame are {2.0 * bars.radius_mm:.1f} mm thick, the design's {diameter_mm:g} mm: are they "
+            "those of another column?"
+        )
+    unexpected = _unexpected(hung, found, matched)
+    if unexpected > _UNEXPECTED_MAX:
+        return f"{unexpected} bars stand where the design has none: are they those of another column?"
+    absent, expected = _absent(frame, hung)
+    if absent > max(1.0, _ABSENT_SHARE * expected):
+        return (
+            f"{absent} of {expected} bars that should be in view are not where the design has them: are they those of "
+            "another column?"
+        )
+    return ""
+
+
+def _in_picture(frame: HoistingFrame, points: Array) -> BoolArray:
+    pixels = frame.pixels_of(points)
+    inside = (pixels >= 0.0).all(axis=1) & (pixels < np.array(frame.shape[::-1])).all(axis=1)
+    return np.asarray(inside & (points[:, 2] > 0.0))
+
+
+def _unexpected(hung: HungFit, found: SeenBars, matched: Matched) -> int:
+    """How many round bars stand within the pattern's outline and belong to none of its places."""
+    places = placed(matched.rebars.pose, hung.bars.places)
+    known = set(matched.rebars.matched.tolist())
+    low, high = places.min(axis=0), places.max(axis=0)
+    middle, reach = 0.5 * (low + high), 0.5 * float(np.hypot(*(high - low)))
+    extra = [c for k, c in enumerate(found.centres) if k not in known and np.hypot(*(c - middle)) < reach]
+    return len(extra)
+
+
+def _absent(frame: HoistingFrame, hung: HungFit) -> tuple[int, int]:
+    """How many of the bars that nothing hides show nothing or stand far off, and how many nothing hides."""
+    bars = hung.bars
+    eye = hung.axes.eye[:2]
+    in_view = _in_picture(frame, hung.axes.to_frame(np.column_stack([bars.tops[:, :2], _levels(bars) - 20.0])))
+    clear = in_view & (hidden_shares(placed(bars.pose, bars.places), eye, bars.radius_mm) < _COVERED_SHARE)
+    off_mm = np.hypot(*(bars.tops[:, :2] - placed(bars.pose, bars.places)).T)
+    absent = clear & (~bars.seen | (off_mm > _RESIDUAL_MM))
+    return int(absent.sum()), int(clear.sum())
+
+
+def _levels(bars: BarFit) -> Array:
+    level = float(np.nanmedian(np.where(bars.seen, bars.tops[:, 2], np.nan)))
+    return np.where(np.isfinite(bars.tops[:, 2]), bars.tops[:, 2], level)

@@ -1,0 +1,89 @@
+"""viewpoint.bcfv: a camera under the foot that looks up at the sleeves, with the components of a topic."""
+
+from __future__ import annotations
+
+import uuid
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Iterable
+
+import numpy as np
+
+from aadm_workbench.model import Array
+from aadm_workbench.report.bcf.findings import Document, Finding, groups, points_of
+from aadm_workbench.report.words.labels import COLOUR
+
+_METRES = 1e-3  # BCF has metres alone
+_FIELD_OF_VIEW_DEG = 60.0  # what viewers have by themselves
+_DISTANCE_IN_FOOT_SIZES = 1.3  # the foot fills two thirds of that view
+_ASIDE_IN_FOOT_SIZES = 0.35  # 15 degrees: bores are seen to be bores
+_SMALLEST_FOOT_MM = 200.0  # where a design tells no size: no column is smaller
+
+
+def viewpoint(finding: Finding) -> bytes:
+    """The file of a topic's viewpoint, BCF 2.1; coordinates in metres of the model."""
+    root = ElementTree.Element("VisualizationInfo", Guid=viewpoint_guid(finding))
+    _components(root, finding)
+    position, direction, up = _camera(finding.column)
+    camera = ElementTree.SubElement(root, "PerspectiveCamera")
+    for name, vector in (("CameraViewPoint", position), ("CameraDirection", direction), ("CameraUpVector", up)):
+        element = ElementTree.SubElement(camera, name)
+        for axis, value in zip("XYZ", vector, strict=True):
+            ElementTree.SubElement(element, axis).text = repr(round(float(value), 9) + 0.0)
+    ElementTree.SubElement(camera, "FieldOfView").text = repr(_FIELD_OF_VIEW_DEG)
+    ElementTree.indent(root)
+    written: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
+    return written
+
+
+def viewpoint_guid(finding: Finding) -> str:
+    """The GUID of a topic's viewpoint: the same in every run."""
+    return str(uuid.uuid5(uuid.UUID(finding.guid), "viewpoint"))
+
+
+def _camera(column: Document) -> tuple[Array, Array, Array]:
+    """Position, direction and up (each (3,), m, model frame): under the foot, looking up, the column's y upwards."""
+    T_model_column = np.array(column["T_model_column"] or np.eye(4))
+    drawn = [point["design_mm"] for group in groups(column) for point in group["points"]]
+    size_mm = max([_SMALLEST_FOOT_MM, *(column["size_mm"] or ()), *np.ptp(np.array(drawn or [[0.0] * 3]), axis=0)[:2]])
+    seen_from_mm = size_mm * np.array([0.0, -_ASIDE_IN_FOOT_SIZES, -_DISTANCE_IN_FOOT_SIZES])
+    rotation = T_model_column[:3, :3]
+    direction = rotation @ (-seen_from_mm / np.linalg.norm(seen_from_mm))
+    across = rotation[:, 1]
+    up = across - float(across @ direction) * direction
+    position = _METRES * (T_model_column[:3, 3] + rotation @ seen_from_mm)
+    return position, direction, up / np.linalg.norm(up)
+
+
+def _components(root: ElementTree.Element, finding: Finding) -> None:
+    """Select what the topic is about, show the column with its sleeves and bars alone, colour them by verdict."""
+    points = [point for group in groups(finding.column) for point in group["points"]]
+    column_id = finding.column["global_id"]
+    shown = _ids([{"global_id": column_id}, *points])
+    if not shown:
+        return
+    blamed = [point for number in finding.numbers for point in points_of(finding.column, number)]
+    components = ElementTree.SubElement(root, "Components")
+    _list(ElementTree.SubElement(components, "Selection"), _ids(blamed) or _ids([{"global_id": column_id}]) or shown)
+    visibility = ElementTree.SubElement(components, "Visibility", DefaultVisibility="false")
+    _list(ElementTree.SubElement(visibility, "Exceptions"), shown)
+    coloring = ElementTree.SubElement(components, "Coloring")
+    for verdict, colour in COLOUR.items():
+        coloured = _ids(point for point in points if point["verdict"] == verdict)
+        if finding.verdict == verdict and column_id:
+            coloured.append(column_id)
+        if coloured:
+            _list(ElementTree.SubElement(coloring, "Color", Color=_opaque(colour)), coloured)
+
+
+def _opaque(colour: str) -> str:
+    """``#00795a`` as BCF writes it, alpha first."""
+    return f"FF{colour.removeprefix('#').upper()}"
+
+
+def _ids(entries: Iterable[Document]) -> list[str]:
+    return list(dict.fromkeys(entry["global_id"] for entry in entries if entry["global_id"]))
+
+
+def _list(parent: ElementTree.Element, global_ids: Iterable[str]) -> None:
+    for global_id in global_ids:
+        ElementTree.SubElement(parent, "Component", IfcGuid=global_id)

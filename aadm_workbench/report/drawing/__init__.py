@@ -1,0 +1,1 @@
+"""Drawings as shapes, whatever they are drawn on."""

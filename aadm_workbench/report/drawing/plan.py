@@ -1,0 +1,133 @@
+"""The floor seen from above: every column at its place in the model, with the sign and colour of its verdict."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from aadm_workbench.report.drawing.sketch import Label, Link, Point, Polyline, Shape, Sketch, rectangle
+from aadm_workbench.report.words.labels import SIGN
+
+WIDTH = 1000.0
+"""Of the drawing, in its own units; the page gives it its size."""
+_MARGIN = 70.0  # about the columns: tags of the axes
+_SMALLEST, _LARGEST = 12.0, 44.0  # of a column's square: still clicked, and not larger than its name needs
+_HIGHEST = 620.0  # of the drawing: a long floor leaves room on the page
+
+
+@dataclass(frozen=True)
+class Plan:
+    """One storey, or the columns whose place is not known (``placed`` false)."""
+
+    storey: str
+    placed: bool
+    sketch: Sketch
+
+
+def floor_plans(columns: Sequence[dict[str, Any]], anchors: dict[str, str]) -> list[Plan]:
+    """A plan for each storey, and one of tiles for columns without a place.
+
+    Parameters
+    ----------
+    anchors
+        Where a click on a column leads, by its id.
+    """
+    storeys: dict[str, list[dict[str, Any]]] = defaultdict(list)
+    tiles = []
+    for column in columns:
+        if column["T_model_column"] is None:
+            tiles.append(column)
+        else:
+            storeys[column["storey"] or ""].append(column)
+    plans = [Plan(storey, True, _placed(storeys[storey], anchors)) for storey in sorted(storeys)]
+    return plans + ([Plan("", False, _tiles(tiles, anchors))] if tiles else [])
+
+
+def place_mm(column: dict[str, Any]) -> Point:
+    """Where a column stands in the plan of the model, mm."""
+    T = column["T_model_column"]
+    return float(T[0][3]), float(T[1][3])
+
+
+def grid_tags(column: dict[str, Any]) -> tuple[str, ...]:
+    """The axes that a column stands on: ``C/3`` gives C and 3."""
+    return tuple(tag for tag in (column["grid"] or "").split("/") if tag)
+
+
+def _placed(columns: Sequence[dict[str, Any]], anchors: dict[str, str]) -> Sketch:
+    places = [place_mm(column) for column in columns]
+    low = (min(x for x, _ in places), min(y for _, y in places))
+    span = (max(x for x, _ in places) - low[0], max(y for _, y in places) - low[1])
+    scale = min((WIDTH - 2 * _MARGIN) / max(span[0], 1.0), (_HIGHEST - 2 * _MARGIN) / max(span[1], 1.0))
+    height = span[1] * scale + 2 * _MARGIN
+    inset = (WIDTH - span[0] * scale) / 2.0
+    at = [(inset + (x - low[0]) * scale, _MARGIN + (y - low[1]) * scale) for x, y in places]
+    half = min(_LARGEST, max(_SMALLEST, 0.3 * _nearest(at))) / 2.0
+    shapes: list[Shape] = [*_grid_lines(columns, at)]
+    for column, place in zip(columns, at, strict=True):
+        shapes.append(_column(column, place, half, anchors))
+    return Sketch(WIDTH, height, tuple(shapes))
+
+
+def _nearest(places: Sequence[Point]) -> float:
+    """Smallest distance between two columns that do not stand on one another."""
+    found = [
+        ((x1 - x0) ** 2 + (y1 - y0) ** 2) ** 0.5
+        for k, (x0, y0) in enumerate(places)
+        for x1, y1 in places[k + 1 :]
+        if abs(x1 - x0) + abs(y1 - y0) > 1.0
+    ]
+    return min(found, default=WIDTH)
+
+
+def _tiles(columns: Sequence[dict[str, Any]], anchors: dict[str, str]) -> Sketch:
+    in_row = min(len(columns), 10)
+    step = WIDTH / max(in_row, 5)
+    rows = -(-len(columns) // in_row)
+    height = rows * 90.0
+    shapes = [
+        _column(column, (step * (k % in_row + 0.5), height - 90.0 * (k // in_row) - 38.0), 20.0, anchors)
+        for k, column in enumerate(columns)
+    ]
+    return Sketch(WIDTH, height, tuple(shapes))
+
+
+def _column(column: dict[str, Any], at: Point, half: float, anchors: dict[str, str]) -> Link:
+    verdict = column["verdict"]
+    low, high = (at[0] - half, at[1] - half), (at[0] + half, at[1] + half)
+    size = min(15.0, max(8.0, half * 0.8))
+    name = column["id"] if len(column["id"]) <= 16 else f"{column['id'][:15]}…"
+    shapes = (
+        rectangle(low, high, f"fill-{verdict}"),
+        Label(at, SIGN[verdict], half * 1.4, "text", bold=True),
+        Label((at[0], at[1] - half - size * 0.75), name, size, "text-fail" if verdict == "fail" else "text", bold=True),
+    )
+    return Link(anchors[column["id"]], column["id"], shapes)
+
+
+def _grid_lines(columns: Sequence[dict[str, Any]], at: Sequence[Point]) -> Iterator[Shape]:
+    """A line through the columns of each axis that at least two of them stand on."""
+    members: dict[str, list[Point]] = defaultdict(list)
+    for column, place in zip(columns, at, strict=True):
+        for tag in grid_tags(column):
+            members[tag].append(place)
+    for tag, places in members.items():
+        first, last = _ends(places)
+        length = ((last[0] - first[0]) ** 2 + (last[1] - first[1]) ** 2) ** 0.5
+        if length < 1.0:
+            continue
+        ux, uy = (last[0] - first[0]) / length, (last[1] - first[1]) / length
+        reach = 44.0
+        start = (first[0] - ux * reach, first[1] - uy * reach)
+        end = (last[0] + ux * reach, last[1] + uy * reach)
+        yield Polyline((start, end), "axis")
+        yield Label((start[0] - ux * 12.0, start[1] - uy * 12.0), tag, 17.0, "text-faint", bold=True)
+
+
+def _ends(places: Sequence[Point]) -> tuple[Point, Point]:
+    """The first and the last place along the axis, from the left or from below."""
+    spans = [max(place[k] for place in places) - min(place[k] for place in places) for k in (0, 1)]
+    along = 0 if spans[0] >= spans[1] else 1
+    return min(places, key=lambda place: place[along]), max(places, key=lambda place: place[along])

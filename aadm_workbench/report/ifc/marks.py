@@ -1,0 +1,242 @@
+"""As-built centres in the model: small disks with arrows, in the storey of the column, coloured by verdict.
+
+Each mark is an IfcAnnotation whose placement is the measured centre. It is drawn twice: as solids, which every viewer
+shows, and as curves, which is what FreeCAD draws of an annotation. Layers and a group switch them off together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from aadm_workbench.model import Array
+from aadm_workbench.report.ifc.addition import Addition
+from aadm_workbench.report.words.labels import COLOUR
+
+MAGNIFIED = 20.0
+"""Arrows are this many times as long as the deviation."""
+
+_DISK_RADIUS_MM, _THICKNESS_MM = 6.0, 2.0  # smaller than any bar, and seen from a room away
+_ARROW_MM = 100.0
+"""Length of the arrow as drawn once; each mark scales it."""
+# per cent of its length: a shaft, and a head of 30
+_ARROW = ((0.0, -3.0), (70.0, -3.0), (70.0, -11.0), (100.0, 0.0), (70.0, 11.0), (70.0, 3.0), (0.0, 3.0))
+_SHORTEST_MM = 0.01  # an arrow shorter than this has no direction
+_LAYERS = {"sleeves": "AADM as-built sleeves", "rebars": "AADM as-built bars"}
+_BELOW = {"sleeves": -_THICKNESS_MM, "rebars": 0.0}
+"""Marks of sleeves hang below the foot face, those of bars lie on their tops: outside of concrete and steel."""
+
+
+@dataclass
+class Marks:
+    """Draws marks and, at the end, what holds them together."""
+
+    addition: Addition
+    drawn: list[Any] = field(default_factory=list)
+    _shapes: dict[str, list[Any]] = field(default_factory=dict)
+    _contained: dict[int, tuple[Any, list[Any]]] = field(default_factory=dict)
+    _maps: dict[tuple[str, ...], Any] = field(default_factory=dict)
+    _once: dict[str, Any] = field(default_factory=dict)
+
+    def draw(self, column: dict[str, Any], element: Any, T_model_column: Array) -> None:
+        """Mark every measured centre of a column; ``T_model_column`` (4, 4), mm, world coordinate system included."""
+        from ifcopenshell.util.element import get_container
+
+        container = get_container(element)
+        context = _context_of(element, self.addition.file)
+        T_parent_column = _relative(self._frame_of(container, context), T_model_column)
+        for kind in ("sleeves", "rebars"):
+            for point in (column[kind] or {"points": ()})["points"]:
+                if point["aligned_mm"] is not None and point["offset_mm"] is not None:
+                    mark = self._mark(column, element, kind, point, T_parent_column, container, context)
+                    self.drawn.append(mark)
+                    if container is not None:
+                        self._contained.setdefault(container.id(), (container, []))[1].append(mark)
+
+    def finish(self) -> None:
+        """Contain the marks in their storeys, group them, and put them on layers."""
+        add = self.addition
+        for container, marks in self._contained.values():
+            add.rooted(
+                "IfcRelContainedInSpatialStructure",
+                ("marks", container.GlobalId),
+                "AADM as-built centres",
+                RelatingStructure=container,
+                RelatedElements=marks,
+            )
+        if self.drawn:
+            group = add.rooted("IfcGroup", ("marks",), "AADM as-built centres", ObjectType="AADM as-built centres")
+            add.rooted(
+                "IfcRelAssignsToGroup",
+                ("marks",),
+                "AADM as-built centres",
+                RelatedObjects=self.drawn,
+                RelatingGroup=group,
+            )
+        for layer, shapes in self._shapes.items():
+            add.new("IfcPresentationLayerAssignment", Name=layer, AssignedItems=shapes)
+
+    def _frame_of(self, container: Any, context: Any) -> Array:
+        """``T_model_container`` (4, 4), mm: the world coordinate system, then the container's placement."""
+        from ifcopenshell.util.placement import get_axis2placement, get_local_placement
+
+        world = getattr(context, "WorldCoordinateSystem", None)
+        T_model_world = np.eye(4) if world is None else np.array(get_axis2placement(world), dtype=float)
+        placement = getattr(container, "ObjectPlacement", None)
+        T = np.array(T_model_world @ np.array(get_local_placement(placement)) if placement else T_model_world)
+        T[:3, 3] *= self.addition.mm
+        return T
+
+    def _mark(
+        self,
+        column: dict[str, Any],
+        element: Any,
+        kind: str,
+        point: dict[str, Any],
+        T_parent_column: Array,
+        container: Any,
+        context: Any,
+    ) -> Any:
+        add, (dx, dy) = self.addition, point["offset_mm"]
+        T_parent_mark = T_parent_column.copy()
+        T_parent_mark[:3, 3] += T_parent_column[:3, :3] @ np.array(point["aligned_mm"])
+        placement = add.new(
+            "IfcLocalPlacement",
+            PlacementRelTo=getattr(container, "ObjectPlacement", None),
+            RelativePlacement=add.axes(T_parent_mark),
+        )
+        shapes = [
+            self._shape(context, "Body", "MappedRepresentation", list(self._solids(kind, point, context))),
+            self._shape(context, "Annotation", "GeometricCurveSet", [self._curves(dx, dy)]),
+        ]
+        self._shapes.setdefault(_LAYERS[kind], []).extend(shapes)
+        said = (
+            f"Column {column['id']}: measured centre of {point['label']}, {point['deviation_mm'] or 0.0:.2f} mm from "
+            f"design, {point['verdict'].replace('_', ' ')}. The arrow starts at the designed centre and is "
+            f"{MAGNIFIED:g} times as long as the deviation."
+        )
+        attributes = {"PredefinedType": "USERDEFINED"} if add.is_4x3 else {}
+        return add.rooted(
+            "IfcAnnotation",
+            (element.GlobalId, point["label"]),
+            f"{point['label']} as-built",
+            Description=said,
+            ObjectType="AADM as-built centre",
+            ObjectPlacement=placement,
+            Representation=add.new("IfcProductDefinitionShape", Representations=shapes),
+            **attributes,
+        )
+
+    def _shape(self, context: Any, identifier: str, kind: str, items: Sequence[Any]) -> Any:
+        return self.addition.new(
+            "IfcShapeRepresentation",
+            ContextOfItems=context,
+            RepresentationIdentifier=identifier,
+            RepresentationType=kind,
+            Items=items,
+        )
+
+    def _solids(self, kind: str, point: dict[str, Any], context: Any) -> Iterator[Any]:
+        """A disk at the measured centre, and the arrow from the designed one."""
+        add, (dx, dy) = self.addition, point["offset_mm"]
+        length_mm = float(np.hypot(dx, dy))
+        in_place = add.new("IfcCartesianTransformationOperator3D", LocalOrigin=add.point(0.0, 0.0, 0.0))
+        yield add.new("IfcMappedItem", MappingSource=self._map("disk", kind, point, context), MappingTarget=in_place)
+        if length_mm > _SHORTEST_MM:
+            target = add.new(
+                "IfcCartesianTransformationOperator3D",
+                Axis1=add.direction(np.array([dx, dy, 0.0]) / length_mm),
+                Axis2=add.direction(np.array([-dy, dx, 0.0]) / length_mm),
+                LocalOrigin=add.point(-dx, -dy, 0.0),
+                Scale=MAGNIFIED * length_mm / _ARROW_MM,
+            )
+            yield add.new("IfcMappedItem", MappingSource=self._map("arrow", kind, point, context), MappingTarget=target)
+
+    def _map(self, what: str, kind: str, point: dict[str, Any], context: Any) -> Any:
+        """A disk or an arrow of one colour, drawn once and used by all marks."""
+        key = (what, kind, point["verdict"], str(context.id()))
+        if key not in self._maps:
+            add = self.addition
+            lower = np.eye(4)
+            lower[2, 3] = _BELOW[kind]
+            solid = add.new(
+                "IfcExtrudedAreaSolid",
+                SweptArea=self._profile(what),
+                Position=add.axes(lower),
+                ExtrudedDirection=add.direction(np.array([0.0, 0.0, 1.0])),
+                Depth=add.length(_THICKNESS_MM),
+            )
+            add.new("IfcStyledItem", Item=solid, Styles=[self._style(point["verdict"])])
+            shape = self._shape(context, "Body", "SweptSolid", [solid])
+            self._maps[key] = add.new(
+                "IfcRepresentationMap", MappingOrigin=add.axes(np.eye(4)), MappedRepresentation=shape
+            )
+        return self._maps[key]
+
+    def _profile(self, what: str) -> Any:
+        add = self.addition
+        if what not in self._once:
+            if what == "disk":
+                flat = add.new("IfcAxis2Placement2D", Location=add.point(0.0, 0.0))
+                profile = add.new(
+                    "IfcCircleProfileDef", ProfileType="AREA", Position=flat, Radius=add.length(_DISK_RADIUS_MM)
+                )
+            else:
+                corners = [add.point(*corner) for corner in _ARROW]
+                outline = add.new("IfcPolyline", Points=[*corners, corners[0]])
+                profile = add.new("IfcArbitraryClosedProfileDef", ProfileType="AREA", OuterCurve=outline)
+            self._once[what] = profile
+        return self._once[what]
+
+    def _style(self, verdict: str) -> Any:
+        add, key = self.addition, f"style {verdict}"
+        if key not in self._once:
+            red, green, blue = (part / 255.0 for part in bytes.fromhex(COLOUR[verdict].removeprefix("#")))
+            colour = add.new("IfcColourRgb", Red=red, Green=green, Blue=blue)
+            shading = add.new("IfcSurfaceStyleRendering", SurfaceColour=colour, ReflectanceMethod="FLAT")
+            style = add.new("IfcSurfaceStyle", Name=f"AADM {verdict}", Side="BOTH", Styles=[shading])
+            self._once[key] = add.new("IfcPresentationStyleAssignment", Styles=[style]) if add.is_2x3 else style
+        return self._once[key]
+
+    def _curves(self, dx: float, dy: float) -> Any:
+        """The rim of the disk, and the arrow as one line."""
+        add = self.addition
+        if "rim" not in self._once:
+            flat = add.axes(np.eye(4))
+            self._once["rim"] = add.new("IfcCircle", Position=flat, Radius=add.length(_DISK_RADIUS_MM))
+        elements = [self._once["rim"]]
+        length_mm = float(np.hypot(dx, dy))
+        if length_mm > _SHORTEST_MM:
+            along = MAGNIFIED * np.array([dx, dy])
+            across = 0.11 * np.array([-along[1], along[0]])
+            start = -np.array([dx, dy])
+            ends = (start, start + along, start + 0.7 * along + across, start + along, start + 0.7 * along - across)
+            elements.append(add.new("IfcPolyline", Points=[add.point(float(x), float(y), 0.0) for x, y in ends]))
+        return add.new("IfcGeometricCurveSet", Elements=elements)
+
+
+def _relative(T_model_parent: Array, T_model_own: Array) -> Array:
+    """``T_parent_own``; map coordinates of thousands of kilometres cancel before they are turned."""
+    turn = T_model_parent[:3, :3].T
+    T = np.eye(4)
+    T[:3, :3] = turn @ T_model_own[:3, :3]
+    T[:3, 3] = turn @ (T_model_own[:3, 3] - T_model_parent[:3, 3])
+    T[:3, :3][np.abs(T[:3, :3]) < 1e-12] = 0.0
+    return T
+
+
+def _context_of(element: Any, file: Any) -> Any:
+    """The context in which the column is drawn, for its world coordinate system moves everything in it."""
+    from ifcopenshell.util.element import get_parts
+
+    for drawn in (element, *get_parts(element)):
+        shapes = getattr(getattr(drawn, "Representation", None), "Representations", ())
+        for shape in shapes:
+            context = shape.ContextOfItems
+            if context is not None:
+                return context.ParentContext if context.is_a("IfcGeometricRepresentationSubContext") else context
+    contexts = file.by_type("IfcGeometricRepresentationContext", include_subtypes=False)
+    return next((context for context in contexts if context.ContextType == "Model"), contexts[0])

@@ -1,0 +1,282 @@
+"""Results into an IFC model: the same file with the same ids and GlobalIds, and what was found put behind it.
+
+What is written can be taken out again, and then the file is the one from before, byte for byte. Written twice it is
+the same as written once.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from aadm_workbench.atomic import write_atomically
+from aadm_workbench.design.ifc.model import read_ifc
+from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
+from aadm_workbench.design.ifc.text.step import step_text
+from aadm_workbench.errors import ReportError
+from aadm_workbench.model import Array
+from aadm_workbench.own_files import is_there
+from aadm_workbench.report.ifc import sets as ifc_sets
+from aadm_workbench.report.ifc.addition import Addition
+from aadm_workbench.report.ifc.assign import Assigner
+from aadm_workbench.report.ifc.elements import Elements, check_named_once
+from aadm_workbench.report.ifc.marks import Marks
+from aadm_workbench.report.ifc.points import write_points
+from aadm_workbench.report.ifc.records import add_records, add_report_link
+from aadm_workbench.report.ifc.removal import Stripped, keep_book, without_results
+from aadm_workbench.report.read import Report
+
+_SHORT_HASH = 12  # 48 bits: no two states of a model share them
+
+
+@dataclass(frozen=True)
+class WriteBack:
+    """What became of a model.
+
+    ``changed`` is False where the file at ``out`` held the same bytes already. ``backup`` is the copy of a model that
+    was changed in place. ``missing`` names columns and points of the report that the model does not hold.
+    """
+
+    out: Path
+    changed: bool
+    schema: str
+    columns: tuple[str, ...] = ()
+    property_sets: int = 0
+    annotations: int = 0
+    missing: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    backup: Path | None = None
+
+
+def ids_path() -> Path:
+    """The IDS (buildingSMART, 1.0) that checks what :func:`write_ifc` writes."""
+    return Path(__file__).resolve().parents[2] / "resources" / "aadm-results.ids"
+
+
+def write_ifc(
+    report: Report, model: Path, out: Path, *, report_location: str | None = None, force: bool = False
+) -> WriteBack:
+    """Write the results of a check into an IFC model.
+
+    Parameters
+    ----------
+    report
+        report.json, schema 1.
+    model
+        The model that was checked, with or without results of an earlier run: those are replaced.
+    out
+        The file to write, whole or not at all. Where it is the model itself, the model as it was is kept beside it.
+    report_location
+        Path of the report relative to ``out``, or its URI: the columns are linked to it.
+    force
+        Write into a model that has changed since the check; columns are found by their GlobalIds.
+
+    Raises
+    ------
+    ReportError
+        Where the model is not the one that was checked, or holds none of the columns.
+    DesignError
+        Where the model cannot be read.
+    AadmError
+        Where ``out`` cannot be written.
+    MissingDependencyError
+        Where ifcopenshell is not installed.
+    """
+    stripped, opened = _original(model)
+    same = _is_same_model(report, model, stripped)
+    if not same and not force:
+        raise ReportError(_not_the_same(report, model, stripped))
+    elements = Elements(opened.file)
+    of_column = {
+        column["id"]: element for column in report["columns"] if (element := elements.column(column)) is not None
+    }
+    if not of_column:
+        raise ReportError(_no_column(report, model, elements))
+    check_named_once(of_column)
+    frames = _frames(report, of_column) if same else _frames_now(stripped.content, elements)
+    text = step_text(stripped.content)
+    addition = Addition(opened, text)
+    assigner, marks = Assigner(addition), Marks(addition)
+    missing = [f"column {column['id']}" for column in report["columns"] if column["id"] not in of_column]
+    checked = [column for column in report["columns"] if column["id"] in of_column]
+    for column in checked:
+        element = of_column[column["id"]]
+        assigner.assign(element, ifc_sets.COLUMN_SET, ifc_sets.column_properties(report, column))
+        if element.id() in frames:
+            marks.draw(column, element, frames[element.id()])
+        add_records(addition, report, column, element)
+    missing += write_points(report, checked, elements, assigner)
+    marks.finish()
+    if report_location:
+        add_report_link(addition, report_location, list(of_column.values()))
+    checked_sha256 = str((report["model"] or {}).get("sha256", ""))
+    keep_book(addition, text, checked_sha256, ifc_sets.write_back_properties(report))
+    replaced = {number: _line(opened.file, number) for number in addition.altered}
+    content = text.edited(replaced=replaced, appended=addition.lines())
+    # A backup for each state of the model without results, not for each night.
+    changed, backup = _put(content, out, model, _sha256(stripped.content))
+    return WriteBack(
+        out=out,
+        changed=changed,
+        schema=str(opened.file.schema_identifier),
+        columns=tuple(of_column),
+        property_sets=assigner.assigned,
+        annotations=len(marks.drawn),
+        missing=tuple(missing),
+        notes=(*stripped.notes, *_notes(assigner), *elements.notes(list(_entries(report)))),
+        backup=backup,
+    )
+
+
+def remove_ifc(model: Path, out: Path) -> WriteBack:
+    """Take the results out of a model again; other people's entities stay as they are.
+
+    Raises
+    ------
+    DesignError
+        Where the model cannot be read.
+    ReportError
+        Where it holds no results.
+    AadmError
+        Where ``out`` cannot be written.
+    """
+    _check_writable(model)
+    opened = open_ifc(model)
+    stripped = without_results(opened.file, step_text(model.read_bytes()))
+    if not stripped.found:
+        raise ReportError(f"{model} holds no results of a check: there is nothing to take out")
+    # What can be written again from the report needs no backup.
+    changed, backup = _put(stripped.content, out, model, "" if stripped.exact else opened.sha256)
+    how = (
+        "the model equals the one that the results were written into, byte for byte"
+        if stripped.exact
+        else "the model was changed by another program since: what that program wrote stays"
+    )
+    return WriteBack(out, changed, str(opened.file.schema_identifier), notes=(*stripped.notes, how), backup=backup)
+
+
+def _original(model: Path) -> tuple[Stripped, OpenedIfc]:
+    """The model without results of earlier runs, and open."""
+    _check_writable(model)
+    opened = open_ifc(model)
+    stripped = without_results(opened.file, step_text(model.read_bytes()))
+    if not stripped.found:
+        return stripped, opened
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "model.ifc"
+        path.write_bytes(stripped.content)
+        return stripped, open_ifc(path)
+
+
+def _check_writable(model: Path) -> None:
+    """Refuse forms of IFC in which no line can be put behind the others."""
+    if model.suffix.lower() == ".ifczip":
+        raise ReportError(
+            f"{model}: results are written into .ifc files; unpack it and name the .ifc, and check with it"
+        )
+    with suppress(OSError), model.open("rb") as stream:  # whoever opens it says what is wrong
+        if stream.read(2) in (b"\xff\xfe", b"\xfe\xff"):
+            raise ReportError(f"{model}: is written in UTF-16, into which no line of STEP fits; export it again")
+
+
+def _is_same_model(report: Report, model: Path, stripped: Stripped) -> bool:
+    if report["model"] is None:
+        return False
+    known = {_sha256(model.read_bytes()), _sha256(stripped.content)}
+    if stripped.exact:
+        known.add(stripped.checked_sha256)
+    return str(report["model"]["sha256"]) in known
+
+
+def _not_the_same(report: Report, model: Path, stripped: Stripped) -> str:
+    if report["model"] is None:
+        return (
+            f"{model}: the columns of this report were checked against designs in the job, not against a model, so no "
+            "element is theirs. Check them with [model] in the job"
+        )
+    now, checked = _sha256(stripped.content), str(report["model"]["sha256"])
+    return (
+        f"{model} is not the model that was checked ({report['model']['source']}), or has changed since: its sha256 "
+        f"begins with {now[:_SHORT_HASH]}, that of the report with {checked[:_SHORT_HASH]}. Repeat the check; or write "
+        "into it as it is, columns found by GlobalId (--force)"
+    )
+
+
+def _frames(report: Report, of_column: dict[str, Any]) -> dict[int, Array]:
+    """``T_model_column`` (4, 4), mm, by the number of the column's element, as it was when the column was checked."""
+    return {
+        of_column[column["id"]].id(): np.array(column["T_model_column"], dtype=float)
+        for column in report["columns"]
+        if column["T_model_column"] is not None and column["id"] in of_column
+    }
+
+
+def _frames_now(content: bytes, elements: Elements) -> dict[int, Array]:
+    """The same in a model that has changed: a column that was moved since takes its marks along."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "model.ifc"
+        path.write_bytes(content)
+        columns = read_ifc(path).columns
+    return {
+        element.id(): np.array(column.T_model_column, dtype=float)
+        for column in columns
+        if column.T_model_column is not None
+        and (element := elements.column({"id": column.id, "global_id": column.global_id})) is not None
+    }
+
+
+def _entries(report: Report) -> Iterator[dict[str, Any]]:
+    """Columns and points of a report: whatever has a GlobalId."""
+    for column in report["columns"]:
+        yield column
+        for kind in ifc_sets.POINT_SETS:
+            yield from (column[kind] or {"points": ()})["points"]
+
+
+def _line(file: Any, number: int) -> bytes:
+    from aadm_workbench.report.ifc.addition import line_of
+
+    return line_of(file.by_id(number))
+
+
+def _no_column(report: Report, model: Path, elements: Elements) -> str:
+    if notes := list(elements.notes(report["columns"])):
+        return f"{model}: {notes[0]}"
+    ids = [str(column["id"]) for column in report["columns"]]
+    shown = ", ".join(ids[:5]) + (", …" if len(ids) > 5 else "")
+    return f"{model} holds none of the report's columns ({shown}): no element has their GlobalIds. Name another model"
+
+
+def _sha256(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
+
+
+def _notes(assigner: Assigner) -> Iterator[str]:
+    for name, count in assigner.left_alone.items():
+        yield f"{name} of {count} elements was in the model already and was left as it is"
+    if assigner.unshared:
+        yield f"{assigner.unshared} elements got property sets of their own where they had shared one"
+
+
+def _put(content: bytes, out: Path, model: Path, keep_as: str) -> tuple[bool, Path | None]:
+    """Write the file unless it is there already; a model that is replaced is kept, once for each ``keep_as``."""
+    in_place = out.exists() and out.samefile(model)
+    # The model may be named by a link, and that stays one: what it leads to is replaced. Any other link is replaced.
+    place = out.resolve() if in_place else out
+    if is_there(place) and place.read_bytes() == content:
+        return False, None
+    backup = None
+    if keep_as and in_place:
+        kept = model.with_name(f"{model.name}.{keep_as[:_SHORT_HASH]}.bak")
+        if not is_there(kept):
+            write_atomically(kept, model.read_bytes())
+            backup = kept
+    write_atomically(place, content)
+    return True, backup

@@ -1,0 +1,168 @@
+"""report.html: one self-contained file, for the client to read and keep.
+
+It works offline and asks nothing of the network: a Content-Security-Policy lets run only the script and the style that
+stand in the file, by their hashes. Names from models and jobs are escaped wherever they stand.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+from collections.abc import Iterable
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from aadm_workbench.atomic import write_atomically
+from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.model import SUMMED, Verdict
+from aadm_workbench.report.drawing.mould import mould_sketch
+from aadm_workbench.report.drawing.plan import floor_plans
+from aadm_workbench.report.findings import Finding, findings
+from aadm_workbench.report.hoist import headline
+from aadm_workbench.report.pages.fonts import embedded_font_css
+from aadm_workbench.report.pages.html_column import column_entry, view_of
+from aadm_workbench.report.pages.svg import svg_of, svg_styles
+from aadm_workbench.report.read import Report
+from aadm_workbench.report.sheets.numbers import is_number, number_text
+from aadm_workbench.report.sheets.sheets import MOULD, mould_rows, profile_table
+from aadm_workbench.report.sheets.tables import narrowed
+from aadm_workbench.report.words.labels import Language, Phrase, all_words, phrase, resource_folder, verdict_words
+from aadm_workbench.report.words.reasons import in_both_languages
+
+_VERDICTS = tuple(verdict.value for verdict in (*SUMMED, Verdict.NOT_ASSESSED))
+
+
+def write_html(report: Report, path: Path, language: Language = "en") -> None:
+    """Write report.html, whole or not at all; ``language`` is the one that it opens in.
+
+    Raises
+    ------
+    MissingDependencyError
+        Without the packages jinja2 and fonttools.
+    AadmError
+        Where the file cannot be written.
+    """
+    write_atomically(path, html_text(report, language).encode("utf-8", errors="replace"))
+
+
+def html_text(report: Report, language: Language = "en") -> str:
+    """The document; the same report gives the same text."""
+    found = findings(report)
+    sentences: dict[Phrase, int] = {}
+    context = _context(report, found, language) | {"number_of": lambda text: sentences.setdefault(text, len(sentences))}
+    body = _environment().get_template("report.html.j2")
+    script = (resource_folder() / "report.js").read_text(encoding="utf-8")
+    style = (resource_folder() / "report.css").read_text(encoding="utf-8") + svg_styles()
+    # The font comes last: which characters it must hold is known once the rest is written.
+    known = {"script": "", "style": "", "policy": "", "dictionary": {}}
+    plain = body.render(**context | known)
+    dictionary = _dictionary(sentences)
+    style = embedded_font_css(plain + json.dumps(dictionary, ensure_ascii=False)) + style
+    known |= {"script": _raw(script), "style": _raw(style), "policy": _policy(script, style), "dictionary": dictionary}
+    text: str = body.render(**context | known)
+    return text
+
+
+def _policy(script: str, style: str) -> str:
+    hashes = [base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in (script, style)]
+    return (
+        f"default-src 'none'; script-src 'sha256-{hashes[0]}'; style-src 'sha256-{hashes[1]}'; "
+        "font-src data:; base-uri 'none'; form-action 'none'"
+    )
+
+
+def _environment() -> Any:
+    try:
+        jinja2: Any = import_module("jinja2")
+    except ImportError as error:
+        raise MissingDependencyError("jinja2", "report.html") from error
+    return jinja2.Environment(
+        loader=jinja2.FileSystemLoader(resource_folder()), autoescape=True, undefined=jinja2.StrictUndefined
+    )
+
+
+def _raw(text: str) -> Any:
+    """A text of this product's own that is not escaped: script, style, drawings whose labels are escaped already."""
+    return import_module("markupsafe").Markup(text)
+
+
+def _context(report: Report, found: list[Finding], language: Language) -> dict[str, Any]:
+    items = [_with_raw_drawings(column_entry(report, finding)) for finding in found]
+    by_state = {state: [i for i in items if i["hoist"].state == state] for state in ("no", "not_yet", "yes")}
+    words = all_words()
+    return {
+        "report": report,
+        "language": language,
+        "words": words,
+        "items": items,
+        **by_state,
+        "headline": headline(report),
+        "not_yet_line": phrase("headline.not_yet", number=len(by_state["not_yet"])),
+        "yes_line": phrase("headline.yes", number=len(by_state["yes"])),
+        "plans": _plans(report, found),
+        "legend": [name for name in _VERDICTS if any(item["verdict"] == name for item in items)],
+        "moulds": [_mould(mould, language) for mould in report.get("mould_drift", ())],
+        "profile": profile_table(report),
+        "inputs": _inputs(report),
+        "views": {f.anchor: view_of(f.column) for f in found if f.column["sleeves"] or f.column["rebars"]},
+        "verdict_words": verdict_words,
+        "is_number": is_number,
+        "number": number_text,
+        "sentence": in_both_languages,
+        "input_words": ("sleeves", "rebars", "hoisting"),
+    }
+
+
+def _dictionary(sentences: Iterable[Phrase]) -> dict[str, Any]:
+    """What the language switch needs; sentences by the number that the document calls them by."""
+    shown = ("ui.", "cause.", "state.")
+    return {
+        "texts": {name: list(text) for name, text in all_words().items() if name.startswith(shown)},
+        "sentences": [list(sentence) for sentence in sentences],
+        "verdicts": {name: [verdict_words(name, "en"), verdict_words(name, "zh")] for name in _VERDICTS},
+    }
+
+
+def _with_raw_drawings(item: dict[str, Any]) -> dict[str, Any]:
+    for sketch in item["sketches"]:
+        sketch["svg"] = _raw(sketch["svg"])
+    if item["trial"] is not None:
+        item["trial"]["window_svg"] = _raw(item["trial"]["window_svg"])
+    return item
+
+
+def _plans(report: Report, found: list[Finding]) -> list[dict[str, Any]]:
+    anchors = {finding.column["id"]: finding.anchor for finding in found}
+    return [
+        {"storey": plan.storey, "placed": plan.placed, "svg": _raw(svg_of(plan.sketch, label="plan", css_class="plan"))}
+        for plan in floor_plans(report["columns"], anchors)
+    ]
+
+
+def _mould(mould: dict[str, Any], language: Language) -> dict[str, Any]:
+    headings, rows = narrowed(MOULD, list(mould_rows(mould, language)))
+    limit = "–" if mould["axis_limit_mm"] is None else f"{mould['axis_limit_mm']:.2f}"
+    of: Phrase = phrase("ui.of_columns", number=len(mould["columns"]))
+    return {
+        "name": mould["piece_mark"] or mould["columns"][0],
+        "columns": of.in_language(language),
+        "conclusion": in_both_languages(mould["conclusion"]),
+        "note": phrase("ui.mould_note", limit=limit),
+        "svg": _raw(svg_of(mould_sketch(mould), label="Cpk", css_class="bars")),
+        "headings": headings,
+        "rows": rows,
+    }
+
+
+def _inputs(report: Report) -> list[tuple[str, str, str]]:
+    job, model = report["job"], report["model"]
+    lines = [("ui.job", job["name"], job["sha256"])]
+    if model is not None:
+        lines.append(("ui.model", model["source"], model["sha256"]))
+    rest = [f"{key} {value}" for key, value in job.items() if key not in ("name", "sha256")]
+    versions = [f"{key} {value}" for key, value in report["tool"].items() if key not in ("name", "version")]
+    lines.append(("ui.settings", ", ".join(rest), ""))
+    lines.append(("ui.made_by", ", ".join([f"{report['tool']['name']} {report['tool']['version']}", *versions]), ""))
+    return lines

@@ -1,0 +1,181 @@
+"""scan-card.pdf: one A4 for each column, for the yard, before anything is scanned."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow, rectangle
+from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, lines_of, pages, write, write_lines
+from aadm_workbench.report.pages.scan_card import (
+    CardPart,
+    ScanCard,
+    corner_of,
+    first_bar_corner,
+    in_picture,
+    top_side,
+    up_name,
+)
+from aadm_workbench.report.words.labels import FAINT, MOVE, Language, Phrase, phrase
+
+_LEFT, _RIGHT = 15.0 * MM, 195.0 * MM  # margins of 15 mm on A4: printers reach as far
+_WIDTH = _RIGHT - _LEFT
+_SIDE = 200.0  # of the drawing, in its own units
+_MARGIN = 22.0  # about the pattern: its labels
+_PART_HEIGHT = 111.0 * MM  # half of what head and foot leave of A4
+
+
+def write_scan_cards(cards: Sequence[ScanCard], path: Path, language: Language = "zh", *, title: str = "") -> None:
+    """Write scan-card.pdf, whole or not at all; both languages are on every page, ``language`` stands first.
+
+    Raises
+    ------
+    MissingDependencyError
+        Without the package reportlab.
+    AadmError
+        Where the file cannot be written.
+    """
+    with pages(path, phrase("card.title").en, "scan-card.pdf") as canvas:
+        for card in cards:
+            _Page(canvas, language).draw(card, title)
+            canvas.showPage()
+
+
+def picture_sketch(card: ScanCard, part: CardPart) -> Sketch:
+    """The camera's picture: a frame, in it the outline and the points as they will be seen, S1 or R1 marked."""
+    seen = {point.label: in_picture(part.part, part.up_deg, point.design_mm) for point in part.points}
+    ends = [abs(value) for place in seen.values() for value in place]
+    reach = max([*ends, *(side / 2.0 for side in card.size_mm or ()), 1.0])
+    scale = (_SIDE / 2.0 - _MARGIN) / reach
+    shapes: list[Shape] = [rectangle((4.0, 4.0), (_SIDE - 4.0, _SIDE - 16.0), "guide")]
+    if card.size_mm is not None:
+        x, y = (side / 2.0 for side in card.size_mm)
+        corners = [in_picture(part.part, part.up_deg, c) for c in ((-x, -y), (x, -y), (x, y), (-x, y))]
+        shapes.append(Polyline(tuple(_place(corner, scale) for corner in corners), "outline", closed=True))
+    first = "S1" if part.part == "sleeves" else "R1"
+    for point in part.points:
+        at = _place(seen[point.label], scale)
+        radius = max(4.0, point.diameter_mm / 2.0 * scale)
+        marked = point.label == first
+        if marked:
+            shapes.append(Circle(at, radius + 7.0, "ring-mark"))
+        shapes.append(Circle(at, radius, "ink" if part.part == "sleeves" else "bar"))
+        inwards = (_middle()[0] - at[0], _middle()[1] - at[1])
+        length = (inwards[0] ** 2 + inwards[1] ** 2) ** 0.5 or 1.0
+        apart = radius + (15.0 if marked else 9.0)
+        place = (at[0] + inwards[0] / length * apart, at[1] + inwards[1] / length * apart)
+        shapes.append(Label(place, point.label, 13.0 if marked else 8.5, bold=marked))
+    shapes += [
+        arrow((_SIDE / 2.0, _SIDE - 14.0), (_SIDE / 2.0, _SIDE - 1.0), "move", 8.0),
+        Label((_SIDE / 2.0 + 5.0, _SIDE - 8.0), "TOP 上", 9.0, "text-move", "start", bold=True),
+    ]
+    return Sketch(_SIDE, _SIDE, tuple(shapes))
+
+
+def _middle() -> Point:
+    return _SIDE / 2.0, _SIDE / 2.0 - 6.0
+
+
+def _place(mm: Point, scale: float) -> Point:
+    return _middle()[0] + mm[0] * scale, _middle()[1] + mm[1] * scale
+
+
+class _Page:
+    """Draws one card from the top down."""
+
+    def __init__(self, canvas: Any, language: Language) -> None:
+        self.canvas = canvas
+        self.first: Language = language
+        self.second: Language = "en" if language == "zh" else "zh"
+
+    def draw(self, card: ScanCard, title: str) -> None:
+        """The whole page."""
+        canvas = self.canvas
+        top = A4[1] - 20.0 * MM
+        size = next((s for s in (34.0, 26.0, 18.0) if len(lines_of(card.id, s, 0.62 * _WIDTH)) == 1), 13.0)
+        write_lines(canvas, (_LEFT, top), card.id, size, 0.62 * _WIDTH, bold=True, most=1)
+        said = phrase("card.title")
+        write(canvas, (_RIGHT, top), said.in_language(self.first), 22.0, colour=MOVE, bold=True, anchor="end")
+        write(canvas, (_RIGHT, top - 7.0 * MM), said.in_language(self.second), 12.0, colour=MOVE, anchor="end")
+        write_lines(canvas, (_LEFT, top - 8.0 * MM), card.place, 12.0, 0.62 * _WIDTH, colour=FAINT, most=1)
+        canvas.setLineWidth(1.0)
+        canvas.line(_LEFT, top - 12.0 * MM, _RIGHT, top - 12.0 * MM)
+        y = top - 18.0 * MM
+        self._line((_LEFT, y), phrase("card.chalk"), 12.0, _WIDTH)
+        if not card.parts:
+            self._line((_LEFT, y - 16.0 * MM), phrase("card.no_design"), 14.0, _WIDTH)
+        for number, part in enumerate(card.parts):
+            self._part(card, part, A4[1] - 50.0 * MM - number * _PART_HEIGHT)
+        third = _WIDTH / 3.0 - 3.0 * MM
+        for k, name in enumerate(("card.straight", "card.clean", "card.smoothing")):
+            self._line((_LEFT + k * _WIDTH / 3.0, 25.0 * MM), phrase(name), 9.0, third)
+        write_lines(canvas, (_LEFT, 9.0 * MM), title, 8.0, _WIDTH, colour=FAINT, most=1)
+
+    def _part(self, card: ScanCard, part: CardPart, top: float) -> None:
+        """One picture to take, and beside it what to heed."""
+        side = 96.0 * MM
+        draw_sketch(self.canvas, picture_sketch(card, part), (_LEFT, top - side), side)
+        x, wide = _LEFT + side + 6.0 * MM, _WIDTH - side - 6.0 * MM
+        is_foot = part.part == "sleeves"
+        y = self._line((x, top - 6.0 * MM), phrase("card.foot" if is_foot else "card.bars"), 16.0, wide, bold=True)
+        y = self._line((x, y), phrase("card.foot_seen" if is_foot else "card.bars_seen"), 10.0, wide)
+        y -= 3.0 * MM
+        first = "S1" if is_foot else "R1"
+        if any(point.label == first for point in part.points):
+            place = corner_of(part, first)
+            y = self._line((x, y), _placed(f"card.{first.lower()}_here", place=place), 13.0, wide, bold=True)
+        y = self._line((x, y), _placed("card.up_side", side=top_side(card, part)), 11.0, wide)
+        y = self._line((x, y), _placed("card.in_job", up=_quoted(up_name(part.up_deg))), 9.0, wide)
+        y = self._line((x, y), phrase("card.distance", m=f"{part.distance_m:.2f}"), 11.0, wide)
+        if part.last_distance_m is not None:
+            y = self._line((x, y), phrase("card.distance_last", m=f"{part.last_distance_m:.2f}"), 9.0, wide)
+        corner = first_bar_corner(card, part)
+        if corner is not None:
+            y = self._line((x, y), _placed("card.r1_corner", corner=corner), 10.0, wide)
+        elif is_foot:
+            y = self._line((x, y), phrase("card.s1_is"), 10.0, wide)
+        self._tick(
+            (x, min(y - 4.5 * MM, top - side + 9.0 * MM)),
+            phrase("card.tick_foot" if is_foot else "card.tick_bars"),
+            wide,
+        )
+
+    def _line(self, at: Point, text: Phrase, size: float, width: float, *, bold: bool = False) -> float:
+        """A text in both languages, the second below the first and smaller."""
+        y = write_lines(self.canvas, at, text.in_language(self.first), size, width, bold=bold)
+        if text.en == text.zh:
+            return y - 1.5 * MM
+        smaller = max(7.5, 0.72 * size)
+        y += 0.25 * (size - smaller)
+        return (
+            write_lines(self.canvas, (at[0], y), text.in_language(self.second), smaller, width, colour=FAINT) - 1.2 * MM
+        )
+
+    def _tick(self, at: Point, text: Phrase, width: float) -> None:
+        """A box to tick, and a line for the file's name."""
+        self.canvas.setLineWidth(1.0)
+        self.canvas.rect(at[0], at[1], 5.0 * MM, 5.0 * MM, stroke=1, fill=0)
+        said = f"{text.in_language(self.first)} · {text.in_language(self.second)}"
+        write(self.canvas, (at[0] + 7.0 * MM, at[1] + 1.2 * MM), said, 9.0)
+        name = phrase("card.file_named")
+        write(
+            self.canvas,
+            (at[0], at[1] - 6.0 * MM),
+            f"{name.in_language(self.first)} · {name.in_language(self.second)}:",
+            8.0,
+        )
+        self.canvas.line(at[0] + 30.0 * MM, at[1] - 6.5 * MM, at[0] + width, at[1] - 6.5 * MM)
+
+
+def _placed(name: str, **phrases: Phrase) -> Phrase:
+    """A text whose places are filled in each language with that of its own."""
+    text = phrase(name)
+    return Phrase(
+        text.en.format(**{key: value.en for key, value in phrases.items()}),
+        text.zh.format(**{key: value.zh for key, value in phrases.items()}),
+    )
+
+
+def _quoted(text: Phrase) -> Phrase:
+    return text if text.en.lstrip("-").replace(".", "").isdigit() else Phrase(f'"{text.en}"', f'"{text.zh}"')

@@ -1,0 +1,1 @@
+"""Tables: CSV, XLSX, and what pages take from them."""

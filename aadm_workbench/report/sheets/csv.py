@@ -1,0 +1,143 @@
+"""report.csv: every number with a limit, one line each, for Excel and for scripts.
+
+Position, spacing, trial assembly and position in the building stand under each other in one table: column, question,
+what was measured, value, uncertainty, limits, clause, verdict. UTF-8 with a byte order mark, for Excel takes any other
+file for the system's own code page; commas and decimal points.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from aadm_workbench.atomic import write_atomically
+from aadm_workbench.report.column_view import declared_up
+from aadm_workbench.report.hoist import worst_first
+from aadm_workbench.report.read import Report
+from aadm_workbench.report.sheets.tables import (
+    Cell,
+    Row,
+    absolute_rows,
+    hoisting_rows,
+    pair_rows,
+    point_rows,
+    spacing_rows,
+)
+
+HEADINGS = (
+    "column",
+    "column_verdict",
+    "goes_on",
+    "question",
+    "item",
+    "dx_mm",
+    "dy_mm",
+    "value_mm",
+    "u_mm",
+    "lower_limit_mm",
+    "upper_limit_mm",
+    "clause",
+    "clause_source",
+    "verdict",
+    "clearance_mm",
+    "reason",
+)
+
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+
+
+def write_csv(report: Report, path: Path) -> None:
+    """Write report.csv, whole or not at all.
+
+    Raises
+    ------
+    AadmError
+        Where the file cannot be written.
+    """
+    write_atomically(path, csv_content(report, worst_first(report)))
+
+
+def csv_content(report: Report, columns: Iterable[dict[str, Any]]) -> bytes:
+    """The bytes of report.csv, with these columns of the report."""
+    text = io.StringIO(newline="")
+    writer = csv.writer(text)
+    writer.writerow(HEADINGS)
+    for column in columns:
+        writer.writerows([_inert(cell) for cell in row] for row in _lines(report, column))
+    return text.getvalue().encode("utf-8-sig", errors="replace")
+
+
+def _inert(cell: Cell) -> Cell:
+    """A text that a spreadsheet would take for a formula gets an apostrophe, which the spreadsheet does not show."""
+    return f"'{cell}" if isinstance(cell, str) and cell.lstrip(" ").startswith(_FORMULA) else cell
+
+
+def _lines(report: Report, column: dict[str, Any]) -> Iterator[Row]:
+    first = (column["id"], column["verdict"], column["goes_on"])
+    lines = [
+        *_of_findings(column),
+        *_of_groups(report, column),
+        *_of_trial(report, column),
+        *_of_hoisting(report, column),
+    ]
+    if not lines:
+        lines = [("column", "", *(None,) * 7, "", column["verdict"], None, "; ".join(column["reasons"]))]
+    for line in lines:
+        yield (*first, *line)
+
+
+def _of_findings(column: dict[str, Any]) -> Iterator[Row]:
+    for finding in column.get("findings", ()):
+        held = "holds back" if finding["holds_back"] else ""
+        item = " ".join(finding["about"])
+        yield (f"finding {finding['code']}", item, *(None,) * 6, "", "", held, None, finding["text"])
+    up = declared_up(column)
+    if up is not None:
+        yield ("as_declared", up, *(None,) * 6, "", "", "", None, "labels hang on the declared up")
+
+
+def _of_groups(report: Report, column: dict[str, Any]) -> Iterator[Row]:
+    for kind in ("sleeves", "rebars"):
+        for row in point_rows(report, column, kind):
+            label, _, _, dx, dy, value, u, limit, clause, source, verdict, _, _, _, reason = row
+            yield (f"{kind[:-1]}_position", label, dx, dy, value, u, None, limit, clause, source, verdict, None, reason)
+        for row in spacing_rows(report, column, kind):
+            label, _, _, value, u, lower, upper, clause, source, verdict, reason = row
+            label = str(label).replace("–", "-")
+            yield (
+                f"{kind[:-1]}_spacing",
+                label,
+                None,
+                None,
+                value,
+                u,
+                lower,
+                upper,
+                clause,
+                source,
+                verdict,
+                None,
+                reason,
+            )
+    for label, dx, dy, value, u, limit, clause, source, verdict in absolute_rows(report, column):
+        name = label or "all bars"
+        yield ("building_position", name, dx, dy, value, u, None, limit, clause, source, verdict, None, "")
+
+
+def _of_trial(report: Report, column: dict[str, Any]) -> Iterator[Row]:
+    for row in pair_rows(report, column):
+        label, dx, dy, value, squares, u, limit, clause, source, room, verdict, other, reason = row
+        yield ("trial_minimax", label, dx, dy, value, u, None, limit, clause, source, verdict, room, reason)
+        if other is not None:
+            line = (squares, None, None, limit, clause, source, other, None, "")
+            yield ("trial_least_squares", label, None, None, *line)
+
+
+def _of_hoisting(report: Report, column: dict[str, Any]) -> Iterator[Row]:
+    for frame in column["hoisting"]:
+        for label, dx, dy, value, u, limit, clause, source, verdict, _, reason in hoisting_rows(report, frame):
+            line = (value, u, None, limit, clause, source, verdict or "", None, reason)
+            yield (f"hoisting {frame['source']}", label, dx, dy, *line)

@@ -1,0 +1,217 @@
+"""The tables of a whole job, one for each question, as the sheets of a workbook hold them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any
+
+from aadm_workbench.report.column_view import declared_up
+from aadm_workbench.report.hoist import hoist_of, worst_first
+from aadm_workbench.report.read import Report
+from aadm_workbench.report.sheets.tables import (
+    ABSOLUTE,
+    HOISTING,
+    INPUTS,
+    PAIRS,
+    POINTS,
+    RULES,
+    SPACING,
+    Heading,
+    Row,
+    Table,
+    absolute_rows,
+    heading,
+    hoisting_rows,
+    input_rows,
+    pair_rows,
+    point_rows,
+    rule_rows,
+    spacing_rows,
+)
+from aadm_workbench.report.words.labels import Language, Phrase, phrase
+
+_COLUMN = heading("column")
+
+
+def job_tables(report: Report, language: Language = "en") -> list[Table]:
+    """Columns, points, spacing, pairs and so on; those without a row are left out, but for the first four.
+
+    ``language`` is that of the sentences; headings bring both.
+    """
+    columns = worst_first(report)
+    by_kind = ("sleeves", "rebars")
+    always = [
+        columns_table(report, language),
+        _sheet(
+            "points_sheet", POINTS, _each(columns, lambda c: (r for k in by_kind for r in point_rows(report, c, k)))
+        ),
+        _sheet("spacing", SPACING, _each(columns, lambda c: (r for k in by_kind for r in spacing_rows(report, c, k)))),
+        _sheet("trial", PAIRS, _each(columns, lambda c: pair_rows(report, c))),
+    ]
+    more = [
+        _sheet("absolute", ABSOLUTE, _each(columns, lambda c: absolute_rows(report, c))),
+        _sheet("hoisting", (heading("frame"), *HOISTING), _each(columns, lambda c: _frames(report, c))),
+        _sheet("rules", RULES, _each(columns, rule_rows)),
+        _sheet("repair", _REPAIR, _each(columns, _repair_rows)),
+        mould_table(report),
+        _sheet("inputs", INPUTS, _each(columns, input_rows)),
+    ]
+    return [*always, *(table for table in more if table.rows), profile_table(report)]
+
+
+def columns_table(report: Report, language: Language = "en") -> Table:
+    """One row for each column: may it be hoisted, and why not."""
+    headings = (
+        _COLUMN,
+        heading("may_be_hoisted"),
+        heading("verdict", "verdict"),
+        heading("goes_on", "verdict"),
+        _of("position", "sleeve"),
+        _of("position", "rebar"),
+        _of("largest_distance", "minimax"),
+        _of("largest_distance", "least_squares"),
+        Heading(phrase("ui.margin"), "ratio"),
+        Heading(phrase("ui.probability"), "share"),
+        heading("reasons"),
+        heading("repair"),
+        heading("grid"),
+        heading("storey"),
+        heading("piece_mark"),
+        heading("global_id"),
+        heading("as_declared"),
+    )
+    rows = tuple(_column_row(column, language) for column in worst_first(report))
+    return Table(phrase("ui.columns"), headings, rows)
+
+
+def _of(word: str, of: str) -> Heading:
+    name, what = phrase(f"ui.{word}"), phrase(f"ui.{of}")
+    return Heading(Phrase(f"{name.en}, {what.en}", f"{name.zh}({what.zh})"), "mm")
+
+
+def _column_row(column: dict[str, Any], language: Language) -> Row:
+    hoist = hoist_of(column)
+    trial = column["trial_assembly"] or {}
+    repair = column.get("repair") or {}
+    return (
+        column["id"],
+        phrase(f"state.{hoist.state}").in_language(language),
+        column["verdict"],
+        column["goes_on"],
+        _largest_mm(column["sleeves"]),
+        _largest_mm(column["rebars"]),
+        (trial.get("minimax") or {}).get("max_mm"),
+        (trial.get("least_squares") or {}).get("max_mm"),
+        trial.get("margin"),
+        trial.get("probability"),
+        "; ".join(reason.in_language(language) for reason in hoist.reasons),
+        repair.get("advice"),
+        column["grid"],
+        column["storey"],
+        column["piece_mark"],
+        column["global_id"],
+        declared_up(column),
+    )
+
+
+def _largest_mm(group: dict[str, Any] | None) -> float | None:
+    found = [p["deviation_mm"] for p in (group or {}).get("points", ()) if p["deviation_mm"] is not None]
+    return max(found, default=None)
+
+
+_REPAIR = (
+    heading("step"),
+    heading("pair"),
+    heading("offset_x", "mm"),
+    heading("offset_y", "mm"),
+    heading("note"),
+)
+
+
+def _repair_rows(column: dict[str, Any]) -> Iterator[Row]:
+    repair = column.get("repair")
+    if repair is None:
+        return
+    yield (repair["action"], "", None, None, repair["advice"])
+    for step in repair["steps"]:
+        pair = f"{step['sleeve']}/{step['rebar']}"
+        yield (step["action"], pair, *(step["bend_mm"] or (None, None)), step["reason"])
+
+
+def _frames(report: Report, column: dict[str, Any]) -> Iterator[Row]:
+    for frame in column["hoisting"]:
+        yield from ((frame["source"], *row) for row in hoisting_rows(report, frame))
+
+
+MOULD = (
+    heading("sleeve"),
+    Heading(Phrase("Mean dx", "平均 dx"), "mm"),
+    Heading(Phrase("Mean dy", "平均 dy"), "mm"),
+    Heading(Phrase("95 % ±x", "95 % ±x"), "mm"),
+    Heading(Phrase("95 % ±y", "95 % ±y"), "mm"),
+    Heading(Phrase("Scatter x", "离散 x"), "mm_fine"),
+    Heading(Phrase("Scatter y", "离散 y"), "mm_fine"),
+    Heading(Phrase("Cp x", "Cp x"), "ratio"),
+    Heading(Phrase("Cpk x", "Cpk x"), "ratio"),
+    Heading(Phrase("Cp y", "Cp y"), "ratio"),
+    Heading(Phrase("Cpk y", "Cpk y"), "ratio"),
+    heading("p_value", "ratio"),
+    heading("note"),
+)
+
+
+def mould_rows(mould: dict[str, Any], language: Language = "en") -> Iterator[Row]:
+    """Rows under :data:`MOULD` of one mould."""
+    for sleeve in mould["sleeves"]:
+        by_axis = {item["axis"]: item for item in sleeve["capability"]}
+        capability = [by_axis.get(axis, {}).get(index) for axis in "xy" for index in ("cp", "cpk")]
+        word = "drifts" if sleeve["drifts"] else "scatters_more" if sleeve["scatters_more"] else "steady"
+        said = phrase(f"ui.{word}").in_language(language)
+        moved = (*sleeve["mean_mm"], *sleeve["interval_mm"], *sleeve["scatter_mm"])
+        yield (sleeve["label"], *moved, *capability, sleeve["p_value"], said)
+
+
+def mould_table(report: Report) -> Table:
+    """Every sleeve of every mould of the batch."""
+    rows = tuple(
+        (mould["piece_mark"] or "", len(mould["columns"]), *row)
+        for mould in report.get("mould_drift", ())
+        for row in mould_rows(mould)
+    )
+    return Table(phrase("ui.mould"), (heading("piece_mark"), heading("columns", "count"), *MOULD), rows)
+
+
+def profile_table(report: Report) -> Table:
+    """The limits of the job's tolerance profile."""
+    headings = (
+        heading("rule"),
+        heading("lower_limit", "mm"),
+        heading("upper_limit", "mm"),
+        heading("clause"),
+        heading("source", "source"),
+        heading("severity"),
+        heading("advisory"),
+        heading("note"),
+    )
+    rows = tuple(
+        (
+            rule["name"],
+            rule["lower_mm"],
+            rule["upper_mm"],
+            rule["clause"],
+            rule["source"],
+            rule["severity"],
+            "✓" if rule["advisory"] else "",
+            rule["note"],
+        )
+        for rule in report["profile"]["rules"]
+    )
+    return Table(phrase("ui.profile"), headings, rows)
+
+
+def _each(columns: Iterable[dict[str, Any]], rows_of: Callable[[dict[str, Any]], Iterable[Row]]) -> tuple[Row, ...]:
+    return tuple((column["id"], *row) for column in columns for row in rows_of(column))
+
+
+def _sheet(word: str, headings: tuple[Heading, ...], rows: tuple[Row, ...]) -> Table:
+    return Table(phrase(f"ui.{word}"), (_COLUMN, *headings), rows)

@@ -1,0 +1,69 @@
+"""The words of the reports, in English and Chinese; ``resources/report/words.toml`` holds them all."""
+
+from __future__ import annotations
+
+import tomllib
+from functools import cache
+from pathlib import Path
+from typing import Literal, NamedTuple, TypeAlias
+
+Language: TypeAlias = Literal["en", "zh"]
+
+SIGN = {"pass": "✓", "fail": "✗", "inconclusive": "?", "not_measured": "–", "error": "!", "not_assessed": "○"}
+"""A sign beside each verdict, so that nothing depends on colour."""
+
+COLOUR = {
+    "pass": "#00795a",
+    "fail": "#c03a00",
+    "inconclusive": "#9a6700",
+    "not_measured": "#5b6470",
+    "error": "#a0307c",
+    "not_assessed": "#5b6470",
+}
+"""Text colours after the palette of Okabe and Ito, darkened to 4.5 : 1 on white: told apart by the colour-blind too."""
+
+INK, FAINT, HEAD, MOVE, WARN = "#1d2730", "#55606b", "#1f3a4d", "#0b5394", "#a33000"
+"""Text, what is said beside it, heads of tables, what is to be moved, what to look at: on every kind of page."""
+
+
+class Phrase(NamedTuple):
+    """One text in both languages."""
+
+    en: str
+    zh: str
+
+    def in_language(self, language: Language) -> str:
+        """The text in one of them."""
+        return self.en if language == "en" else self.zh
+
+    def filled(self, **values: object) -> Phrase:
+        """With its ``{places}`` filled in."""
+        return Phrase(self.en.format(**values), self.zh.format(**values))
+
+
+@cache
+def all_words() -> dict[str, Phrase]:
+    """Every text by its name, ``verdict.pass``."""
+    path = resource_folder() / "words.toml"
+    sections: dict[str, dict[str, list[str]]] = tomllib.loads(path.read_text(encoding="utf-8"))
+    return {
+        f"{section}.{name}": Phrase(english, chinese)
+        for section, texts in sections.items()
+        for name, (english, chinese) in texts.items()
+    }
+
+
+def phrase(name: str, **values: object) -> Phrase:
+    """One text in both languages by its name, its ``{places}`` filled in."""
+    found = all_words()[name]
+    return found.filled(**values) if values else found
+
+
+def verdict_words(verdict: str, language: Language) -> str:
+    """A verdict as people read it: ``✗ fail``."""
+    return f"{SIGN[verdict]} {all_words()[f'verdict.{verdict}'].in_language(language)}"
+
+
+def resource_folder() -> Path:
+    """Where the templates and texts of the reports lie."""
+    return Path(__file__).resolve().parents[2] / "resources" / "report"

@@ -1,0 +1,1 @@
+"""Readers of scan formats, one a file."""

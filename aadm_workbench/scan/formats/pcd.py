@@ -1,0 +1,96 @@
+"""Point cloud data (PCD) of versions 0.5 to 0.7, all three storages: coordinates, grid and pose of the sensor."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from aadm_workbench.model import FloatArray
+from aadm_workbench.scan.file import Cloud, Declared, ScanFile
+from aadm_workbench.scan.formats.lzf import GREATEST_EXPANSION, decompress
+from aadm_workbench.scan.formats.pcd_header import Field, PcdHeader, parse_header
+from aadm_workbench.scan.formats.records import check_room, coordinate_dtype, gather
+from aadm_workbench.scan.formats.rows import parse_rows
+from aadm_workbench.scan.points import narrowed
+
+_SIZES_BYTES = 8
+"""Before a compressed body stand its length packed and its length unpacked, uint32 each."""
+
+
+def read_pcd(file: ScanFile, declared: Declared) -> Cloud:
+    """Read the points of a PCD file, as a grid where it has one.
+
+    A VIEWPOINT at the origin of a cloud without a grid is what every writer puts where it does not know the sensor's
+    pose: it is taken for unknown. That of a grid, and any other one, is believed.
+
+    Raises
+    ------
+    ScanError
+        For a header that contradicts itself, fields without x, y or z, fewer points than announced, and a compressed
+        body that does not unpack.
+    """
+    header = parse_header(file)
+    axes = _coordinate_fields(file, header)
+    if header.storage == "ascii":
+        points = _text_points(file, header, axes, declared.mm_per_unit)
+    elif header.storage == "binary":
+        check_room(file, header.size_bytes, header.count, header.step_bytes, len(file.content) - header.size_bytes)
+        records = [(field.offset_bytes, field.dtype) for field in axes]
+        points = gather(file.content, header.size_bytes, header.count, header.step_bytes, records)
+    else:
+        points = _compressed_points(file, header, axes)
+    if header.organised:
+        points = points.reshape(header.height, header.width, 3)
+    is_known = header.organised or not np.array_equal(header.T_scan_file, np.eye(4))
+    return Cloud(points, declared.mm_per_unit, header.T_scan_file if is_known else None)
+
+
+def _coordinate_fields(file: ScanFile, header: PcdHeader) -> tuple[Field, ...]:
+    by_name = {field.name.lower(): field for field in reversed(header.fields)}
+    missing = [axis for axis in "xyz" if axis not in by_name or by_name[axis].count != 1]
+    if missing:
+        names = ", ".join(field.name for field in header.fields)
+        raise file.wrong(f"its points have no single value {', '.join(missing)} (fields: {names[:80]}); export x, y, z")
+    return tuple(by_name[axis] for axis in "xyz")
+
+
+def _text_points(file: ScanFile, header: PcdHeader, axes: tuple[Field, ...], mm_per_unit: float) -> FloatArray:
+    start = header.size_bytes
+    # A value takes a digit and a separator; the last one may do without the separator.
+    check_room(file, start, header.count, 2 * header.columns, len(file.content) - start + 1)
+    columns = [field.column for field in axes]
+    points = parse_rows(file, file.content[start:], start, columns, count=header.count)
+    return narrowed(points, coordinate_dtype([field.dtype for field in axes]), mm_per_unit)
+
+
+def _compressed_points(file: ScanFile, header: PcdHeader, axes: tuple[Field, ...]) -> FloatArray:
+    start = header.size_bytes
+    body = file.content[start + _SIZES_BYTES :]
+    if len(file.content) < start + _SIZES_BYTES:
+        raise file.wrong(f"ends at byte {len(file.content)}, before its compressed points; copy or export it again")
+    packed_bytes, unpacked_bytes = (int(size) for size in np.frombuffer(file.content, "<u4", 2, start))
+    if packed_bytes > len(body):
+        raise file.wrong(
+            f"its compressed points take {packed_bytes} bytes from byte {start + _SIZES_BYTES} on, but the file has "
+            f"{len(file.content)} bytes: it is cut off; copy or export it again"
+        )
+    needed_bytes = header.count * header.step_bytes
+    if header.count == 0 or needed_bytes != unpacked_bytes or needed_bytes > GREATEST_EXPANSION * packed_bytes:
+        raise file.wrong(
+            f"its header announces {header.count} points of {header.step_bytes} bytes, but {packed_bytes} packed bytes "
+            f"are to unpack to {unpacked_bytes}: its header is wrong; export it again"
+        )
+    unpacked = decompress(body[:packed_bytes], unpacked_bytes)
+    if unpacked is None:
+        raise file.wrong(
+            f"its compressed points (bytes {start + _SIZES_BYTES} to {start + _SIZES_BYTES + packed_bytes}) do not "
+            f"unpack to {header.count} points: the file is damaged; copy or export it again"
+        )
+    return _planes(unpacked, header.count, axes)
+
+
+def _planes(unpacked: bytes, count: int, axes: tuple[Field, ...]) -> FloatArray:
+    """Return the points of an unpacked body, in which all values of a field stand together."""
+    points = np.empty((count, 3), coordinate_dtype([field.dtype for field in axes]))
+    for axis, field in enumerate(axes):
+        points[:, axis] = np.frombuffer(unpacked, field.dtype, count, count * field.offset_bytes)
+    return points

@@ -1,0 +1,108 @@
+"""Coordinates out of rows of text, as ASCII PLY, ASCII PCD and XYZ files store them."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from collections.abc import Sequence
+
+import numpy as np
+
+from aadm_workbench.errors import ScanError
+from aadm_workbench.model import Array
+from aadm_workbench.scan.file import ScanFile
+from aadm_workbench.scan.formats.no_number import number_in, without_signs, without_words
+
+LONGEST_LINE_BYTES = 2**20
+"""A row of numbers takes some hundred bytes: what has no end in a megabyte is no text of points."""
+
+
+def parse_rows(
+    file: ScanFile,
+    body: bytes,
+    start: int,
+    columns: Sequence[int],
+    *,
+    count: int | None = None,
+    delimiter: str | None = None,
+) -> Array:
+    """Return some columns of a table of numbers in text.
+
+    Parameters
+    ----------
+    file
+        The file, for messages.
+    body
+        The rows; what follows ``count`` of them is not looked at.
+    start
+        Byte offset of ``body`` in the file, for the line numbers in messages.
+    columns
+        Their indices, those of x, y and z first.
+    count
+        Rows that the header announces; None where the file has no header and ends with its last row.
+    delimiter
+        One character, or None for white space.
+
+    Returns
+    -------
+    Array
+        (n, k) float64, unit of the file; what programs print for no number is NaN.
+
+    Raises
+    ------
+    ScanError
+        Naming the line that is no row of numbers, or how many rows are missing.
+    """
+    if b"\n" not in body and b"\r" in body:
+        body = body.replace(b"\r", b"\n")
+    _check_lines(file, body, start)
+    try:
+        points = _numbers(without_signs(body), columns, count, delimiter)
+    except ValueError:
+        try:
+            points = _numbers(without_words(body), columns, count, delimiter)
+        except ValueError as error:
+            raise _bad_row(file, body, start, columns, delimiter, str(error)) from error
+    found = len(points)
+    if count is not None and found < count:
+        raise file.wrong(
+            f"its header announces {count} points, but after {found} of them the file ends (at byte "
+            f"{len(file.content)}): it is cut off or its header is wrong; copy or export it again"
+        )
+    return points.reshape(-1, len(columns))
+
+
+def _numbers(body: bytes, columns: Sequence[int], count: int | None, delimiter: str | None) -> Array:
+    with warnings.catch_warnings():
+        # numpy warns of blank lines and of a body without rows; both are judged by their number.
+        warnings.simplefilter("ignore", UserWarning)
+        return np.loadtxt(
+            io.TextIOWrapper(io.BytesIO(body), encoding="latin-1"),
+            usecols=tuple(columns),
+            max_rows=count,
+            delimiter=delimiter,
+            ndmin=2,
+        )
+
+
+def _check_lines(file: ScanFile, body: bytes, start: int) -> None:
+    """Refuse lines that no exporter writes before they are unpacked to four times their size."""
+    for begin in range(0, len(body) - LONGEST_LINE_BYTES, LONGEST_LINE_BYTES):
+        if body.find(b"\n", begin, begin + LONGEST_LINE_BYTES) < 0:
+            raise file.wrong(
+                f"has a line of over {LONGEST_LINE_BYTES} bytes around byte {start + begin}: it is no text of points"
+            )
+
+
+def _bad_row(
+    file: ScanFile, body: bytes, start: int, columns: Sequence[int], delimiter: str | None, reason: str
+) -> ScanError:
+    first_line = file.content.count(b"\n", 0, start) + 1
+    for number, line in enumerate(without_words(body).splitlines(), start=first_line):
+        text = line.decode("latin-1").partition("#")[0].strip()
+        fields = text.split(delimiter)
+        if text and (len(fields) <= max(columns) or any(number_in(fields[column]) is None for column in columns)):
+            shown = text if len(text) <= 80 else f"{text[:80]}..."
+            needed = max(columns) + 1
+            return file.wrong(f"line {number} should begin with {needed} numbers, but reads {shown!r}; export it again")
+    return file.wrong(f"its points cannot be read ({reason}, counted from line {first_line}); export it again")

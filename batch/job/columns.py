@@ -1,0 +1,107 @@
+"""The ``[[columns]]`` of a job file, read."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from aadm_workbench.design.recognise.pattern import inline_design
+from aadm_workbench.errors import DesignError
+from aadm_workbench.model import ColumnDesign
+from aadm_workbench.scan.axes import AXES
+
+from .control import read_control_points
+from .direction import near_corner, read_frames, up_deg
+from .model import JobColumn
+from .table import JobTable
+
+_SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
+_COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "axes", "near", "design", "control_points")
+MOST_COLUMNS = 20_000
+"""Ten shipments of the largest kind."""
+
+LONGEST_ID = 1024
+"""Four times what IFC allows a label to have (IfcLabel)."""
+
+_LENGTHS = ("embedded_length", "exposed_length")
+_SIZES = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter")
+"""One length, or a list with one for each centre."""
+_DESIGN = (*_LENGTHS, *_SIZES, "size", "centres")
+
+
+def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColumn, ...]:
+    """The columns of a job, in its order.
+
+    Raises
+    ------
+    JobError
+        For what is wrong with their text, two columns with one id, and a column without any design.
+    """
+    tables = top.tables("columns", "[[columns]]")
+    if not tables:
+        raise top.wrong("columns", 'the job has no columns; add [[columns]] with id = "..." and its scans')
+    if len(tables) > MOST_COLUMNS:
+        raise top.wrong("columns", f"the job has {len(tables)} columns, {MOST_COLUMNS} are the most; split it")
+    columns: list[JobColumn] = []
+    known: dict[str, JobTable] = {}
+    for table in tables:
+        column = _column(table, units=units, has_model=has_model)
+        earlier = known.setdefault(column.id, table)
+        if earlier is not table:
+            line = earlier.lines.get((*earlier.at, "id"), 1)
+            raise table.wrong("id", f'two columns have the id "{column.id}": the other stands in line {line}')
+        columns.append(column)
+    return tuple(columns)
+
+
+def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
+    table.allow(_COLUMN)
+    table.require("id", 'id = "...", its Name, Tag, Mark, PieceMark or GlobalId in the model')
+    name = table.text("id") or ""
+    if len(name) > LONGEST_ID:
+        raise table.wrong(
+            "id", f"the id has {len(name)} characters, {LONGEST_ID} are the most; call the column shorter"
+        )
+    up = up_deg(table, "up")
+    sleeves_up, rebars_up = up_deg(table, "sleeves_up"), up_deg(table, "rebars_up")
+    hoisting, hoisting_near = read_frames(table)
+    design = _design(table, name)
+    if design is None and not has_model:
+        message = f"column {name} has no design: add [columns.design] to it, or [model] with a path to the job"
+        raise table.wrong(None, message)
+    return JobColumn(
+        id=name,
+        sleeves=table.paths("sleeves"),
+        rebars=table.paths("rebars"),
+        hoisting=hoisting,
+        hoisting_near=hoisting_near,
+        sleeves_image=table.path("sleeves_image"),
+        rebars_image=table.path("rebars_image"),
+        sleeves_up_deg=up if sleeves_up is None else sleeves_up,
+        rebars_up_deg=up if rebars_up is None else rebars_up,
+        axes=table.one_of("axes", AXES, "") or None,
+        near=near_corner(table),
+        design=design,
+        control_points=read_control_points(table, units=units, has_own_design=design is not None),
+    )
+
+
+def _design(column: JobTable, name: str) -> ColumnDesign | None:
+    table = column.table("design", "[columns.design]")
+    if table is None:
+        return None
+    table.allow(_DESIGN)
+    for key in _LENGTHS:
+        table.length(key)
+    table.numbers("size", 2)
+    table.number_lists("centres", 2)
+    for key in _SIZES:
+        written = table.values.get(key)
+        if isinstance(written, list):
+            table.numbers(key, len(written))
+        else:
+            table.length(key)
+    design: dict[str, Any] = dict(table.values)
+    try:
+        return inline_design(name, design)
+    except DesignError as error:
+        raise table.wrong(None, str(error)) from error

@@ -1,0 +1,109 @@
+"""What a column is checked from: its files by content, and the hash of everything that its result follows from."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+
+from aadm_workbench.scan.capture import MOST_FILES
+from aadm_workbench.scan.file import LARGEST_FILE_BYTES
+
+from ..runner.exact_json import to_exact_json
+from ..runner.task import ColumnTask
+from .column_files import files_of
+
+_CHUNK_BYTES = 1 << 20  # bounds the memory, not the time
+
+
+def task_key(task: ColumnTask, program: str) -> str:
+    """Hash of what a column's report follows from: program, settings, profile, design, and the bytes of its files.
+
+    Where the files lie is not in it, so a job may be moved; a file that cannot be read counts as what it is.
+    """
+    said = (
+        task.column,
+        task.design,
+        task.settings,
+        task.units,
+        task.camera,
+        task.depth_scale_mm,
+        task.no_design,
+        task.others,
+    )
+    found = hashlib.sha256(f"{program}\n{to_exact_json(said)}\n".encode(errors="surrogatepass"))
+    for name in files_of(task.column):
+        found.update(f"{content_hash(task.path_of(name))}\n".encode())
+    return found.hexdigest()
+
+
+def content_hash(path: Path) -> str:
+    """SHA-256 of a file's bytes, or of the files of a folder with their names; what is wrong with it otherwise."""
+    found = hashlib.sha256()
+    try:
+        if path.is_dir():
+            for inside, name in _inside(path):
+                found.update(f"{name} {content_hash(inside)}\n".encode(errors="surrogatepass"))
+            return f"folder {found.hexdigest()}"
+        if not path.is_file() or path.stat().st_size > LARGEST_FILE_BYTES:
+            return "no file to be read"
+        with path.open("rb") as stream:
+            while chunk := stream.read(_CHUNK_BYTES):
+                found.update(chunk)
+    except (OSError, ValueError) as error:
+        return f"unreadable: {getattr(error, 'errno', '')}"
+    return found.hexdigest()
+
+
+@dataclass(frozen=True)
+class ShippedFile:
+    """One file on its way to a machine that does not see the disk, with the name that the job calls it by.
+
+    ``inside`` is its own name where ``name`` is that of a capture's folder; empty where ``name`` is the file's.
+    """
+
+    name: str
+    inside: str
+    content: bytes
+
+
+def read_for_shipping(task: ColumnTask) -> tuple[ShippedFile, ...]:
+    """The files of a column by content; what cannot be read is left out, and its worker finds it missing."""
+    shipped: list[ShippedFile] = []
+    left_bytes = LARGEST_FILE_BYTES
+    for name in files_of(task.column):
+        path = task.path_of(name)
+        try:
+            for file, inside in _inside(path) if path.is_dir() else [(path, "")]:
+                if file.is_file() and file.stat().st_size <= left_bytes:
+                    shipped.append(ShippedFile(name, inside, file.read_bytes()))
+                    left_bytes -= len(shipped[-1].content)
+        except (OSError, ValueError):
+            continue
+    return tuple(shipped)
+
+
+def unpack(files: tuple[ShippedFile, ...], folder: Path) -> dict[str, Path]:
+    """Write shipped files into a folder; returns where each name lies now.
+
+    Files are numbered there and keep only their extension: nothing in a job decides where is written.
+    """
+    places: dict[str, Path] = {}
+    for file in files:
+        place = places.setdefault(file.name, folder / f"{len(places)}{Path(file.name).suffix}")
+        target = place / file.inside if file.inside else place
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_bytes(file.content)
+    return places
+
+
+def _inside(folder: Path) -> Iterator[tuple[Path, str]]:
+    """The files of a folder with their names, in one order everywhere; none of a folder that is no capture.
+
+    Folders in it are not looked into, as the reader of captures does not: a job may name the root of the disk.
+    """
+    found = list(islice(folder.iterdir(), MOST_FILES + 1))
+    if len(found) <= MOST_FILES:
+        yield from ((path, path.name) for path in sorted(found) if path.is_file())

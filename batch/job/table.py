@@ -1,0 +1,228 @@
+"""Typed access to the tables of a job, with errors that name the file and the line."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from aadm_workbench.errors import JobError
+
+from ..shown.printable import steering_character
+from .lines import KeyPath
+
+WINDOWS_PATHS = "write paths of Windows with / or in single quotes"
+"""Said of backslashes in double quotes, which TOML takes for signs of its own."""
+
+LONGEST_TEXT = 4096
+"""Longest path that Linux takes."""
+
+
+def is_finite_number(value: Any) -> bool:
+    """Whether a value of a TOML file is a number that a float can hold."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return False
+    try:
+        return math.isfinite(value)
+    except OverflowError:
+        return False
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The end of a message about an unknown word: what is near to it, or all that is known."""
+    known = tuple(known)
+    near = get_close_matches(word, known, n=1, cutoff=0.6)
+    return f'did you mean "{near[0]}"?' if near else f"known: {', '.join(known)}"
+
+
+def local_path(name: str, folder: Path) -> str:
+    """A path of a job: backslashes of Windows as slashes where it has none, unless a file is really called so."""
+    if os.sep == "\\" or "\\" not in name or os.path.exists(folder / name):  # noqa: PTH110 - names may be too long
+        return name
+    return name.replace("\\", "/")
+
+
+@dataclass(frozen=True, eq=False)
+class JobTable:
+    """One table of a job.
+
+    Parameters
+    ----------
+    values
+        What the table holds.
+    at
+        Where it stands in the job: () for the top.
+    called
+        What messages call it, such as ``[camera]``.
+    source
+        The job's file, as it was named.
+    lines
+        Line of each key.
+    """
+
+    values: Mapping[str, Any]
+    at: KeyPath
+    called: str
+    source: str
+    lines: Mapping[KeyPath, int]
+
+    def wrong(self, key: str | None, message: str, *index: int) -> JobError:
+        """The error about a key, about an element of its array, or about the table itself."""
+        path: KeyPath = self.at if key is None else (*self.at, key, *index)
+        while path and path not in self.lines:
+            path = path[:-1]
+        return JobError(f"{self.source}, line {self.lines.get(path, 1)}: {message}")
+
+    def paths(self, key: str) -> tuple[str, ...]:
+        """One path or a list of paths, as this system writes them; empty where the key is absent."""
+        return tuple(local_path(name, Path(self.source).parent) for name in self.texts(key, or_one=True))
+
+    def path(self, key: str) -> str | None:
+        """A path as this system writes it; None where the key is absent."""
+        name = self.text(key)
+        return None if name is None else local_path(name, Path(self.source).parent)
+
+    def line(self, *path: str | int) -> int:
+        """The line that a key inside this table stands in."""
+        return self.lines.get((*self.at, *path), 1)
+
+    def allow(self, known: Iterable[str]) -> None:
+        """Refuse keys that are not known."""
+        known = tuple(known)
+        for key in self.values:
+            if key not in known:
+                raise self.wrong(key, f'unknown key "{key}" in {self.called}; {did_you_mean(key, known)}')
+
+    def require(self, key: str, what: str) -> None:
+        """Refuse a table that lacks a key; ``what`` is an example or says what it holds."""
+        if key not in self.values:
+            raise self.wrong(None, f"{self.called} has no {key}; add {what}")
+
+    def text(self, key: str) -> str | None:
+        """A text that is not empty; None where the key is absent."""
+        value = self.values.get(key)
+        if value is None:
+            return None
+        if not isinstance(value, str):
+            raise self.wrong(key, f"{key} must be text in quotes, it is {_shown(value)}")
+        if not value.strip():
+            raise self.wrong(key, f"{key} is empty")
+        self._check_plain(key, value)
+        return value
+
+    def one_of(self, key: str, choices: tuple[str, ...], default: str) -> str:
+        """One of some words."""
+        value = self.text(key)
+        if value is None:
+            return default
+        if value not in choices:
+            listed = " or ".join(f'"{choice}"' for choice in choices)
+            raise self.wrong(key, f"{key} must be {listed}, it is {_shown(value)}")
+        return value
+
+    def flag(self, key: str, default: bool) -> bool:
+        """True or false."""
+        value = self.values.get(key, default)
+        if not isinstance(value, bool):
+            raise self.wrong(key, f"{key} must be true or false, it is {_shown(value)}")
+        return value
+
+    def number(self, key: str) -> float | None:
+        """A finite number; None where the key is absent."""
+        value = self.values.get(key)
+        return None if value is None else self._number(key, value)
+
+    def length(self, key: str) -> float | None:
+        """A number above zero; None where the key is absent."""
+        value = self.number(key)
+        if value is not None and value <= 0.0:
+            raise self.wrong(key, f"{key} must be above zero, it is {value:g}")
+        return value
+
+    def count(self, key: str) -> int | None:
+        """A whole number above zero; None where the key is absent."""
+        value = self.values.get(key)
+        if value is not None and (isinstance(value, bool) or not isinstance(value, int) or value <= 0):
+            raise self.wrong(key, f"{key} must be a whole number above zero, it is {_shown(value)}")
+        return value
+
+    def numbers(self, key: str, how_many: int) -> tuple[float, ...]:
+        """A list of so many finite numbers; empty where the key is absent."""
+        if key not in self.values:
+            return ()
+        self._numbers(key, self.values[key], how_many)
+        return tuple(float(value) for value in self.values[key])
+
+    def number_lists(self, key: str, how_many: int) -> None:
+        """Check that a key, where present, is a list of lists of so many finite numbers."""
+        value = self.values.get(key, [])
+        if not isinstance(value, list):
+            raise self.wrong(key, f"{key} must be a list of lists, it is {_shown(value)}")
+        for index, item in enumerate(value):
+            self._numbers(key, item, how_many, index)
+
+    def texts(self, key: str, *, or_one: bool = False) -> tuple[str, ...]:
+        """A list of texts, and with ``or_one`` also one text; empty where the key is absent."""
+        value = self.values.get(key)
+        if value is None:
+            return ()
+        if or_one and isinstance(value, str):
+            return (self.text(key) or "",)
+        if not isinstance(value, list):
+            wanted = "text in quotes or a list of texts" if or_one else "a list of texts"
+            raise self.wrong(key, f"{key} must be {wanted}, it is {_shown(value)}")
+        if not value:
+            raise self.wrong(key, f"{key} is an empty list; leave the key out, or name something")
+        for index, item in enumerate(value):
+            if not isinstance(item, str) or not item.strip():
+                raise self.wrong(key, f"{key} must hold texts in quotes, one is {_shown(item)}", index)
+            self._check_plain(key, item, index)
+        return tuple(value)
+
+    def table(self, key: str, called: str) -> JobTable | None:
+        """A table inside this one; None where it is absent."""
+        value = self.values.get(key)
+        if value is None:
+            return None
+        if not isinstance(value, dict):
+            raise self.wrong(key, f"{key} must be a table {called}, it is {_shown(value)}")
+        return JobTable(value, (*self.at, key), called, self.source, self.lines)
+
+    def tables(self, key: str, called: str) -> tuple[JobTable, ...]:
+        """The tables of an array of tables."""
+        value = self.values.get(key, [])
+        if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
+            raise self.wrong(key, f"{key} must be written as {called}, a table each")
+        return tuple(
+            JobTable(item, (*self.at, key, index), called, self.source, self.lines) for index, item in enumerate(value)
+        )
+
+    def _check_plain(self, key: str, value: str, *index: int) -> None:
+        """Refuse what no name and no path holds: signs that steer a terminal, and endless ones."""
+        if len(value) > LONGEST_TEXT:
+            raise self.wrong(key, f"{key} has {len(value)} characters, {LONGEST_TEXT} are the most", *index)
+        if (sign := steering_character(value)) is not None:
+            message = f"{key} holds the control character {sign}; take it out of the name, and {WINDOWS_PATHS}"
+            raise self.wrong(key, message, *index)
+
+    def _number(self, key: str, value: Any, *index: int) -> float:
+        if not is_finite_number(value):
+            raise self.wrong(key, f"{key} must be a number, it is {_shown(value)}", *index)
+        return float(value)
+
+    def _numbers(self, key: str, value: Any, how_many: int, *index: int) -> None:
+        if not isinstance(value, list) or len(value) != how_many:
+            named = ", ".join("xyz"[:how_many])
+            raise self.wrong(key, f"{key} must hold {how_many} numbers [{named}], it is {_shown(value)}", *index)
+        for place, item in enumerate(value):
+            self._number(key, item, *index, place)
+
+
+def _shown(value: Any) -> str:
+    """A value as messages print it: short, and in TOML's spelling."""
+    text = str(value).lower() if isinstance(value, bool) else f'"{value}"' if isinstance(value, str) else str(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."

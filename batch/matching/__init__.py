@@ -1,0 +1,1 @@
+"""Which column of a shipment goes on which bars."""

@@ -1,0 +1,165 @@
+"""The matcher: which column of a job's shipment goes on which bars. Every scan is read and measured once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from aadm_workbench.assembly.matching.assign import best_assignment
+from aadm_workbench.assembly.trial.shipment import interchangeable, joined_design, try_margin
+from aadm_workbench.assembly.trial.virtual import try_scans
+from aadm_workbench.check import CheckSettings, Measured
+from aadm_workbench.errors import JobError
+from aadm_workbench.model import Assignment, ColumnDesign, FitCell, ShipmentGroup, ShipmentReport
+
+from ..job.inputs import read_for_shipping
+from ..job.model import Job
+from ..program import tool_entry
+from ..runner.engine import Unwatched, work_through
+from ..runner.run import RunOptions, job_entry, opened_pool, plan_tasks
+from ..stopwatch import Stopwatch
+from .task import MeasuredColumn, lost_measurement, measure_task
+
+
+@dataclass(frozen=True, eq=False)
+class MatchRun:
+    """The outcome of a match; ``seconds`` and ``traces`` as of a :class:`~.run.JobRun`."""
+
+    report: ShipmentReport
+    seconds: dict[str, object]
+    traces: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class _Group:
+    """A scan that was measured, with the design it belongs to: a column's foot, or the bars of a position."""
+
+    id: str
+    design: ColumnDesign
+    measured: Measured
+
+
+def run_match(job: Job, options: RunOptions, started: Callable[[int], Callable[[str], None]]) -> MatchRun:
+    """Match the columns of a job to the bars of a job.
+
+    Parameters
+    ----------
+    started
+        Called with the number of columns before the first is measured; what it returns is called with the id of
+        each as it is finished, in any order.
+
+    Raises
+    ------
+    JobError
+        Where the job has nothing to match, or a column is asked for that it does not have.
+    DesignError, MissingDependencyError
+        As :func:`~.run.run_job`.
+    """
+    watch = Stopwatch()
+    with watch.stage("total"):
+        _, settings, tasks = plan_tasks(job, options, watch)
+        feet = sum(bool(task.column.sleeves) for task in tasks)
+        if not feet or not any(task.column.rebars for task in tasks):
+            raise JobError(f"{job.source} has nothing to match: it needs scans of sleeves and scans of rebars")
+        finished = started(len(tasks))
+        found: dict[int, MeasuredColumn] = {}
+        with opened_pool(options.pool, tasks, None, read_for_shipping, lambda text: None) as pool:
+            for place, outcome in work_through(tasks, pool, measure_task, lost_measurement, Unwatched()):
+                found[place] = outcome
+                finished(outcome.id)
+        columns = [found[place] for place in sorted(found)]
+        with watch.stage("matching"):
+            groups = _groups(columns, settings)
+    report = ShipmentReport(
+        tool=tool_entry(),
+        job=job_entry(job, settings),
+        profile=job.profile.name,
+        turns=job.turns,
+        groups=groups,
+        problems=tuple(problem for column in columns for problem in column.problems),
+    )
+    seconds = {"columns": {column.id: column.seconds for column in columns}, **watch.seconds()}
+    return MatchRun(report, seconds, {column.id: column.where for column in columns if column.where})
+
+
+def _groups(columns: Sequence[MeasuredColumn], settings: CheckSettings) -> tuple[ShipmentGroup, ...]:
+    """Columns that may take each other's place, in the order of the job, each group matched."""
+    kinds: list[list[MeasuredColumn]] = []
+    for column in columns:
+        if column.design is None or (column.sleeves is None and column.rebars is None):
+            continue
+        first = next((kind for kind in kinds if _same_kind(kind[0], column)), None)
+        if first is None:
+            kinds.append([column])
+        else:
+            first.append(column)
+    return tuple(_matched(kind, settings) for kind in kinds)
+
+
+def _same_kind(first: MeasuredColumn, other: MeasuredColumn) -> bool:
+    return first.design is not None and other.design is not None and interchangeable(first.design, other.design)
+
+
+def _matched(columns: Sequence[MeasuredColumn], settings: CheckSettings) -> ShipmentGroup:
+    feet = [_Group(one.id, one.design, one.sleeves) for one in columns if one.design and one.sleeves]
+    bars = [_Group(one.id, one.design, one.rebars) for one in columns if one.design and one.rebars]
+    cells = tuple(tuple(_cell(foot, position, settings) for position in bars) for foot in feet)
+    margins = np.array([[np.nan if cell.margin is None else cell.margin for cell in row] for row in cells])
+    chosen = best_assignment(margins.reshape(len(feet), len(bars)))
+    assignments = tuple(_assignment(feet[row], bars[column], cells[row][column], settings) for row, column in chosen)
+    used = [assignment.margin for assignment in assignments]
+    return ShipmentGroup(
+        piece_mark=columns[0].design.piece_mark if columns[0].design else None,
+        columns=tuple(foot.id for foot in feet),
+        positions=tuple(position.id for position in bars),
+        cells=cells,
+        assignments=assignments,
+        smallest_margin=min(used, default=None),
+        sum_of_margins=sum(used) if used else None,
+        as_listed_margin=_as_listed(feet, bars, cells),
+        spare_columns=tuple(foot.id for row, foot in enumerate(feet) if row not in {pair[0] for pair in chosen}),
+        open_positions=tuple(bar.id for place, bar in enumerate(bars) if place not in {pair[1] for pair in chosen}),
+    )
+
+
+def _cell(foot: _Group, bars: _Group, settings: CheckSettings) -> FitCell:
+    return try_margin(
+        joined_design(foot.design, bars.design),
+        (foot.measured.extraction, foot.measured.match),
+        (bars.measured.extraction, bars.measured.match),
+        settings.profile,
+        turns=settings.turns,
+    )
+
+
+def _assignment(foot: _Group, bars: _Group, cell: FitCell, settings: CheckSettings) -> Assignment:
+    """The chosen pair with the verdict that a check of it would come to."""
+    trial = try_scans(
+        joined_design(foot.design, bars.design),
+        (foot.measured.extraction, foot.measured.match),
+        (bars.measured.extraction, bars.measured.match),
+        settings.profile,
+        np.random.default_rng([settings.seed, 2]),
+        decision=settings.decision,
+        turns=settings.turns,
+    )
+    return Assignment(
+        column=foot.id,
+        position=bars.id,
+        turn_deg=cell.turn_deg,
+        margin=cell.margin or 0.0,
+        max_mm=cell.max_mm,
+        verdict=trial.verdict,
+        probability=trial.probability,
+        reasons=trial.reasons,
+    )
+
+
+def _as_listed(feet: Sequence[_Group], bars: Sequence[_Group], cells: Sequence[Sequence[FitCell]]) -> float | None:
+    """The smallest margin of the pairs that the job itself lists; None where one of them is not known."""
+    place_of = {position.id: place for place, position in enumerate(bars)}
+    listed = [cells[row][place_of[foot.id]].margin for row, foot in enumerate(feet) if foot.id in place_of]
+    known = [margin for margin in listed if margin is not None]
+    return min(known) if known and len(known) == len(listed) else None

@@ -1,0 +1,1 @@
+"""Columns checked one after another, here or in other processes."""

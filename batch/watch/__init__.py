@@ -1,0 +1,1 @@
+"""Frames measured as they arrive."""

@@ -1,0 +1,200 @@
+"""The loop of ``aadm watch``: waits for frames in a folder, measures each, and keeps the state file up to date."""
+
+from __future__ import annotations
+
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from time import monotonic, perf_counter, sleep
+
+import numpy as np
+
+from aadm_workbench.assembly.findings.hoisting_turn import with_contradiction
+from aadm_workbench.assembly.tolerances import rules_for
+from aadm_workbench.atomic import write_atomically
+from aadm_workbench.errors import AadmError, DesignError, JobError, ScanError
+from aadm_workbench.hoisting.contradiction import contradiction_of
+from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
+from aadm_workbench.hoisting.motion import Look, Motion, look_at, motion_of, with_look
+from aadm_workbench.hoisting.running import Running, combined
+from aadm_workbench.model import ColumnDesign, HoistingMeasurement, HoistingReport, Verdict
+from aadm_workbench.report.json import encode
+
+from ..runner.column_task import check_task
+from ..runner.hoisting_task import Before, before_hoisting, read_frame
+from ..runner.task import ColumnTask
+from .folder import FolderWatch, corner_of
+from .state import Frame, frame_line, state_document
+
+LOOK_EVERY_S = 0.15
+"""A person sees no delay, and a listing of a folder costs nothing."""
+_PATIENCE_S = 3.0  # a file that is not whole by then is said to be broken
+
+
+@dataclass(frozen=True)
+class WatchOptions:
+    """``frames`` and ``seconds``: when to stop (None: never); ``present``: begin with the frames that are there.
+
+    ``near``: the corner of the camera that writes into the folder itself; None: that of the column in the job.
+    """
+
+    state: Path
+    frames: int | None = None
+    seconds: float | None = None
+    present: bool = False
+    near: tuple[int, int] | None = None
+
+
+class Watcher:
+    """Measures frames of one column as they arrive; what it keeps between them does not grow."""
+
+    def __init__(
+        self,
+        task: ColumnTask,
+        folder: Path,
+        options: WatchOptions,
+        say: Callable[[str], None],
+        now_ns: Callable[[], int] = time.time_ns,
+    ) -> None:
+        if task.design is None:
+            raise DesignError(task.no_design)
+        if not folder.is_dir():
+            raise JobError(f"{folder}: there is no such folder to watch")
+        self.task, self.design, self.options, self.say = task, task.design, options, say
+        self.frames, self.bad_frames = 0, 0
+        self.verdict = Verdict.NOT_MEASURED
+        self._now_ns = now_ns
+        self._folder = FolderWatch(folder, now_ns)
+        self._running: Running | None = None
+        self._looks: tuple[Look, ...] = ()
+        self._last: dict[tuple[int, int] | None, HoistingMeasurement] = {}
+        self._places = np.array([bar.centre[:2] for bar in self.design.rebars])
+        rules = rules_for(task.settings.profile, "sleeve_rebar_distance")
+        self._limit_mm = rules[0].upper if rules else None
+        self._sleeves, self._rebars = self._before()
+        self._first_tries: dict[str, float] = {}
+
+    def run(self, wait: Callable[[float], None] = sleep) -> Verdict:
+        """Measure frames until the options say enough, and return the verdict on the last one."""
+        if not self.options.present:
+            self._folder.skip_present()
+        began = monotonic()
+        while not self._enough(monotonic() - began):
+            try:
+                ready = self._folder.ready()
+            except OSError as error:
+                raise AadmError(f"{self._folder.folder}: cannot be listed any more ({error.strerror})") from error
+            for path in ready:
+                self._frame(path)
+                if self._enough(monotonic() - began):
+                    break
+            wait(LOOK_EVERY_S)
+        return self.verdict
+
+    def _enough(self, seconds: float) -> bool:
+        frames, limit = self.options.frames, self.options.seconds
+        return (frames is not None and self.frames >= frames) or (limit is not None and seconds >= limit)
+
+    def _before(self) -> tuple[Before, Before]:
+        """Where the job's scans from before hoisting put sleeves and bars."""
+        column = self.task.column
+        if not column.sleeves and not column.rebars:
+            return None, None
+        self.say(f"{column.id}: measuring its scans from before hoisting")
+        report = check_task(self.task).report
+        if report.verdict is Verdict.ERROR:
+            self.say(f"{column.id}: {'; '.join(report.reasons)}; its design places are used")
+        return before_hoisting(report.sleeves), before_hoisting(report.rebars)
+
+    def _frame(self, path: Path) -> None:
+        began, name = perf_counter(), self._folder.name_of(path)
+        try:
+            measurement = self._measured(path, name, self.design)
+        except (ScanError, OSError) as error:
+            if self._may_be_unfinished(path):
+                return
+            measurement = _bad(name, str(error).replace(str(path), name))
+        except (AadmError, MemoryError) as error:
+            measurement = _bad(name, str(error) or type(error).__name__)
+        except Exception as error:  # noqa: BLE001 - a crane must not wait because of one frame
+            self.say(traceback.format_exc())
+            measurement = _bad(name, f"internal error ({type(error).__name__}: {error})")
+        self._first_tries.pop(name, None)
+        captured_s = self._folder.captured_s(path)
+        self._folder.done(path)
+        self._keep(measurement, self._near(path), captured_s, perf_counter() - began)
+
+    def _near(self, path: Path) -> tuple[int, int] | None:
+        """The corner that a frame was taken from: its subfolder's, else the command's, else the job's."""
+        return corner_of(path) or self.options.near or self.task.column.near
+
+    def _measured(self, path: Path, name: str, design: ColumnDesign) -> HoistingMeasurement:
+        scan = read_frame(self.task, path, name)
+        settings = self.task.settings
+        return measure_hoisting(
+            scan,
+            design,
+            near=self._near(path),
+            sleeves_before=self._sleeves,
+            rebars_before=self._rebars,
+            settings=HoistingSettings(settings.profile, settings.decision, seed=settings.seed),
+        )
+
+    def _may_be_unfinished(self, path: Path) -> bool:
+        """Whether a frame that cannot be read may still be written: for some seconds it may."""
+        now = monotonic()
+        first = self._first_tries.setdefault(self._folder.name_of(path), now)
+        if now - first >= _PATIENCE_S or not path.exists():
+            return False
+        self._folder.wait_for(path)
+        return True
+
+    def _keep(
+        self, measurement: HoistingMeasurement, near: tuple[int, int] | None, captured_s: float | None, seconds: float
+    ) -> None:
+        self.frames += 1
+        running, motion = None, None
+        if measurement.report.verdict in (Verdict.NOT_MEASURED, Verdict.ERROR):
+            self.bad_frames += 1
+        else:
+            measurement = self._compared(measurement, near)
+            running = self._running = combined(self._running, measurement)
+            motion = self._moved(measurement, captured_s)
+        self.verdict = measurement.report.verdict
+        frame = Frame(
+            number=self.frames,
+            bad_frames=self.bad_frames,
+            report=measurement.report,
+            running=running,
+            motion=motion,
+            captured_s=captured_s,
+            measured_s=self._now_ns() / 1e9,
+            seconds=seconds,
+            limit_mm=self._limit_mm,
+        )
+        document, fitness = state_document(self.task.column.id, frame)
+        write_atomically(self.options.state, encode(document))
+        self.say(frame_line(frame, fitness))
+
+    def _moved(self, measurement: HoistingMeasurement, captured_s: float | None) -> Motion:
+        """How the column moves, by the times of the frames; one without a time stands alone."""
+        look = look_at(measurement, captured_s or 0.0)
+        self._looks = (look,) if captured_s is None else with_look(self._looks, look)
+        return motion_of(self._looks, self._places, measurement.report.correction, self._limit_mm)
+
+    def _compared(self, measurement: HoistingMeasurement, near: tuple[int, int] | None) -> HoistingMeasurement:
+        """The frame, without a correction where the last frame of some corner contradicts it."""
+        others = [*self._last.values()]
+        self._last[near] = measurement
+        for other in others:
+            finding = contradiction_of(other, measurement, self.design)
+            if finding is not None:
+                return replace(measurement, report=with_contradiction(measurement.report, finding))
+        return measurement
+
+
+def _bad(name: str, reason: str) -> HoistingMeasurement:
+    report = HoistingReport(name, (), None, None, None, Verdict.ERROR, reasons=(reason,), method="refined")
+    return HoistingMeasurement(report, np.empty((0, 2)), np.empty((0, 2, 2)))

@@ -1,0 +1,85 @@
+"""report.pdf: the same words and numbers as HTML, its font embedded, Chinese everywhere, quick for a floor."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pypdf
+import pytest
+
+from aadm_workbench.report.pages.pdf import write_pdf
+from aadm_workbench.report.pages.pdf_canvas import lines_of, printable, width_of
+from tests.report.checked_floor import HOSTILE
+
+
+def text_of(path: Path) -> str:
+    """All text of a PDF, white space closed up."""
+    return re.sub(r"\s+", "", "".join(page.extract_text() for page in pypdf.PdfReader(path).pages))
+
+
+def fonts_of(path: Path) -> dict[str, bool]:
+    """Whether each font that some page uses is embedded."""
+    found: dict[str, bool] = {}
+    for page in pypdf.PdfReader(path).pages:
+        content = page.get_contents()
+        used = set(re.findall(rb"/(\S+) [\d.]+ Tf", content.get_data() if content is not None else b""))
+        for name, font in page["/Resources"]["/Font"].items():
+            font = font.get_object()
+            if name[1:].encode() in used and "Helvetica" not in str(font["/BaseFont"]):
+                found[str(font["/BaseFont"])] = "/FontFile2" in font["/FontDescriptor"].get_object()
+    return found
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_words_and_numbers(floor: dict[str, Any], tmp_path: Path, language: str) -> None:
+    write_pdf(floor, tmp_path / "report.pdf", language)
+    text = text_of(tmp_path / "report.pdf")
+    headline = "5 of 8 columns must not be hoisted" if language == "en" else "8根柱中有5根不得吊装"
+    assert re.sub(r"\s", "", headline) in text
+    for column in floor["columns"]:
+        for kind in ("sleeves", "rebars"):
+            for point in (column[kind] or {}).get("points", ()):
+                if point["deviation_mm"]:
+                    assert f"{point['deviation_mm']:.2f}" in text
+    if language == "en":
+        for column in floor["columns"]:
+            assert all(re.sub(r"\s", "", reason) in text for reason in column["reasons"])
+    assert re.sub(r"\s", "", HOSTILE) in text
+    assert floor["model"]["sha256"] in text
+    assert ("unverified" if language == "en" else "未核对") in text
+
+
+def test_font_is_embedded(floor: dict[str, Any], tmp_path: Path) -> None:
+    write_pdf(floor, tmp_path / "report.pdf", "zh")
+    fonts = fonts_of(tmp_path / "report.pdf")
+    assert fonts
+    assert all(fonts.values())
+    assert all("WenQuanYi" in name for name in fonts)
+
+
+def test_same_bytes_a4_and_outline(floor: dict[str, Any], tmp_path: Path) -> None:
+    for name in ("a.pdf", "b.pdf"):
+        write_pdf(floor, tmp_path / name)
+    assert (tmp_path / "a.pdf").read_bytes() == (tmp_path / "b.pdf").read_bytes()
+    reader = pypdf.PdfReader(tmp_path / "a.pdf")
+    assert {(round(page.mediabox.width), round(page.mediabox.height)) for page in reader.pages} == {(595, 842)}
+    titles = [entry.title for entry in reader.outline if not isinstance(entry, list)]
+    assert [title for title in titles if title.startswith("C-")] == ["C-5", "C-3", "C-2", "C-4", "C-7", "C-1", "C-6"]
+
+
+def test_long_names_and_unknown_signs(floor: dict[str, Any], tmp_path: Path) -> None:
+    floor["columns"][0]["id"] = "C-" + "9" * 300
+    floor["columns"][1]["id"] = "🏗 𠮷 \x07"
+    floor["columns"][2]["reasons"] = ["很长的原因" * 400]
+    write_pdf(floor, tmp_path / "report.pdf")
+    assert "很长的原因" * 20 in text_of(tmp_path / "report.pdf")
+
+
+def test_lines_break_between_words_and_chinese_characters() -> None:
+    text = "GB/T 51231-2016 装配式混凝土建筑技术标准 supercalifragilisticexpialidocious 套筒。"
+    lines = lines_of(text, 10.0, 90.0)
+    assert len(lines) > 4
+    assert all(width_of(line, 10.0) <= 91.0 for line in lines)
+    assert "".join(lines).replace(" ", "") == text.replace(" ", "")
+    assert not any(line.startswith(("。", ",")) for line in lines)
+    assert printable("✗ 柱 🏗") == "× 柱 □"
