@@ -16,17 +16,18 @@ from aadm_workbench.hoisting.contradiction import contradiction_of
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
 from aadm_workbench.model import HoistingMeasurement, Verdict
 from aadm_workbench.report.words.reasons import in_both_languages
-from aadm_workbench.twin.hoisting import HoistingScan
-from aadm_workbench.twin.scenes import LAB
+from aadm_workbench.twin.hoisting import Hang, HoistingScan, Stand
+from aadm_workbench.twin.scenes import LAB, Setting
 from aadm_workbench.twin.study.hoisting import design_of
 from tests import hoisting_scenes as scenes
 
 DESIGN = design_of(LAB)
+BIG = Setting("1,400 mm", 1400.0, 640.0, 6, 40.0, 25.0, 24.1, 160.0, 2500.0)
 OTHER = (1, -1)
 
 
 def measured(truth: HoistingScan, near: tuple[int, int] | None, **before: object) -> HoistingMeasurement:
-    settings = HoistingSettings(load_profile("cn"))
+    settings = HoistingSettings(load_profile("cn"), "simple")
     scan = replace(truth.frame.scan(), source="frame.tiff")
     return measure_hoisting(scan, DESIGN, near=near, settings=settings, **before)  # type: ignore[arg-type]
 
@@ -93,3 +94,22 @@ def test_what_did_not_move_is_not_accused_and_a_pass_names_what_rests_on_older_s
     assert found.report.verdict is Verdict.PASS
     assert f"{found.report.rests_on_scans[0]}" in found.report.reasons[-1]
     assert "measured before hoisting" in found.report.reasons[-1]
+
+
+def test_far_and_flat_pairs_are_as_sure_as_they_say() -> None:
+    """Down to 5° between view and foot, 2.5 m away: two of fourteen stood outside of their 95 % regions."""
+    truth = scenes.frame(BIG, Hang(150.0, shift=(0.8, -0.6)), Stand(900.0, 90.0), 0)
+    design = design_of(BIG)
+    found = measure_hoisting(truth.frame.scan(), design, near=scenes.NEAR)
+    errors = scenes.offset_errors(found, truth)
+    within = [
+        error @ np.linalg.solve(covariance, error) < 5.991
+        for error, covariance, pair in zip(errors, found.covariances, found.report.pairs, strict=True)
+        if pair.seen
+    ]
+    assert len(within) >= 13
+    assert len(within) - sum(within) <= 1
+    before = {"sleeves_before": scenes.before(truth.foot, 0.1, 0), "rebars_before": scenes.before(truth.bars, 0.1, 50)}
+    joined = measure_hoisting(truth.frame.scan(), design, near=scenes.NEAR, **before)
+    assert scenes.distance_errors(joined, truth, seen=False).mean() < 0.11  # all twenty, from one frame
+    assert joined.report.moved_since == ()

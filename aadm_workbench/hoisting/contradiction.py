@@ -24,10 +24,15 @@ _ALIKE_MM, _ALIKE_SHARE = 0.6, 0.1  # of turned pushes: frames of two corners we
 _WARP_MM = 0.08  # what a camera's warp does to a pair differently in two places of the picture
 
 
-def contradiction_of(first: HoistingMeasurement, second: HoistingMeasurement, design: ColumnDesign) -> Finding | None:
-    """What two frames of one column say against each other; None where both can be right."""
+def contradiction_of(
+    first: HoistingMeasurement, second: HoistingMeasurement, design: ColumnDesign, *, swings: bool = False
+) -> Finding | None:
+    """What two frames of one column say against each other; None where both can be right.
+
+    Of a column that ``swings`` only the pairs' own amounts count: half a swing later the push is the opposite one.
+    """
     alike = _own_amounts_agree(first, second, design)
-    turned_deg = None if alike else _turned(first, second)
+    turned_deg = None if alike or swings else _turned(first, second)
     values = {
         "source": first.report.source,
         "near": first.report.near or "?",

@@ -49,6 +49,7 @@ _RADIUS_SIGMA_MM, _PUSH_SIGMA_MM = 0.4, 0.7
 _LEAN_SIGMA, _OWN_RADIUS_MM = 0.008, 0.06
 # floors: no push is known better, whatever the likelihood's curvature says (a choice: ±30 % moves u by 3 %)
 _OWN_PUSH_MIN_MM, _PUSH_FLOOR_PITCHES = 0.02, 0.02
+_FACE_HEIGHT_SHARE = 0.1  # of the face's scatter: found over frames of 600 to 1,400 mm columns, 0.72 to 1.4 m away
 _OWN_SIGMA_RATIO = 1.5  # of what the likelihood's curvature says: its steps are not smooth
 _FLOOR_MM = 0.02  # what the warp of a camera leaves over one mouth, however many points there are
 _SHOWN_SHARE = 0.3  # of what returns about most mouths (a choice: ±30 % moves nothing on sound scans)
@@ -112,7 +113,8 @@ def fit_foot(
     ]
     rays = _edge_rays(views, sectors, walls, state, noise_mm, wall_mm)
     push = find_push(rays, float(state.pooled[_WALL]), len(views), _PUSH_SIGMA_MM)
-    believed = _with_push(believed, push, _typical_pitch_mm(rays))
+    floor_mm = float(np.hypot(_PUSH_FLOOR_PITCHES * _typical_pitch_mm(rays), _of_face_height_mm(face, state.centres)))
+    believed = _with_push(believed, push, floor_mm)
     pattern = as_built(pattern, state, np.array([len(wall) >= _WALL_FEWEST for wall in walls]))
     for _ in range(3):
         state, _ = _system(views, walls, state, pattern, believed)[0].stepped(state)
@@ -146,7 +148,13 @@ def _believed(features: int, radius_mm: float, leans: Array | None) -> Believed:
     return Believed(np.array([radius_mm, 0.0]), np.array([_RADIUS_SIGMA_MM, 1e-4]), sigma, own)
 
 
-def _with_push(believed: Believed, push: Push, pitch_mm: float) -> Believed:
+def _of_face_height_mm(face: FootFace, centres: Array) -> float:
+    """What the height of the face, known to a tenth of its scatter, does to where flat rays cross it."""
+    away_mm = float(np.median(np.hypot(*(centres - face.eye[:2]).T)))
+    return _FACE_HEIGHT_SHARE * face.residual_mm * away_mm / abs(float(face.eye[2]))
+
+
+def _with_push(believed: Believed, push: Push, floor_mm: float) -> Believed:
     """What the rays tell of the push: of all walls, and of each sleeve's own where they differ among themselves."""
     own_sigma = _OWN_SIGMA_RATIO * push.own_sigma
     spread_mm = max(_OWN_PUSH_MIN_MM, _spread_of(push.own, own_sigma))
@@ -155,7 +163,7 @@ def _with_push(believed: Believed, push: Push, pitch_mm: float) -> Believed:
     own[:, 2] = share * push.own
     sigma[:, 2] = np.sqrt(share) * own_sigma
     pooled = np.array([believed.pooled[_WALL], push.push_mm])
-    pooled_sigma = np.array([believed.pooled_sigma[_WALL], np.hypot(push.sigma_mm, _PUSH_FLOOR_PITCHES * pitch_mm)])
+    pooled_sigma = np.array([believed.pooled_sigma[_WALL], np.hypot(push.sigma_mm, floor_mm)])
     return Believed(pooled, pooled_sigma, sigma, own)
 
 

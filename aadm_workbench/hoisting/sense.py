@@ -45,7 +45,10 @@ def why_not_foot(face: FootFace, foot: FootFit, diameter_mm: float) -> str:
     if stray > max(1.0, _STRAY_SHARE * len(face.mouths)):
         return f"{stray} openings of the foot lie where the design has no sleeve: is it another column?"
     if foot.seen.sum() < _FEWEST_SEEN:
-        return f"only {int(foot.seen.sum())} sleeves can be measured: their mouths are covered, hidden or too far away"
+        return (
+            f"only {int(foot.seen.sum())} sleeves can be measured: their mouths are covered, hidden, too far away or "
+            "seen too flat"
+        )
     if abs(2.0 * foot.radius_mm / diameter_mm - 1.0) > _SLEEVE_MISFIT:
         return (
             f"openings of {2.0 * foot.radius_mm:.1f} mm are seen in the foot, the design's sleeves have "

@@ -23,8 +23,8 @@ SIZES_MM = np.geomspace(0.02, 25.0, 15)
 """Standard deviations of a swing's parts: from less than a frame's noise to what leaves the picture."""
 
 _REST_MM = 30.0  # of the rest about the newest place: farther off no frame is measured
-_JUMP_MM = 20.0  # how far a push moves it, per axis
-_JUMP_LOG_ODDS = np.log(0.05)  # of a push before a frame, against none
+_PUSHES_MM = np.array([0.5, 1.0, 2.0, 5.0, 10.0, 20.0])  # how far a push moves it, per axis: each as likely
+_PUSH_LOG_ODDS = np.log(0.3)  # of a push before a frame, against none: crews push after every third frame or so
 _NODES = ((-np.sqrt(3.0), 1 / 6), (0.0, 2 / 3), (np.sqrt(3.0), 1 / 6))  # Gauss-Hermite, of a normal law
 _FEWEST = 3
 _SURE = 0.95
@@ -80,13 +80,15 @@ def swing_of(times_s: Array, places: Array, noise_mm: float) -> Swing | None:
 
 def _since_push(times_s: Array, places: Array, noise_mm: float) -> int:
     """The first frame since the last push: where it is likeliest that one swing ends and another begins."""
-    away = -0.5 * ((places - places[-1]) ** 2 / _JUMP_MM**2 + np.log(2.0 * np.pi * _JUMP_MM**2)).sum(axis=1)
+    square = ((places - places[-1]) ** 2).sum(axis=1)[:, None] / _PUSHES_MM**2
+    each = -0.5 * (square + places.shape[1] * np.log(2.0 * np.pi * _PUSHES_MM**2))
+    away = np.logaddexp.reduce(each, axis=1) - np.log(len(_PUSHES_MM))
     odds = [_log_evidence(times_s, places, noise_mm)]
     for first in range(1, len(times_s)):
         # what lies before is one swing too, or was pushed about by itself
         earlier = away[first - 1] + _log_evidence(times_s[:first], places[:first], noise_mm)
         earlier = max(earlier, float(away[:first].sum()))
-        odds.append(_JUMP_LOG_ODDS + earlier + _log_evidence(times_s[first:], places[first:], noise_mm))
+        odds.append(_PUSH_LOG_ODDS + earlier + _log_evidence(times_s[first:], places[first:], noise_mm))
     return int(np.argmax(odds))
 
 

@@ -186,10 +186,11 @@ class Watcher:
 
     def _compared(self, measurement: HoistingMeasurement, near: tuple[int, int] | None) -> HoistingMeasurement:
         """The frame, without a correction where the last frame of some corner contradicts it."""
-        others = [*self._last.values()]
+        others = [*self._last.items()]
         self._last[near] = measurement
-        for other in others:
-            finding = contradiction_of(other, measurement, self.design)
+        for corner, other in others:
+            # of one camera all frames have the same label: between them the column swings, and is pushed
+            finding = contradiction_of(other, measurement, self.design, swings=corner == near)
             if finding is not None:
                 return replace(measurement, report=with_contradiction(measurement.report, finding))
         return measurement

@@ -77,6 +77,22 @@ def test_a_job_reports_its_hoisting_frames(folder: Path) -> None:
     assert column["verdict"] == "not_measured"  # hoisting never enters the column's own verdict
 
 
+def test_one_picture_under_two_corners_contradicts_itself(folder: Path) -> None:
+    job = (folder / "job.toml").read_text(encoding="utf-8")
+    two = '[{file = "hang.tiff"}, {file = "hang.tiff", near = "+x-y"}, "cut.tiff"]'
+    (folder / "job.toml").write_text(job.replace('["hang.tiff", "cut.tiff"]', two), encoding="utf-8")
+    assert main(["check", str(folder / "job.toml"), "--quiet"]) == 11
+    report = json.loads((folder / "job-report" / "report.json").read_text(encoding="utf-8"))
+    jsonschema.validate(report, report_schema())
+    first, second, cut = report["columns"][0]["hoisting"]
+    assert [first["near"], second["near"], cut["near"]] == ["-x-y", "+x-y", None]
+    for frame in (first, second):
+        assert frame["correction"] is None
+        assert frame["verdict"] in ("inconclusive", "fail")
+        assert frame["findings"][0]["code"] == "hoisting_frames_contradict"
+        assert "near = +x-y" in frame["reasons"][0]
+
+
 def test_a_job_can_measure_its_frames_as_published(folder: Path) -> None:
     main(["check", str(folder / "job.toml"), "--quiet", "--method", "fusion"])
     report = json.loads((folder / "job-report" / "report.json").read_text(encoding="utf-8"))

@@ -105,6 +105,10 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
     (rf"({_LABEL}) moved ({_NUMBER}) mm", r"\1 移动了 \2 mm"),
     (r" since the scan from before hoisting", "(与吊装前的扫描相比)"),
     (rf"; look at ((?:{_LABEL}(?:, )?)+), which the frame does not show", r";请查看画面未见到的 \1"),
+    (
+        r"only (\d+) sleeves can be measured: their mouths are covered, hidden, too far away or seen too flat",
+        r"只能测量 \1 个套筒:套筒口被遮盖、被遮挡、太远或视角太平",
+    ),
     (r"recorded, not live", "记录,并非实时"),
     (r"when the frame was captured is not known: take a new one", "不知该帧的拍摄时间:请重新拍摄"),
     (r"the frame's time lies (\d+) s ahead: set the clocks alike", r"该帧的时间超前 \1 s:请校准时钟"),
