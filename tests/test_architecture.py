@@ -101,7 +101,7 @@ open3d_only_in_published_and_twin = only_in(
 
 
 def stages_import_from_the_left(path: PurePosixPath, tree: ast.Module) -> Iterator[Finding]:
-    """Rule: design, scan, extract, assembly, hoisting, report: each may know those to its left, and nothing beyond them.
+    """Rule: design, scan, extract, assembly, hoisting, report: each may know those to its left, nothing beyond them.
 
     The nouns know each other alone; what else lies at the root (the recipe of a whole check) joins the stages.
     """
@@ -267,7 +267,7 @@ BREAKS = [
         "from aadm_workbench.extract.plane import Plane",
     ),
     (stages_import_from_the_left, "aadm_workbench/design/mesh.py", "from aadm_workbench import scan"),
-    (stages_import_from_the_left, "aadm_workbench/assembly/trial/virtual.py", "from ..report import json"),
+    (stages_import_from_the_left, "aadm_workbench/assembly/trial/virtual.py", "from ...report import json"),
     (stages_import_from_the_left, "aadm_workbench/extract/published/hough.py", "from ...assembly.eopa import fit"),
     (stages_import_from_the_left, "aadm_workbench/report/json.py", "import aadm_workbench.twin.scene"),
     (stages_import_from_the_left, "aadm_workbench/model.py", "from aadm_workbench.scan import read"),

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule
-from aadm_workbench.assembly.findings.hoisting_turn import held_while_ambiguous, with_turn_finding
 from aadm_workbench.assembly.pose.upright import turn
 from aadm_workbench.design.recognise.extent import extent_mm
 from aadm_workbench.errors import ScanError
@@ -26,6 +25,7 @@ from aadm_workbench.hoisting.moved import moved_since, still_known, with_scans_n
 from aadm_workbench.hoisting.pairs import HungFit, report_pairs, unmeasured
 from aadm_workbench.hoisting.pattern_fit import Pattern
 from aadm_workbench.hoisting.sense import why_half, why_not_bars, why_not_foot
+from aadm_workbench.hoisting.turn_findings import held_while_ambiguous, with_turn_finding
 from aadm_workbench.hoisting.unseen import measured_labels
 from aadm_workbench.model import (
     Array,

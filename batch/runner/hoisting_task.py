@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from aadm_workbench.assembly.findings.hoisting_turn import with_contradiction
 from aadm_workbench.errors import AadmError
 from aadm_workbench.hoisting.contradiction import contradiction_of
+from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.model import (
     AssemblyPoint,
     ColumnDesign,

@@ -11,7 +11,6 @@ from time import monotonic, perf_counter, sleep
 
 import numpy as np
 
-from aadm_workbench.assembly.findings.hoisting_turn import with_contradiction
 from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError, DesignError, JobError, ScanError
@@ -19,6 +18,7 @@ from aadm_workbench.hoisting.contradiction import contradiction_of
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
 from aadm_workbench.hoisting.motion import Look, Motion, look_at, motion_of, with_look
 from aadm_workbench.hoisting.running import Running, combined
+from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.model import ColumnDesign, HoistingMeasurement, HoistingReport, Verdict
 from aadm_workbench.report.json import encode
 

@@ -1,7 +1,8 @@
 """Far sleeves scatter more than near ones, and their points must not be weighed by what the near ones do."""
 
 import numpy as np
-from aadm_workbench.extract.hoisting_foot import _own_spreads
+
+from aadm_workbench.hoisting.foot import _own_spreads
 
 
 def test_each_sleeve_has_its_own_spread() -> None:

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from aadm_workbench.assembly.findings.hoisting_turn import with_turn_finding
 from aadm_workbench.hoisting.match import Matched, match_hoisting
+from aadm_workbench.hoisting.turn_findings import with_turn_finding
 from aadm_workbench.model import Array, HoistingReport, Verdict
 from aadm_workbench.report.words.reasons import in_both_languages
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from aadm_workbench.assembly.hoisting_contradiction import contradiction_of
 from aadm_workbench.design.pattern import inline_design
 
+from aadm_workbench.hoisting.contradiction import contradiction_of
 from aadm_workbench.model import Correction, Finding, HoistingMeasurement, HoistingPair, HoistingReport, Verdict
 
 SIDE = [complex(-240.0 + 160.0 * k, -240.0) for k in range(3)]
