@@ -48,11 +48,12 @@ class Chaos:
     not_noticed: list[str] = field(default_factory=list)
     exit_codes: list[int] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
+    harm: list[str] = field(default_factory=list)
 
     @property
     def ended_well(self) -> bool:
         """Whether sound columns are as in the calm check, the others are errors, and no stranger got anywhere."""
-        sound = not self.differ and not self.not_noticed and not self.strangers.harm
+        sound = not self.differ and not self.not_noticed and not self.harm
         return sound and self.processes_killed == _PROCESS_DEATHS
 
 
@@ -81,6 +82,7 @@ def run_chaos(
     # What was spoilt after its column had been checked is found now: nothing else is checked again.
     chaos.exit_codes.append(subprocess.run([*_command(job), "--resume"], check=False, capture_output=True).returncode)
     chaos.chaos_s = time.perf_counter() - began
+    chaos.harm = strangers.harm
     _compare(chaos, _columns(calm), _columns(job))
     return chaos
 
@@ -192,7 +194,7 @@ def main() -> int:
     print(f"workers killed: {chaos.workers_killed}, the check itself: {chaos.processes_killed}")
     them = chaos.strangers
     print(f"strangers: {them.links} links, {them.pipes} pipes, {them.users} attempts as another user: ", end="")
-    print("; ".join(them.harm) or "nothing written, opened or found listening")
+    print("; ".join(chaos.harm) or "nothing written, opened or found listening")
     print(f"columns with spoilt inputs: {len(chaos.corrupt)}, not noticed: {chaos.not_noticed or 'none'}")
     if not chaos.ended_well:
         print(*chaos.said, sep="\n---\n")
