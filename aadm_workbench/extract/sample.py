@@ -9,7 +9,7 @@ import numpy as np
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Scan
 
 _CELLS_MAX = 4_000_000  # 32 MB of counts
-_LIKE_MM, _COMPANY, _ALONE = 20.0, 1, 4.0  # seen steeply, the side of a bar falls by so much between thinned pixels
+_LIKE_MM, _COMPANY, _ALONE = 10.0, 1, 4.0  # seen steeply, the side of a bar falls by so much between thinned pixels
 # 36 points of a scan at 0.4 mm, thinned five times each way; more points than that tell no more
 _CELL_MM, _ENOUGH = 12.0, 20_000
 

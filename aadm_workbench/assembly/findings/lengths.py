@@ -40,7 +40,12 @@ def length_findings(lost: Sequence[tuple[SeenGroup, NamedScan]]) -> Iterator[Fin
 
 def _likely(distance_mm: float) -> list[tuple[str, float]]:
     """Laws and factors, the likelier first: a camera that stood too near or too far is no camera."""
-    low, high = _USUAL_DISTANCE_MM
-    units = [("unit", factor) for factor in UNIT_FACTORS if low <= distance_mm / factor <= high]
+    units = [("unit", factor) for factor in UNIT_FACTORS if is_usual(distance_mm / factor)]
     focal = [("focal", factor) for factor in FOCAL_FACTORS]
-    return [*focal, *units] if low <= distance_mm <= high else [*units, *focal]
+    return [*focal, *units] if is_usual(distance_mm) else units
+
+
+def is_usual(distance_mm: float) -> bool:
+    """Whether a camera stands so far from what it measures."""
+    low, high = _USUAL_DISTANCE_MM
+    return low <= distance_mm <= high

@@ -11,7 +11,7 @@ import numpy as np
 
 from aadm_workbench.assembly.findings.diameters import CORE_ABOVE, CORE_BELOW, sizes_in_words
 from aadm_workbench.assembly.findings.group import SeenGroup
-from aadm_workbench.assembly.findings.lengths import length_findings
+from aadm_workbench.assembly.findings.lengths import is_usual, length_findings
 from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.assembly.findings.named_scan import FEWEST, FITS_SHARE, NamedScan, fits
 from aadm_workbench.design.recognise.bar_sizes import OVER_RIBS_MM
@@ -40,6 +40,9 @@ def mistaken_findings(
         The other columns of the job, for a scan that fits one of them.
     """
     lost = [kind for kind, group in groups.items() if _is_lost(group)]
+    odd = list(length_findings([(groups[kind], scans[kind]) for kind in lost if not is_usual(scans[kind].distance_mm)]))
+    yield from odd
+    lost = [kind for kind in lost if not any(kind.plural in finding.about for finding in odd)]
     crossed = [kind for kind in lost if _shows(design, scans[kind], _other(kind))]
     if len(crossed) == 2:
         yield make_finding("swapped", ["sleeves", "rebars"])
