@@ -24,8 +24,8 @@ from aadm_workbench.assembly.pose.constraints import Part, start_pose
 from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.pose.interior_point import squared
 from aadm_workbench.assembly.pose.smallest_common_disc import proven_bound, smallest_common_disc
+from aadm_workbench.assembly.pose.true_offsets import Measured, true_offsets, true_shifts
 from aadm_workbench.assembly.pose.upright import turn
-from aadm_workbench.assembly.true_offsets import Measured, true_offsets, true_shifts
 from aadm_workbench.model import Array, BoolArray
 
 SAMPLES = 1000

@@ -10,12 +10,12 @@ import numpy as np
 
 from aadm_workbench.assembly.matching.match import Match
 from aadm_workbench.assembly.matching.symmetry import SymmetricTurn, symmetric_turns
-from aadm_workbench.assembly.open_ways import open_ways
 from aadm_workbench.assembly.pairs import form_pairs
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.pose.best_pose import fit_best_pose
 from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.rules import applicable_rules
+from aadm_workbench.assembly.trial.open_ways import open_ways
 from aadm_workbench.assembly.trial.pose import evaluate_pose
 from aadm_workbench.assembly.trial.virtual import distance_limits
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, FitCell, Profile

@@ -18,7 +18,6 @@ from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.inspect import describe_ambiguity
 from aadm_workbench.assembly.matching.match import Match, Placement
 from aadm_workbench.assembly.matching.symmetry import SymmetricTurn, symmetric_turns
-from aadm_workbench.assembly.open_ways import open_ways
 from aadm_workbench.assembly.pairs import Pair, embedded_length_mm, form_pairs
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.pose.best_pose import fit_best_pose
@@ -28,6 +27,7 @@ from aadm_workbench.assembly.pose.pose_probability import SAMPLES, existence_of_
 from aadm_workbench.assembly.rules import applicable_rules
 from aadm_workbench.assembly.tolerances import describe_clause
 from aadm_workbench.assembly.trial.common_lean import common_lean
+from aadm_workbench.assembly.trial.open_ways import open_ways
 from aadm_workbench.assembly.trial.pose import evaluate_best_pose, evaluate_pose
 from aadm_workbench.assembly.trial.verdict import collisions, judge_trial, judge_without_limits
 from aadm_workbench.model import (
