@@ -20,14 +20,14 @@ from typing import IO
 from xml.parsers import expat
 
 _DEFLATED_OR_STORED = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
-_ENCRYPTED = 0x1
+_ENCRYPTED = 0x1  # bit 0 of the flags of an entry (APPNOTE 4.4.4)
 _SMALL_BYTES = 2**26
 """What unpacks to no more than this may pack as well as it likes: an empty drawing does."""
 
 _END = struct.Struct("<4s4H2LH")
 _END_MARK, _LARGE_MARK = re.compile(b"PK\x05\x06"), b"PK\x06\x07"
-_LARGE_LOCATOR_BYTES = 20
-_LONGEST_COMMENT_BYTES = 2**16
+_LARGE_LOCATOR_BYTES = 20  # of the locator of ZIP64 (APPNOTE 4.3.15)
+_LONGEST_COMMENT_BYTES = 2**16  # its length is written in two bytes
 _ENTRY_BYTES = 2**9
 """What an entry may take in the list of an archive: its name, and some extra fields."""
 

@@ -20,7 +20,7 @@ _TRIES = 5
 """So often is looked again where somebody else creates or replaces the file at the same moment."""
 
 _FLAGS = ("O_NOFOLLOW", "O_NONBLOCK", "O_NOCTTY", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT")
-_ALWAYS = sum(getattr(os, name, 0) for name in _FLAGS)
+_ALWAYS = sum(getattr(os, name, 0) for name in _FLAGS)  # of systems that have them
 _KNOWS_FOLDERS = os.open in os.supports_dir_fd and hasattr(os, "O_DIRECTORY")
 ASIDE_FOLDER = ".aadm-freecad-"
 """So begin the names of folders in which another program writes what is put in its place afterwards."""

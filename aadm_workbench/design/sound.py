@@ -13,8 +13,8 @@ from aadm_workbench.model import Array
 FARTHEST_MM = 1e12
 """Twenty times around the earth: coordinates beyond are no places, and their squares still fit a float."""
 
-_NO_LENGTH_MM = 1e-6
-_FEWEST_CORNERS = 3
+_NO_LENGTH_MM = 1e-6  # a thousandth of what designs are read to
+_FEWEST_CORNERS = 3  # two make no face
 
 
 class UnsoundError(ValueError):

@@ -13,8 +13,8 @@ from aadm_workbench.design.recognise.tubes import Tube
 from aadm_workbench.design.sound import FARTHEST_MM
 from aadm_workbench.model import Array
 
-_NO_LENGTH_MM = 1e-6
-_SHOWN = 6
+_NO_LENGTH_MM = 1e-6  # a thousandth of what designs are read to
+_SHOWN = 6  # elements in a warning
 
 
 def sound_elements(elements: Iterable[Element]) -> tuple[list[Element], list[str]]:

@@ -7,8 +7,8 @@ import numpy as np
 from aadm_workbench.design.recognise.shapes import Cut, HalfSpace, Shape, Turned
 from aadm_workbench.model import Array
 
-_ACROSS_COS = 1.0 - 1e-9
-_INSIDE_MM = 1e-6
+_ACROSS_COS = 1.0 - 1e-9  # 0.003 degrees: exporters write six digits
+_INSIDE_MM = 1e-6  # a thousandth of what designs are read to
 
 
 def as_turned(shape: Shape) -> Turned | None:

@@ -12,7 +12,7 @@ from aadm_workbench.extract.sample import Thinned, counts_in_cells, in_company
 from aadm_workbench.model import Array, FloatArray, Plane
 
 _FLOOR_SHARE = 0.2  # of the points: less is no floor
-_FLOOR_COVERED, _ENOUGH = 0.6, 20_000
+_FLOOR_COVERED, _ENOUGH = 0.6, 20_000  # of the floor beside bars; points that tell that: a choice, not tuned since
 # higher than a rough floor and what lies on it; the shortest connecting bars stick out several times as far
 _ABOVE_FLOOR_MM = 15.0
 _TOP_COUNT_MIN = 20  # points of the thinned scan: fewer are no top

@@ -23,11 +23,11 @@ RIM_DEPTH_MM = 2.5
 """A chamfer ends less far behind the face."""
 
 _LAYER_MM = 12.0  # what is roughened lies within, what stands before a foot or far behind does not
-_OUTER_PERCENT = 4.0, 96.0
+_OUTER_PERCENT = 4.0, 96.0  # of heights: what lies outside may be outliers
 _ROUGH_MM, _ROUGH_NOISES = 3.0, 8.0  # rings and splashes of grout are thinner; noise alone comes to 3.5
-_MARGIN_MM = 1.0
-_EVERY = 16
-_ROUGH_INLIER_MM = 3.0
+_MARGIN_MM = 1.0  # beyond the layer, noise of the camera
+_EVERY = 16  # points, for a look at the layer: it has thousands
+_ROUGH_INLIER_MM = 3.0  # half of the 6 mm that feet are roughened by (GB/T 51231)
 _RING_MM = 1.0, 3.0  # beyond a mouth's edge: there the sleeve's own ring ends, or the concrete begins
 _RISE_MM = 1.0, 5.0  # of rings before the face, from where on it counts
 

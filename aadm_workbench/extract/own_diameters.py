@@ -20,13 +20,14 @@ from aadm_workbench.extract.sample import thinned
 from aadm_workbench.extract.top_planes import top_planes
 from aadm_workbench.model import Array, Plane, Scan
 
-_SAMPLE = 90_000
+_SAMPLE = 90_000  # as of all bars
 _CORE_SHARE = 0.7  # of the nominal radius: the plane of a top two sizes smaller is found in it
-_BAND_MM = 0.8
+_BAND_MM = 0.8  # about the plane of a top: twice the noise at 2 m
 _ZONE = 0.35, 1.7  # of the nominal radius: bars two sizes off either way, and nothing that stands beside them
-_ROUNDS = 4
+_ROUNDS = 4  # points of ribs leave in the first two
+# ribs stand out by more; of the outline; of the turn: a choice, not tuned since
 _ROUND_WITHIN_MM, _ROUND_SHARE, _COVERED_SHARE = 0.45, 0.6, 0.7
-_FEWEST = 4
+_FEWEST = 4  # of fewer a median is no sign
 _LEAST_U_MM = 0.25  # of one outline: half a pixel, and ribs that stand out on one side
 
 

@@ -16,8 +16,8 @@ from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.assembly.pose.upright import turn
 from aadm_workbench.model import Array, ColumnDesign, Finding, HoistingMeasurement
 
-_QUARTERS_DEG = (90, -90, 180)
-_FEWEST_PAIRS = 4
+_QUARTERS_DEG = (90, -90, 180)  # turns of a square column
+_FEWEST_PAIRS = 4  # three lie anyhow by chance
 _UNLIKELY = 1e-5  # of the pairs' own amounts to differ so, where both frames name them rightly
 _APART_MM = 1.5  # of two pushes: nearer to each other nobody is misled
 _ALIKE_MM, _ALIKE_SHARE = 0.6, 0.1  # of turned pushes: frames of two corners weigh different pairs

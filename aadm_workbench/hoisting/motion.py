@@ -15,9 +15,9 @@ from aadm_workbench.hoisting.swing import Swing, swing_of
 from aadm_workbench.model import Array, BoolArray, Correction, HoistingMeasurement
 
 _MOST_LOOKS, _LONGEST_S = 10, 40.0  # three swings of the longest rope; older frames say little of today's rest
-_FEWEST_PAIRS = 3
+_FEWEST_PAIRS = 3  # two leave a turn open to noise
 _NOISE_FLOOR_MM = 0.04  # of a place from frame to frame: the bars' own frame is found anew in each
-_MOVED_SIGMAS, _MOVED_MIN_MM = 4.0, 0.25
+_MOVED_SIGMAS, _MOVED_MIN_MM = 4.0, 0.25  # beyond noise; less than a crane can move by
 _SURE_SIGMAS = 1.645  # one-sided, 95 %
 
 

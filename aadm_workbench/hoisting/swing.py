@@ -17,6 +17,7 @@ from aadm_workbench.model import Array
 PERIODS_S = np.geomspace(1.5, 12.0, 90)
 """A free rope of 0.6 to 36 m, by T = 2π √(l/g); tag lines only shorten it."""
 
+# standard deviation of a law that is even over the logarithm
 _BETWEEN_PERIODS = float(np.log(PERIODS_S[1] / PERIODS_S[0])) / np.sqrt(12.0)
 
 SIZES_MM = np.geomspace(0.02, 25.0, 15)
@@ -26,8 +27,8 @@ _REST_MM = 30.0  # of the rest about the newest place: farther off no frame is m
 _PUSHES_MM = np.array([0.5, 1.0, 2.0, 5.0, 10.0, 20.0])  # how far a push moves it, per axis: each as likely
 _PUSH_LOG_ODDS = np.log(0.3)  # of a push before a frame, against none: crews push after every third frame or so
 _NODES = ((-np.sqrt(3.0), 1 / 6), (0.0, 2 / 3), (np.sqrt(3.0), 1 / 6))  # Gauss-Hermite, of a normal law
-_FEWEST = 3
-_SURE = 0.95
+_FEWEST = 3  # frames: a rest and a swing have as many unknowns
+_SURE = 0.95  # as verdicts are
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ VALID_FOR_S = 15.0
 """How long a frame counts, from its capture: two to four swings of a hanging column; its crane has acted by then."""
 
 _AHEAD_S = 2.0  # how far clocks that are set by the network may run apart
-_FEWEST_DECIDE = 3
+_FEWEST_DECIDE = 3  # two leave a turn open to noise
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from aadm_workbench.scan.file import ScanFile
 
 AXES = (CAMERA_AXES, OPENGL_AXES)
 
-_SAMPLE_SIZE = 10_000
+_SAMPLE_SIZE = 10_000  # points: on which side of the origin they lie shows on far fewer
 _ALL = 0.999
 """Share of the points that must lie on one side: strays of a faulty frame lie anywhere."""
 

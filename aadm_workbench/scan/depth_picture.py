@@ -16,8 +16,8 @@ _PNG_CHANNELS = {0: 1, 2: 3, 3: 3, 4: 2, 6: 4}
 """Of the types of colour in a PNG; 3 is a palette."""
 
 _DEPTH_WORDS = ("depth", "range", "height", "distance", "tiefe", "深度")
-_BYTE_BITS, _COLOURS = 8, 3
-_UPRIGHT = 1
+_BYTE_BITS, _COLOURS = 8, 3  # bits of a sample and samples of a pixel of what is shown to people
+_UPRIGHT = 1  # orientation of TIFF 6.0: first row at the top
 
 
 class ColourPictureError(ScanError):

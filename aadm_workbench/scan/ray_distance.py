@@ -12,7 +12,7 @@ import numpy as np
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array, BoolArray, IntArray, Scan
 
-_SAMPLE_SIZE = 2_000
+_SAMPLE_SIZE = 2_000  # points: a bowl shows on far fewer
 _TRIALS, _FIRST_TRIALS = 300, 40
 """Triples of points; the first ones find a face that most points lie on, which ends the search."""
 
@@ -25,7 +25,7 @@ _LEAST_SHARE = 0.2
 _AHEAD = 0.99
 """Share of the points before the camera: of a cloud in another frame nothing is said."""
 
-_MORE_POINTS = 1.5
+_MORE_POINTS = 1.5  # a choice, not tuned since
 _LEAST_BOWL_MM = 1.0
 """Standard deviation of the bowl: less may be a bent mould or a camera's warp."""
 

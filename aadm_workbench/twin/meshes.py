@@ -17,8 +17,8 @@ from aadm_workbench.twin.surface import BAR, CONCRETE, DARK, FLOOR, SLEEVE_WALL,
 
 _RIB_INCLINATION = np.radians(60.0)  # of transverse ribs against the bar's axis; 45 to 70 degrees are usual
 _SHIFT_DEPTHS_MM = (1.5, 2.0)  # behind the face: over so much depth a wall goes aside that is shifted; its mouth stays
-_RING_WIDTH_MM, _RING_ROOT_MM = 4.0, 20.0
-_CAP_LENGTH_MM = 25.0
+_RING_WIDTH_MM, _RING_ROOT_MM = 4.0, 20.0  # a tube with a wall of 4 mm, cast in by 20 mm
+_CAP_LENGTH_MM = 25.0  # of the caps that protect threads
 SEGMENTS = 256  # of a bore's outline: the chord stays within 0.003 mm of a 36 mm circle
 
 

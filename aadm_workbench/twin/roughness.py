@@ -10,10 +10,10 @@ from scipy import ndimage
 from aadm_workbench.model import Array, IntArray
 from aadm_workbench.twin.parts import Roughness
 
-_STEPS_PER_GRAIN = 4.0
-_FINEST_MM = 1.5
+_STEPS_PER_GRAIN = 4.0  # a grain is drawn round by four
+_FINEST_MM = 1.5  # finer meshes take minutes
 _SPREADS = 2.0  # of the field's standard deviation fit into its depth on either side; what is beyond is cut off
-_KEY_WALL_MM = 2.0
+_KEY_WALL_MM = 2.0  # slope of a key, formed to be stripped
 
 
 def rough_block(size: tuple[float, float], height: float, roughness: Roughness) -> Any:

@@ -13,7 +13,7 @@ from aadm_workbench.model import Camera
 from aadm_workbench.twin.filters import Depth
 from aadm_workbench.twin.scene import TrueScan
 
-_OUTLIERS, _OUTLIER_REACH_MM = 0.02, 80.0
+_OUTLIERS, _OUTLIER_REACH_MM = 0.02, 80.0  # share and reach of what bad captures hold
 _ABOVE_FLOOR_MM = 60.0  # below the tops a depth range ends that does not reach the floor
 
 

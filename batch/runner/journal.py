@@ -29,7 +29,7 @@ _FIRST_LINE = b'{"aadm_journal":1}\n'
 _LAST_LINE = b'{"finished":true}\n'
 _STOPPED_LINE = b'{"stopped":true}\n'
 _SECONDS_BETWEEN_FLUSHES = 1.0  # so much work is lost at most in a power failure
-_PIECE_BYTES = 2**20
+_PIECE_BYTES = 2**20  # bounds the memory, not the time
 
 LONGEST_LINE_BYTES = 2**26
 """A column takes 50 KB, one with a hundred hoisting frames 2 MB; a longer line is none of this program."""

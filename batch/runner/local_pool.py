@@ -35,7 +35,7 @@ _LOOK_S, _LOOK_SOON_S = 0.5, 0.1
 _GRACE_S = 30.0
 """So long after its time limit is a worker ended from outside, which could not end itself."""
 
-_EXIT_S = 8.0
+_EXIT_S = 8.0  # one that does not end by then is killed
 
 Ship = Callable[[Any], tuple[ShippedFile, ...]]
 Say = Callable[[str], None]

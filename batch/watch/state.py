@@ -16,7 +16,7 @@ from aadm_workbench.report.json import encode
 
 from ..shown.terminal import in_words
 
-SCHEMA = 2
+SCHEMA = 2  # of aadm-state.json
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,8 +20,8 @@ from aadm_workbench.model import Array, Finding, Kind
 LEAST_DEG = 0.8
 """Floors, and feet, are square to their columns to half of that; a single bar or sleeve leans by 0.3° by right."""
 
-_FEWEST = 4
-_SIGMAS = 6.0
+_FEWEST = 4  # of fewer a median is no sign of what all share
+_SIGMAS = 6.0  # beyond what noise, tried twelve times, ever does
 _SHARED_DEG = {Kind.SLEEVE: 0.15, Kind.REBAR: 0.3}  # what all leans of one scan may be off together
 _ALIKE = 0.35  # of the larger: so much two scans of one camera may differ in
 

@@ -11,7 +11,7 @@ from aadm_workbench.model import AssemblyPoint, Extraction, Kind
 FITS_SHARE = 0.75
 """Of the points of a design: with so many on their places a scan shows it. Half may lie on some pattern by chance."""
 
-FEWEST = 4
+FEWEST = 4  # three points lie on some pattern by chance
 
 Look = Callable[[Kind, Sequence[float]], Extraction]
 """Looks for points of a kind, of some diameters, mm, in one scan."""

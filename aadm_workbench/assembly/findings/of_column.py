@@ -18,7 +18,7 @@ from aadm_workbench.assembly.findings.void import without_spoilt
 from aadm_workbench.extract.sizes import extract_sizes
 from aadm_workbench.model import ColumnDesign, ColumnReport, Extraction, Finding, Kind, Scan
 
-_SAMPLE = 10_000
+_SAMPLE = 10_000  # points: a look, not a measurement
 
 
 @dataclass(frozen=True, eq=False)

@@ -48,8 +48,8 @@ _SAFE_SIGMAS = 4.0  # of the root of both variances: the disc then holds all but
 _GAP = 1e-4
 """Share to which a squared ratio has to be known: some hundred times finer than the spread of the draws."""
 
-_LEAST_U = 1e-6
-_LEAST_SHARE = 1e-9
+_LEAST_U = 1e-6  # mm: keeps quotients of exact points finite
+_LEAST_SHARE = 1e-9  # keeps logarithms finite
 
 
 @dataclass(frozen=True, eq=False)

@@ -33,10 +33,10 @@ _FREEDOM = 4.0
 _PRIOR_POINTS = 1.0
 """The usual scatter of bars and sleeves counts as one pair does."""
 
-_USUAL_VARIANCE = 2.0 * USUAL_SCATTER_MM**2
+_USUAL_VARIANCE = 2.0 * USUAL_SCATTER_MM**2  # mm²: of both axes
 
-_SMALLEST_VARIANCE = 0.05**2
-_TINY = 1e-18
+_SMALLEST_VARIANCE = 0.05**2  # mm²: no pattern is cast to less than a twentieth
+_TINY = 1e-18  # keeps quotients finite
 
 _LEAST_LEAN = 0.1
 """Of what is usual: no group stands straighter."""

@@ -8,8 +8,8 @@ from typing import Any
 
 from aadm_workbench.model import ColumnDesign
 
-_SHOWN = 3
-_GLOBAL_ID = 0
+_SHOWN = 3  # ids in a message
+_GLOBAL_ID = 0  # place of the GlobalId among the attributes of an IfcRoot
 
 
 def elements_by_id(file: Any) -> dict[str, list[Any]]:

@@ -12,7 +12,7 @@ from typing import Any
 from aadm_workbench.bounded import BoundsError, read_bounded
 from aadm_workbench.errors import ReportError
 
-SCHEMA = 1
+SCHEMA = 1  # of report.json
 LARGEST_REPORT_BYTES = 2**28
 """As :mod:`aadm_workbench.report.read` has it, which FreeCAD's own Python may not be able to import."""
 

@@ -36,7 +36,7 @@ _ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)  # the first date that a ZIP file knows: the 
 BCF_BOUNDS = ArchiveBounds("BCF file", entries=20_000, entry_bytes=2**26, all_bytes=2**28)
 """A thousand topics with pictures of 150 KB and five files each are half of this."""
 
-_SHOWN = 40
+_SHOWN = 40  # characters of a name in a message
 _DEEPEST_XML = 64
 """Markup has six levels; what other programs add to it may have some more."""
 

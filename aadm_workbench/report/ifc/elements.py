@@ -43,7 +43,7 @@ class Elements:
             )
 
 
-_SHOWN = 4
+_SHOWN = 4  # names in a message
 
 
 def check_named_once(of_column: dict[str, Any]) -> None:

@@ -17,7 +17,7 @@ from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.scan.depth_picture import DepthPicture
 from aadm_workbench.scan.file import ScanFile
 
-_UNCOMPRESSED = 1
+_UNCOMPRESSED = 1  # compression of TIFF 6.0
 _READ_BY_OPENCV = frozenset({_UNCOMPRESSED, 5, 7, 8, 32773, 32946})
 """None, LZW, JPEG, deflate, PackBits, deflate by its old number."""
 
@@ -32,7 +32,7 @@ _NAMES = MappingProxyType(
         50002: "JPEG XL",
     }
 )
-_HALF_BITS = 16
+_HALF_BITS = 16  # of a half float
 _ERRORS = (
     AssertionError,
     AttributeError,

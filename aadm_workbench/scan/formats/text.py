@@ -16,7 +16,7 @@ from aadm_workbench.scan.formats.rows import LONGEST_LINE_BYTES, parse_rows
 from aadm_workbench.scan.formats.text_names import named_columns, named_unit, names_some_axis
 
 _LONGEST_PREAMBLE_LINES = 200  # exporters write up to some dozen lines before the table
-_SAMPLE_LINES, _PLACES = 200, 200
+_SAMPLE_LINES, _PLACES = 200, 200  # rows that are looked at, and columns that a row may have
 _COMMENTS = ("#", "//", "%")
 _LINE = re.compile(rb"[^\r\n]*")
 _LINE_END = re.compile(rb"\r\n|\r|\n")
@@ -24,8 +24,8 @@ _WITH_NUMBER = re.compile(rb"^(?![^\r\n]{0,400}?(?:#|nan|inf))[^\r\n\d]{0,40}\d"
 _DECIMAL_COMMA = re.compile(r"[-+]?\d*,\d+(?:[eE][-+]?\d+)?")
 _WHOLE = re.compile(r"[-+]?\d+")
 _HALVES = re.compile(r"\d{2,}")
-_COUNTED = 20
-_INTENSITY_MAX, _LEAST_SPAN_RATIO = 1.0, 50.0
+_COUNTED = 20  # rows that show whether a column counts them
+_INTENSITY_MAX, _LEAST_SPAN_RATIO = 1.0, 50.0  # reflectance goes from 0 to 1; coordinates of a foot span hundreds of mm
 
 
 @dataclass(frozen=True)

@@ -9,17 +9,18 @@ import struct
 from dataclasses import dataclass
 
 SIGNATURES = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
-MOST_PAGES = 10_000
+MOST_PAGES = 10_000  # scanners save some; it bounds the time
 
-_MOST_ENTRIES = 4096
+_MOST_ENTRIES = 4096  # a directory has twenty; so many take no time
 _VALUE_FORMATS = {3: "H", 4: "I", 16: "Q"}
-_TEXT = 2
-_SUBFILE, _WIDTH, _HEIGHT, _BITS, _COMPRESSION, _PHOTOMETRIC = 254, 256, 257, 258, 259, 262
-_DESCRIPTION, _ORIENTATION, _SAMPLES, _PAGE_NAME, _SAMPLE_FORMAT = 270, 274, 277, 285, 339
+_TEXT = 2  # field type of TIFF 6.0
+_SUBFILE, _WIDTH, _HEIGHT, _BITS, _COMPRESSION, _PHOTOMETRIC = 254, 256, 257, 258, 259, 262  # tags of TIFF 6.0
+_DESCRIPTION, _ORIENTATION, _SAMPLES, _PAGE_NAME, _SAMPLE_FORMAT = 270, 274, 277, 285, 339  # tags of TIFF 6.0
+# of TIFF 6.0
 _DEFAULTS = {_SUBFILE: 0, _BITS: 1, _COMPRESSION: 1, _PHOTOMETRIC: 1, _ORIENTATION: 1, _SAMPLES: 1, _SAMPLE_FORMAT: 1}
-_REDUCED_OR_MASK = 0b101
-_PALETTE, _FLOATING = 3, 3
-_UPRIGHT = 1
+_REDUCED_OR_MASK = 0b101  # bits of the subfile type
+_PALETTE, _FLOATING = 3, 3  # values of photometric interpretation and of sample format
+_UPRIGHT = 1  # first row at the top
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,8 @@ from aadm_workbench.design.recognise.paths import Straight, joined
 from aadm_workbench.model import Array
 
 _UP = np.array([0.0, 0.0, 1.0])
-_PARALLEL_SINE = 1e-6
-_NO_LENGTH_MM = 1e-6
+_PARALLEL_SINE = 1e-6  # axes that cross beyond a thousand kilometres
+_NO_LENGTH_MM = 1e-6  # a thousandth of what designs are read to
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,8 +23,8 @@ _MOST_HANGS = 3
 """So many solids of a model to which there is no end: after them none is waited for any more."""
 
 _HEAD = struct.Struct("<qq")
-_FAILED = -1
-_PIECE_BYTES = 2**20
+_FAILED = -1  # no process ends with it
+_PIECE_BYTES = 2**20  # bounds the memory, not the time
 
 Drawn = tuple[Array, IntArray]
 """Vertices (n, 3) mm and corners (m, 3) of triangles."""

@@ -25,6 +25,7 @@ _BROKEN_BYTE = -12.0
 _WORD = 10.0
 """A word of precast concrete in a reading: accidents hardly ever spell one."""
 
+# a choice, not tuned since: natural logarithms, of a character of 10,000 and of one that no name holds
 _RARE, _STRANGE = math.log(0.1 / 10000), -14.0
 _LETTER, _KANA, _SYMBOL = math.log(0.9 / 50), math.log(0.9 / 90), -7.0
 """Log odds of one character: some 10,000 ideographs are rare, letters and kana are a few dozen."""
@@ -35,7 +36,7 @@ _AMONG_LETTERS = -6.0
 _FIRST_OF_RUN = -4.0
 """Half-width kana stand in runs."""
 
-_ASCII = -3.5
+_ASCII = -3.5  # natural logarithm: one of some thirty letters
 _CLOSE = 3.0
 """Differences in log likelihood below this leave the encoding open; the file's owner is told so."""
 
@@ -151,6 +152,7 @@ def _odds(sign: str, encoding: str) -> float:
     return _STRANGE
 
 
+# natural logarithms: a choice, not tuned since
 _SCRIPTS: tuple[tuple[Callable[[int], bool], float], ...] = (
     (lambda code: 0x3040 <= code < 0x3100, _KANA),
     (lambda code: 0xAC00 <= code < 0xD7A4, _HANGUL),

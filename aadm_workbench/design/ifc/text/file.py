@@ -23,7 +23,7 @@ _LOG_ERROR = re.compile(r"\[error\]\s*(?:\[[^\]]*\]\s*)*(?P<text>.+)")
 _AT_OFFSET = re.compile(r"\s*at offset (?P<offset>\d+)")
 _COMMENT = re.compile(rb"/\*.*?\*/", re.DOTALL)
 _OVERWRITTEN = re.compile(r"Overwriting instance with name #(\d+)")
-_SHOWN = 4
+_SHOWN = 4  # complaints in a message
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,7 +32,7 @@ _PLAIN_ENTRIES = re.compile(
     re.IGNORECASE,
 )
 _ENTRIES = "FILE_DESCRIPTION((''),'2;1');FILE_NAME('','',(''),(''),'','','');FILE_SCHEMA(('{}'));"
-_HEADER_CHARACTERS = 65536
+_HEADER_CHARACTERS = 65536  # headers have some hundred
 
 _MEANT_BY_STEP = 12.0
 """Log odds that escaped bytes are what the standard says, Latin letters, and not those of a code page."""
@@ -180,7 +180,7 @@ def _with_plain_backslashes(text: str, notes: list[str]) -> str:
     return repaired
 
 
-_SHOWN_LINES = 4
+_SHOWN_LINES = 4  # lines in a message
 
 
 def _with_header(text: str, schemas: Sequence[str], notes: list[str]) -> tuple[str, str | None]:
