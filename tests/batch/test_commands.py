@@ -141,6 +141,7 @@ def test_extract(scan: str, capsys: Output) -> None:
     first, second = document["points"]
     assert first == {
         "centre_mm": [0.3333, 0.0, 0.0],
+        "scan_mm": [0.3333, 0.0, 0.0],
         "axis": [0.0, 0.0, 1.0],
         "diameter_mm": 26.0,
         # Only what lies across the vertical counts: the root of the mean of 0.03² and 0.04².

@@ -148,7 +148,7 @@ def test_what_killed_the_check_itself_is_given_up_by_the_next(job: Path, reposit
     pytest.importorskip("distributed")
     script = f"""
 import os, sys
-from batch import order
+from batch.runner import order
 from batch.main import main
 real = order.check_task
 def check_task(task):

@@ -58,7 +58,7 @@ def test_half_of_what_is_stated_to_be_open_is_feasible() -> None:
 
 @pytest.mark.parametrize("name", ["36/20", "28/20"])
 def test_advice_that_is_followed_helps(name: str) -> None:
-    found = repaired_columns(BY_NAME[name], 16, np.random.default_rng(5))
+    found = repaired_columns(BY_NAME[name], 30, np.random.default_rng(5))
     assert found.failing > 4
     assert found.promised > 3
     assert found.kept == 1.0

@@ -245,7 +245,8 @@ def test_files_that_are_no_reports_or_scans_get_a_sentence(freecad: Any) -> None
     result = freecad.run(
         "import FreeCAD\n"
         "from aadm_workbench.errors import AadmError\n"
-        "from aadm_workbench.document import api, open_report, open_scan\n"
+        "from aadm_workbench.document import api, open_scan\n"
+        "from aadm_workbench.document.report import opened as open_report\n"
         "document = FreeCAD.newDocument('bad')\n"
         "result['said'] = {}\n"
         f"for name in {list(BAD)!r}:\n"

@@ -21,7 +21,7 @@ import sys
 sys.path.insert(0, {folder!r})
 import FreeCAD
 import freecad_author
-from aadm_workbench.document.sample import sample_column, sample_document
+from aadm_workbench.document.sample.columns import sample_column, sample_document
 from aadm_workbench.errors import AadmError
 
 def plain(points):

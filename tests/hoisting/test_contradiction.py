@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from aadm_workbench.design.pattern import inline_design
 
+from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.hoisting.contradiction import contradiction_of
 from aadm_workbench.model import Correction, Finding, HoistingMeasurement, HoistingPair, HoistingReport, Verdict
 

@@ -98,12 +98,15 @@ def _line_search(
 
 def _barrier(value: Array, mu: Array) -> tuple[Array, Array]:
     """Smallest s − μ·Σ log(s − value_i) over s, (k,), and the level s (k,) at which Σ μ/(s − value_i) is one."""
-    level = value.max(axis=1) + mu
+    top = value.max(axis=1)
+    # A step that leads far away is tried, too: beside its values the aim may be less than their last place.
+    least = top * (1.0 + _SMALLEST_SLACK)
+    level = np.maximum(top + mu, least)
     for _ in range(_LEVEL_ROUNDS):
         inverse = mu[:, None] / (level[:, None] - value)
         # Newton's on the reciprocal of the sum, which is linear in s wherever the largest values are alike.
         total = inverse.sum(axis=1)
-        level = level + total * (total - 1.0) * mu / np.einsum("kn,kn->k", inverse, inverse)
+        level = np.maximum(level + total * (total - 1.0) * mu / np.einsum("kn,kn->k", inverse, inverse), least)
     return level - mu * np.log((level[:, None] - value) / mu[:, None]).sum(axis=1), level
 
 

@@ -49,7 +49,7 @@ _GAP = 1e-4
 """Share to which a squared ratio has to be known: some hundred times finer than the spread of the draws."""
 
 _LEAST_U = 1e-6  # mm: keeps quotients of exact points finite
-_LEAST_SHARE = 1e-9  # keeps logarithms finite
+_LEAST_SHARE = 1e-9  # keeps multipliers above zero
 
 
 @dataclass(frozen=True, eq=False)

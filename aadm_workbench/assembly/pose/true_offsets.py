@@ -33,7 +33,7 @@ _FREEDOM = 4.0
 _PRIOR_POINTS = 1.0
 """The usual scatter of bars and sleeves counts as one pair does."""
 
-_USUAL_VARIANCE = 2.0 * USUAL_SCATTER_MM**2  # mm²: of both axes
+_USUAL_VARIANCE = 2.0 * USUAL_SCATTER_MM**2  # mm²: of a bar and its sleeve together, per axis
 
 _SMALLEST_VARIANCE = 0.05**2  # mm²: no pattern is cast to less than a twentieth
 _TINY = 1e-18  # keeps quotients finite

@@ -13,7 +13,7 @@ from batch.runner.folder_lock import locked
 HOLDS = """
 import sys
 from pathlib import Path
-from batch.folder_lock import locked
+from batch.runner.folder_lock import locked
 with locked(Path(sys.argv[1])):
     print("held", flush=True)
     sys.stdin.read()

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.errors import CameraError, MissingDependencyError, ScanError
-from aadm_workbench.model import Camera, FloatArray
+from aadm_workbench.model import OPENGL_AXES, Camera, FloatArray
 from aadm_workbench.scan.formats import lzf
 from aadm_workbench.scan.read import read_scan
 from aadm_workbench.scan.write import write_pcd
@@ -216,12 +216,13 @@ def test_kinect_frame_of_another_program(reference_clouds: Path) -> None:
     assert scan.dropped == 307_200 - 249_647
     assert np.isfinite(scan.points).all(axis=-1).sum() == 249_647
     np.testing.assert_array_equal(scan.viewpoint, [0, 0, 0])
-    # Turned by 180 degrees about x, everything in front of the camera has a negative z.
-    assert np.nanmax(scan.points[..., 2]) < 0
+    # The file is turned by 180 degrees about x: what lies before the camera has a negative z there, as OpenGL has it.
+    assert scan.axes == OPENGL_AXES
+    assert np.nanmin(scan.points[..., 2]) > 0
 
     kinect = Camera(525.0, 525.0, 319.5, 239.5, 640, 480)
     seen = read_scan(path, units="m", camera=kinect)
-    np.testing.assert_allclose(seen.points * [1, -1, -1], scan.points, atol=1e-3)
+    np.testing.assert_allclose(seen.points, scan.points, atol=1e-3)
     with pytest.raises(CameraError, match="pixels beside the rays"):
         read_scan(path, units="m", camera=Camera(575.0, 575.0, 319.5, 239.5, 640, 480))
 
