@@ -21,6 +21,7 @@ from aadm_workbench.assembly.group_notes import of_the_files, typical_u_mm, unsu
 from aadm_workbench.assembly.inspect import describe_ambiguity, inspect_group
 from aadm_workbench.assembly.matching.match import Match, match_extraction
 from aadm_workbench.assembly.matching.views import merge_views
+from aadm_workbench.assembly.missing_points import missing_places, reasons_of_missing, with_reasons
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.repair.bends import advise_repair
@@ -29,10 +30,8 @@ from aadm_workbench.assembly.survey.control import ControlPose, fit_control_poin
 from aadm_workbench.assembly.survey.datum import with_absolute
 from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.errors import JobError
-from aadm_workbench.extract.missing import explain_missing
 from aadm_workbench.extract.sizes import extract_sizes
 from aadm_workbench.model import (
-    Array,
     AssemblyPoint,
     ColumnDesign,
     ColumnReport,
@@ -40,7 +39,6 @@ from aadm_workbench.model import (
     Extraction,
     GroupReport,
     Kind,
-    PointResult,
     Profile,
     RepairReport,
     Scan,
@@ -183,9 +181,9 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
         if len(views) > 1:
             extraction, notes = merge_views([one for one, _ in found], [one for _, one in found])
             match = match_extraction(points, extraction, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
-            reasons = dict.fromkeys(_missing_places(points, match), f"in none of the {len(views)} views")
+            reasons = dict.fromkeys(missing_places(points, match), f"in none of the {len(views)} views")
         else:
-            reasons = _reasons(scan, extraction, _missing_places(points, match), diameter_mm, rng)
+            reasons = reasons_of_missing(scan, extraction, missing_places(points, match), diameter_mm, rng)
     scale_error = _scale_error(scan)
     with stage("assembly"):
         report = inspect_group(
@@ -204,7 +202,7 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
         notes = (*report.notes, *notes, *unsupported(u_mm, settings.profile, kind))
         dropped = sum(view.dropped for view in views)
         report = replace(report, notes=notes, quality={**report.quality, "u_mm": u_mm, "dropped_points": dropped})
-        measured = Measured(extraction, match, _with_reasons(report, reasons))
+        measured = Measured(extraction, match, with_reasons(report, reasons))
         if control is not None and match:
             at = in_scan_frame(scans.control_points, scan)
             measured = _in_the_building(measured, points, at, control, settings, scale_error)
@@ -230,7 +228,7 @@ def _matched(
 ) -> tuple[Extraction, Match]:
     """Which point of a scan is which; where some are missing, look again at the places where they should be."""
     match = match_extraction(points, extraction, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
-    places = _missing_places(points, match)
+    places = missing_places(points, match)
     if not places or settings.method != "refined":
         return extraction, match
     sought = np.array(list(places.values()))
@@ -270,43 +268,6 @@ def _in_the_building(
         scale_error=scale_error,
     )
     return replace(measured, report=with_absolute(measured.report, absolute, settings.profile))
-
-
-def _missing_places(points: tuple[AssemblyPoint, ...], match: Match) -> dict[int, Array]:
-    """Where in the scan (3,) mm the design points should be that were not found, by their index."""
-    if not match:
-        return {}
-    placement = match.placements[0]
-    T_scan_design = np.linalg.inv(placement.T_design_scan)
-    return {
-        k: T_scan_design[:3, :3] @ points[k].centre + T_scan_design[:3, 3]
-        for k in np.flatnonzero(placement.matched < 0).tolist()
-    }
-
-
-def _reasons(
-    scan: Scan, extraction: Extraction, places: Mapping[int, Array], diameter_mm: float, rng: np.random.Generator
-) -> dict[int, str]:
-    if not places:
-        return {}
-    texts = explain_missing(scan, extraction, np.array(list(places.values())), diameter_mm, rng)
-    return dict(zip(places, texts, strict=True))
-
-
-def _with_reasons(report: GroupReport, reasons: Mapping[int, str]) -> GroupReport:
-    """The report with the reason for each point that was not measured, in the points and in the summary."""
-    if not reasons:
-        return report
-    points = tuple(_explained(point, reasons.get(k)) for k, point in enumerate(report.points))
-    said = tuple(f"{report.points[k].label} not measured: {text}" for k, text in reasons.items())
-    kept = tuple(text for text in report.reasons if "not measured" not in text and "not found" not in text)
-    return replace(report, points=points, reasons=(*kept, *said))
-
-
-def _explained(point: PointResult, reason: str | None) -> PointResult:
-    if reason is None or point.verdict is not Verdict.NOT_MEASURED:
-        return point
-    return replace(point, reason=f"{point.label}: {reason}")
 
 
 def _try(design: ColumnDesign, sleeves: Measured, rebars: Measured, settings: CheckSettings) -> TrialReport:

@@ -3,22 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from aadm_workbench.design.cloud_walls import (
+    _ON_FACE_MM,
+    FEWEST_ON_RING,
+    OFF_WALL_MM,
+    OFF_WALL_RATIO,
+    PER_MM,
+    THICKNESS_MM,
+    Ring,
+    Wall,
+    _crowded,
+    wall_of,
+)
 from aadm_workbench.design.elements import Element, Solid
-from aadm_workbench.design.recognise.flat_circle import flat_circle, plane_across, widest_gap
+from aadm_workbench.design.recognise.flat_circle import flat_circle, widest_gap
 from aadm_workbench.design.recognise.tubes import Tube
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Array, BoolArray, IntArray
 
 _FEWEST_POINTS = 200  # a column with a ring of sleeves has thousands
-_PER_MM = 4.0
-"""A slab is so thick that a wall shows about so many points on each mm of its outline."""
 
-# of the slabs in which rings are looked for: thin enough for a bar's end, thick enough to hold a ring
-_THICKNESS_MM = (10.0, 100.0)
 _GAP_POINTS = 12.0
 """Along an outline of thousands of random points no gap is wider than so many mean distances."""
 
@@ -27,38 +34,11 @@ _GAP_MM = (2.0, 7.0)
 
 _CONCRETE_GAP_MM = 60.0  # between points of one body: wider than any spacing of points that still shows a bar
 _RADIUS_MM = (4.0, 80.0)  # from the thinnest bar (8 mm) to beyond the widest sleeve
-_OFF_WALL_MM = 0.6  # points are sampled on facets, and rounded: a choice, not tuned since
-_OFF_WALL_RATIO = 0.03  # of the radius: facets of a circle of 13 sides or more lie within it
 # less than a quarter of its circle may be missing: a plate beside a bore has more missing
 _WIDEST_GAP = np.radians(75.0)
-_FEWEST_ON_RING = 12  # a circle of 12 sides, its corners alone
 _SAME_AXIS_MM = 3.0  # from slab to slab: an axis that leans by two degrees moves as much in 100 mm
-_ON_FACE_MM = 3.0  # about a level: points of a face, and of what is a chamfer's width behind it
-_FACE_WIDTH_MM = 15.0  # around a mouth: less than the cover of a sleeve
-_FACE_MM = 0.2  # of one level: noise and rounding of a model's cloud
-_FEWEST_ON_FACE = 4  # of one level, at a mouth
 _LARGEST_SAMPLE = 1_500_000  # points: bounds the memory
 _SMALLEST_COLUMN_MM = 150.0  # across: no column is thinner, and a bar or a sleeve alone is
-
-
-@dataclass(frozen=True, eq=False)
-class _Ring:
-    """A round outline in one slab: ``centre`` (2,) mm and ``radius_mm``; whether concrete is drawn around it there."""
-
-    slab: int
-    centre: Array
-    radius_mm: float
-    inside: bool
-
-
-@dataclass(frozen=True, eq=False)
-class _Wall:
-    """An upright round wall: its axis from ``start`` to ``end`` (3,) mm."""
-
-    start: Array
-    end: Array
-    diameter_mm: float
-    inside: bool
 
 
 def elements_of_cloud(points: Array, source: str) -> list[Element]:
@@ -83,7 +63,7 @@ def elements_of_cloud(points: Array, source: str) -> list[Element]:
     local = points[:: max(1, len(points) // _LARGEST_SAMPLE)] - origin
     slabs, gap_mm = _slabs(local)
     rings, outlines = _rings(slabs, gap_mm)
-    walls = [wall for family in _families(rings) if (wall := _wall(local, family, slabs)) is not None]
+    walls = [wall for family in _families(rings) if (wall := wall_of(local, family, slabs)) is not None]
     elements = [_bar(number, wall, origin) for number, wall in enumerate(walls, start=1) if not wall.inside]
     holes = [wall for wall in walls if wall.inside]
     return [*_columns(holes, outlines, slabs, local, origin), *elements]
@@ -93,7 +73,7 @@ def _slabs(points: Array) -> tuple[list[Array], float]:
     """Points slab by slab from below, those of level faces left out; and how far outlines in them may have gaps, mm."""
     spacing_mm = _spacing(points)
     low, high = float(points[:, 2].min()), float(points[:, 2].max())
-    thickness_mm = float(np.clip(_PER_MM * spacing_mm**2, *_THICKNESS_MM))
+    thickness_mm = float(np.clip(PER_MM * spacing_mm**2, *THICKNESS_MM))
     upright = points[~_on_level_faces(points[:, 2], spacing_mm)]
     number = np.floor((upright[:, 2] - low) / thickness_mm).astype(np.int64)
     order = np.argsort(number, kind="stable")
@@ -126,9 +106,9 @@ def _on_level_faces(z: Array, spacing_mm: float) -> BoolArray:
     return level
 
 
-def _rings(slabs: Sequence[Array], gap_mm: float) -> tuple[list[_Ring], list[list[Array]]]:
+def _rings(slabs: Sequence[Array], gap_mm: float) -> tuple[list[Ring], list[list[Array]]]:
     """Round outlines of all slabs, and the outlines of concrete in each."""
-    rings: list[_Ring] = []
+    rings: list[Ring] = []
     outlines: list[list[Array]] = []
     for number, slab in enumerate(slabs):
         fitted = [(part, _circle(part)) for part in _parts(slab[:, :2], gap_mm)]
@@ -141,7 +121,7 @@ def _rings(slabs: Sequence[Array], gap_mm: float) -> tuple[list[_Ring], list[lis
         for _, circle in fitted:
             if circle is not None:
                 inside = any(_encloses(outline, circle[0]) for outline in concrete)
-                rings.append(_Ring(number, circle[0], circle[1], inside))
+                rings.append(Ring(number, circle[0], circle[1], inside))
     return rings, outlines
 
 
@@ -150,7 +130,7 @@ def _parts(flat: Array, gap_mm: float) -> Iterator[Array]:
 
     Cells of that width that touch are one outline: a cloud has far too many pairs of points to look at.
     """
-    if len(flat) < _FEWEST_ON_RING:
+    if len(flat) < FEWEST_ON_RING:
         return
     from scipy.sparse import coo_matrix  # slow to import, and only clouds need it
     from scipy.sparse.csgraph import connected_components
@@ -166,7 +146,7 @@ def _parts(flat: Array, gap_mm: float) -> Iterator[Array]:
     label: IntArray = connected_components(graph, directed=False)[1].astype(np.int64)[number.reshape(-1)]
     order = np.argsort(label, kind="stable")
     for members in np.split(order, np.flatnonzero(np.diff(label[order])) + 1):
-        if len(members) >= _FEWEST_ON_RING:
+        if len(members) >= FEWEST_ON_RING:
             yield flat[members]
 
 
@@ -177,7 +157,7 @@ def _circle(flat: Array) -> tuple[Array, float] | None:
         return None
     spokes = flat - centre
     off_mm = np.abs(np.linalg.norm(spokes, axis=1) - radius_mm)
-    reach_mm = _OFF_WALL_MM + _OFF_WALL_RATIO * radius_mm
+    reach_mm = OFF_WALL_MM + OFF_WALL_RATIO * radius_mm
     if float(np.percentile(off_mm, 90.0)) > reach_mm or widest_gap(spokes) > _WIDEST_GAP:
         return None
     return centre, radius_mm
@@ -188,9 +168,9 @@ def _encloses(outline: Array, centre: Array) -> bool:
     return bool((low < centre).all() and (centre < high).all())
 
 
-def _families(rings: Sequence[_Ring]) -> list[list[_Ring]]:
+def _families(rings: Sequence[Ring]) -> list[list[Ring]]:
     """Rings one above the other, of one wall."""
-    families: list[list[_Ring]] = []
+    families: list[list[Ring]] = []
     for ring in rings:
         home = next((family for family in families if _goes_on(family[-1], ring)), None)
         if home is None:
@@ -200,96 +180,14 @@ def _families(rings: Sequence[_Ring]) -> list[list[_Ring]]:
     return families
 
 
-def _goes_on(last: _Ring, ring: _Ring) -> bool:
+def _goes_on(last: Ring, ring: Ring) -> bool:
     near = float(np.linalg.norm(last.centre - ring.centre)) < _SAME_AXIS_MM
-    alike = abs(last.radius_mm - ring.radius_mm) < _OFF_WALL_MM + _OFF_WALL_RATIO * ring.radius_mm
+    alike = abs(last.radius_mm - ring.radius_mm) < OFF_WALL_MM + OFF_WALL_RATIO * ring.radius_mm
     return near and alike and ring.slab - last.slab <= 2
 
 
-def _wall(points: Array, family: Sequence[_Ring], slabs: Sequence[Array]) -> _Wall | None:
-    """The cylinder through all points of a wall, and where it ends: at the face around it, or the disk on it."""
-    radius_mm = float(np.median([ring.radius_mm for ring in family]))
-    centre = np.median([ring.centre for ring in family], axis=0)
-    width_mm = radius_mm + 2.0 * _FACE_WIDTH_MM
-    points = _near(points, centre, width_mm)
-    shown = np.concatenate([_near(slabs[ring.slab], centre, width_mm) for ring in family])
-    foot = np.array([*centre, float(shown[:, 2].mean())])
-    axis = np.array([0.0, 0.0, 1.0])
-    reach_mm = _OFF_WALL_MM + _OFF_WALL_RATIO * radius_mm
-    for _ in range(6):
-        near = shown[np.abs(_off_axis(shown, foot, axis) - radius_mm) < reach_mm]
-        if len(near) < _FEWEST_ON_RING:
-            return None
-        foot, axis, radius_mm = _better(near, foot, axis, radius_mm)
-    inside = sum(ring.inside for ring in family) == len(family)
-    on_wall = points[np.abs(_off_axis(points, foot, axis) - radius_mm) < reach_mm]
-    level = (on_wall - foot) @ axis
-    slab_mm = _PER_MM * _THICKNESS_MM[1]
-    first, last = (float(((slabs[ring.slab] - foot) @ axis).mean()) for ring in (family[0], family[-1]))
-    level = level[(level > first - slab_mm) & (level < last + slab_mm)]
-    low, high = _run(np.sort(level), (first + last) / 2.0)
-    along = [_end(points, foot, axis, radius_mm, level_mm, inside=inside) for level_mm in (low, high)]
-    return _Wall(foot + along[0] * axis, foot + along[1] * axis, 2.0 * radius_mm, inside)
-
-
-def _near(points: Array, centre: Array, width_mm: float) -> Array:
-    kept: Array = points[(np.abs(points[:, :2] - centre) < width_mm).all(axis=1)]
-    return kept
-
-
-def _off_axis(points: Array, foot: Array, axis: Array) -> Array:
-    spokes = points - foot
-    off: Array = np.linalg.norm(spokes - (spokes @ axis)[:, np.newaxis] * axis, axis=1)
-    return off
-
-
-def _better(points: Array, foot: Array, axis: Array, radius_mm: float) -> tuple[Array, Array, float]:
-    """One Gauss-Newton step of the least-squares cylinder: two shifts, two leans, the radius."""
-    spokes = points - foot
-    level = spokes @ axis
-    across = spokes - level[:, np.newaxis] * axis
-    distance_mm = np.maximum(np.linalg.norm(across, axis=1), 1e-9)
-    out = across / distance_mm[:, np.newaxis]
-    u, v = plane_across(axis)
-    matrix = np.column_stack([-out @ u, -out @ v, -(out @ u) * level, -(out @ v) * level, -np.ones(len(points))])
-    step, *_ = np.linalg.lstsq(matrix, radius_mm - distance_mm, rcond=None)
-    axis = axis + step[2] * u + step[3] * v
-    return foot + step[0] * u + step[1] * v, axis / np.linalg.norm(axis), radius_mm + float(step[4])
-
-
-def _run(levels: Array, start_mm: float) -> tuple[float, float]:
-    """Where sorted heights go on without a gap, around one of them."""
-    step_mm = max(10.0, 20.0 * float(np.ptp(levels)) / max(len(levels), 1))
-    cuts = np.flatnonzero(np.diff(levels) > step_mm)
-    lows = [float(levels[0]), *(float(levels[cut + 1]) for cut in cuts)]
-    highs = [*(float(levels[cut]) for cut in cuts), float(levels[-1])]
-    inside = [(low, high) for low, high in zip(lows, highs, strict=True) if low <= start_mm <= high]
-    return inside[0] if inside else max(zip(lows, highs, strict=True), key=lambda run: run[1] - run[0])
-
-
-def _end(points: Array, foot: Array, axis: Array, radius_mm: float, level_mm: float, *, inside: bool) -> float:
-    """Height of a wall's end: that of the face around a hole, of the disk that ends a bar, else of its last point."""
-    level = (points - foot) @ axis
-    near = np.abs(level - level_mm) < _ON_FACE_MM
-    off_mm = _off_axis(points[near], foot, axis)
-    reach_mm = _OFF_WALL_MM + _OFF_WALL_RATIO * radius_mm
-    around = (off_mm > radius_mm + reach_mm) & (off_mm < radius_mm + _FACE_WIDTH_MM)
-    return _crowded(level[near][around if inside else off_mm < radius_mm - reach_mm], level_mm)
-
-
-def _crowded(levels: Array, otherwise_mm: float) -> float:
-    """The height at which most points lie: walls near by lie at all heights, a face at one."""
-    levels = np.sort(levels)
-    last = np.searchsorted(levels, levels + _FACE_MM, side="right")
-    crowd = last - np.arange(len(levels))
-    if not len(crowd) or crowd.max() < _FEWEST_ON_FACE:
-        return otherwise_mm
-    begin = int(crowd.argmax())
-    return float(np.median(levels[begin : last[begin]]))
-
-
 def _columns(
-    holes: Sequence[_Wall],
+    holes: Sequence[Wall],
     outlines: Sequence[Sequence[Array]],
     slabs: Sequence[Array],
     points: Array,
@@ -317,7 +215,7 @@ def _columns(
     ]
 
 
-def _column(number: int, corners: Array, holes: Sequence[_Wall], points: Array, origin: Array) -> Element:
+def _column(number: int, corners: Array, holes: Sequence[Wall], points: Array, origin: Array) -> Element:
     """A column: its outline from the face that its holes open in, or its lowest points, to its highest points."""
     foot_mm, head_mm = float(corners[:, 2].min()), float(corners[:, 2].max())
     around = _rectangle(corners[:, :2])
@@ -354,7 +252,7 @@ def _rectangle(flat: Array) -> Array:
     return turned
 
 
-def _bar(number: int, wall: _Wall, origin: Array) -> Element:
+def _bar(number: int, wall: Wall, origin: Array) -> Element:
     tube = Tube(wall.start + origin, wall.end + origin, round(wall.diameter_mm, 6), (None, None))
     solid = Solid((tube,), (), (np.array([tube.start, tube.end]),))
     return Element(f"bar-{number}", "", "", (solid,), np.eye(4), kind="Cloud")

@@ -14,11 +14,12 @@ from aadm_workbench.check import CheckSettings, Measured
 from aadm_workbench.errors import JobError
 from aadm_workbench.model import Assignment, ColumnDesign, FitCell, ShipmentGroup, ShipmentReport
 
+from ..entries import job_entry
 from ..job.inputs import read_for_shipping
 from ..job.model import Job
 from ..program import tool_entry
 from ..runner.engine import Unwatched, work_through
-from ..runner.run import RunOptions, job_entry, opened_pool, plan_tasks
+from ..runner.run import RunOptions, opened_pool, plan_tasks
 from ..stopwatch import Stopwatch
 from .task import MeasuredColumn, lost_measurement, measure_task
 

@@ -16,17 +16,17 @@ from typing import Any
 from aadm_workbench.as_designed import read_design
 from aadm_workbench.assembly.findings.same_scan import with_same_scans
 from aadm_workbench.assembly.findings.shape import design_shape
-from aadm_workbench.assembly.mould.moulds import assess_moulds
 from aadm_workbench.check import CheckSettings
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.errors import AadmError, DesignError, JobError
 from aadm_workbench.model import ColumnDesign, ColumnReport, JobReport
 from aadm_workbench.own_files import remove
 
+from ..entries import report_of
 from ..job.inputs import ShippedFile
 from ..job.model import Job, JobColumn
 from ..job.table import did_you_mean
-from ..program import program_key, tool_entry
+from ..program import program_key
 from ..stopwatch import Stopwatch
 from ..unforeseen import unforeseen_in
 from .engine import Death, Pool, work_through
@@ -204,7 +204,7 @@ def _collected(
         seconds[record.id] = record.seconds
         if record.where:
             traces[record.id] = record.where
-    return _report(job, model, settings, with_same_scans(columns)), seconds, traces
+    return report_of(job, model, settings, with_same_scans(columns)), seconds, traces
 
 
 def _column(record: Record) -> ColumnReport:
@@ -332,29 +332,3 @@ def _task(
     # Workers have another working folder.
     folder = job.folder.absolute()
     return ColumnTask(column, folder, design, settings, job.units, job.camera, job.depth_scale_mm, no_design)
-
-
-def _report(
-    job: Job, model: ModelDesign | None, settings: CheckSettings, columns: tuple[ColumnReport, ...]
-) -> JobReport:
-    return JobReport(
-        tool=tool_entry(),
-        job=job_entry(job, settings),
-        capture=job.capture,
-        model=None if model is None else {"source": model.source, "sha256": model.sha256},
-        profile=job.profile,
-        columns=columns,
-        mould_drift=assess_moulds(columns, job.profile),
-    )
-
-
-def job_entry(job: Job, settings: CheckSettings) -> dict[str, str]:
-    """What reports say about the job, and how it was run."""
-    return {
-        "name": job.name,
-        "sha256": job.sha256,
-        "units": job.units,
-        "method": settings.method,
-        "decision": settings.decision,
-        "seed": str(settings.seed),
-    }
