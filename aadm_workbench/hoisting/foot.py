@@ -36,7 +36,7 @@ _BANDS_MM = (6.0, 4.0, 2.5, 1.5, 1.0, 1.0)
 _LOOSE_FROM_MM = 2.0  # in narrower bands bores are found: what then stands far from its place is not to pull the others
 _WALL_FROM_MM = 1.15  # chamfers end before
 _WALL_MAX = 200  # of a bore, evenly taken: neighbours share their errors, more of them tell little
-_WALL_FEWEST = 25  # points of a bore: as in pooled.py
+_WALL_FEWEST = 25  # points of a bore: as in pooled/fit.py
 # neighbouring wall points share their errors: standard errors are this much larger; a choice: ±30 % moves centres by
 # up to 0.9 u and u by 6 %
 _WALL_CORRELATION = 1.6
