@@ -23,32 +23,27 @@ from .cluster import Cluster
 from .engine import Death, Ended
 from .remote_workers import GONE
 from .worker import (
-    TOO_LONG,
+    GRACE_S,
+    LOOK_S,
+    LOOK_SOON_S,
     Done,
     Introduction,
+    Say,
+    Ship,
     Terms,
+    death_of,
     introduce,
-    last_words,
     objection,
     read_log,
     remove_log,
     run_task,
 )
 
-_LOOK_S, _LOOK_SOON_S = 0.5, 0.1
-"""So often is looked which workers there are; more often while some are starting."""
-
-_GRACE_S = 30.0
-"""So long after its time limit is a worker ended from outside, which could not end itself."""
-
 _LAST_WORKER_S = 90.0
 """So long is waited for a worker where there is none."""
 
 _RESULT_S = 30.0  # a result is sent within a second: what has not come by then has gone with its worker
 _EXIT_S = 8.0  # a scheduler hears of a worker's end by its next heartbeats
-
-Ship = Callable[[Any], tuple[ShippedFile, ...]]
-Say = Callable[[str], None]
 
 
 @dataclass
@@ -90,7 +85,7 @@ class DaskPool:
         self._log = log
         self._workers: dict[str, _Worker] = {}
         self._ended: SimpleQueue[tuple[str, Any]] = SimpleQueue()
-        self._looked = -_LOOK_S
+        self._looked = -LOOK_S
         self._alive = monotonic()
         self._refusal = ""
         self._run = os.urandom(4).hex()
@@ -139,7 +134,7 @@ class DaskPool:
     def _pause_s(self) -> float:
         """How soon to look again: soon where workers are expected."""
         waited_for = [worker for worker in self._workers.values() if worker.known is None and not worker.refused]
-        return _LOOK_SOON_S if waited_for or not self._workers else _LOOK_S
+        return LOOK_SOON_S if waited_for or not self._workers else LOOK_S
 
     def close(self) -> None:
         """Take back what is still being worked on, and the logs of workers that are left."""
@@ -259,11 +254,12 @@ class DaskPool:
         written = self._last_written(known)
         for line in written.splitlines():
             self._log(f"{worker.address}: {line}")
-        if TOO_LONG in written or self._overdue(worker, 0.0):
-            words = f"ended after {self._terms.seconds:g} s, the time limit for one column (--time-limit)"
-            return Death(words, is_final=True)
-        cause = self._exit(worker, known) or "killed (nobody there says how)"
-        return Death(cause, last_words(written))
+        return death_of(
+            written,
+            lambda: self._exit(worker, known) or "killed (nobody there says how)",
+            self._terms,
+            is_overdue=self._overdue(worker, 0.0),
+        )
 
     def _last_written(self, known: Introduction) -> str:
         """What a dead worker left in its log: read here, or on its own machine, where another worker runs there."""
@@ -287,13 +283,12 @@ class DaskPool:
         return words
 
     def _overdue(self, worker: _Worker, grace_s: float) -> bool:
-        limit = self._terms.seconds
-        return limit is not None and worker.place is not None and monotonic() - worker.began > limit + grace_s
+        return worker.place is not None and self._terms.is_over(monotonic() - worker.began - grace_s)
 
     def _end_overdue(self) -> None:
         """End workers that are long over their time and could not end themselves: stopped, or stuck in the system."""
         for worker in list(self._workers.values()):
-            if worker.known is not None and self._overdue(worker, _GRACE_S):
+            if worker.known is not None and self._overdue(worker, GRACE_S):
                 self._keeper.kill(worker.address, worker.known.pid)
 
 

@@ -12,33 +12,27 @@ from typing import Any
 
 from aadm_workbench.errors import AadmError, JobError
 
-from ..job.inputs import ShippedFile
 from .engine import Death, Ended
 from .local_workers import LocalProcess, LocalWorkers
 from .pipes import Conversation, Failed
 from .worker import (
-    TOO_LONG,
+    GRACE_S,
+    LOOK_S,
+    LOOK_SOON_S,
     Done,
     Introduction,
+    Say,
+    Ship,
     Terms,
+    death_of,
     introduce,
-    last_words,
     objection,
     read_log,
     remove_log,
     run_task,
 )
 
-_LOOK_S, _LOOK_SOON_S = 0.5, 0.1
-"""So often is looked which workers there are; more often while some are starting."""
-
-_GRACE_S = 30.0
-"""So long after its time limit is a worker ended from outside, which could not end itself."""
-
 _EXIT_S = 8.0  # one that does not end by then is killed
-
-Ship = Callable[[Any], tuple[ShippedFile, ...]]
-Say = Callable[[str], None]
 
 
 @dataclass
@@ -80,7 +74,7 @@ class LocalPool:
         self._log = log
         self._workers: dict[int, _Worker] = {}
         self._heard: SimpleQueue[tuple[int, Any]] = SimpleQueue()
-        self._looked = -_LOOK_S
+        self._looked = -LOOK_S
         self._look()
 
     def idle(self) -> Sequence[str]:
@@ -125,7 +119,7 @@ class LocalPool:
     def _pause_s(self) -> float:
         """How soon to look again: soon where workers are expected."""
         are_starting = any(worker.known is None for worker in self._workers.values())
-        return _LOOK_SOON_S if are_starting or not self._workers else _LOOK_S
+        return LOOK_SOON_S if are_starting or not self._workers else LOOK_S
 
     def _look(self) -> None:
         """See which workers have come, and which have gone while they had nothing to do."""
@@ -194,10 +188,7 @@ class LocalPool:
         remove_log(known.log)
         for line in written.splitlines():
             self._log(f"{worker.name}: {line}")
-        if TOO_LONG in written or self._is_overdue(worker, 0.0):
-            words = f"ended after {self._terms.seconds:g} s, the time limit for one column (--time-limit)"
-            return Death(words, is_final=True)
-        return Death(how, last_words(written))
+        return death_of(written, lambda: how, self._terms, is_overdue=self._is_overdue(worker, 0.0))
 
     def _exit(self, number: int) -> str:
         """How the process ended; one that only fell silent is ended."""
@@ -209,13 +200,12 @@ class LocalPool:
         return words or "killed (and does not end)"
 
     def _is_overdue(self, worker: _Worker, grace_s: float) -> bool:
-        limit = self._terms.seconds
-        return limit is not None and worker.place is not None and monotonic() - worker.began > limit + grace_s
+        return worker.place is not None and self._terms.is_over(monotonic() - worker.began - grace_s)
 
     def _end_overdue(self) -> None:
         """End workers that are long over their time and could not end themselves: stopped, or stuck in the system."""
         for number, worker in self._workers.items():
-            if self._is_overdue(worker, _GRACE_S):
+            if self._is_overdue(worker, GRACE_S):
                 self._processes.kill(number)
 
 

@@ -17,7 +17,17 @@ from typing import IO, Any
 
 from ..job.inputs import ShippedFile, unpack
 from ..program import difference, program_versions
+from .engine import Death
 from .one_thread import is_in_one_thread
+
+LOOK_S, LOOK_SOON_S = 0.5, 0.1
+"""So often is looked which workers there are; more often while some are starting."""
+
+GRACE_S = 30.0
+"""So long after its time limit is a worker ended from outside, which could not end itself."""
+
+Ship = Callable[[Any], tuple[ShippedFile, ...]]
+Say = Callable[[str], None]
 
 _LOG_BYTES = 16_384
 """So much of what a column writes is kept."""
@@ -47,6 +57,10 @@ class Terms:
     log_folder: Path
     memory_bytes: int | None = None
     seconds: float | None = None
+
+    def is_over(self, worked_s: float) -> bool:
+        """Whether a column that was worked on for so long is over its time."""
+        return self.seconds is not None and worked_s > self.seconds
 
 
 @dataclass(frozen=True)
@@ -93,6 +107,14 @@ def introduce(terms: Terms) -> Introduction:
         sees_job=terms.folder.is_dir(),
         one_thread=is_in_one_thread(),
     )
+
+
+def death_of(written: str, how: Callable[[], str], terms: Terms, *, is_overdue: bool) -> Death:
+    """What a worker died of, by what it wrote last; ``how`` its process ended is asked where that says nothing."""
+    if TOO_LONG in written or is_overdue:
+        words = f"ended after {terms.seconds:g} s, the time limit for one column (--time-limit)"
+        return Death(words, is_final=True)
+    return Death(how(), last_words(written))
 
 
 def objection(known: Introduction, terms: Terms, *, ships: bool) -> str:

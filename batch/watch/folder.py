@@ -12,7 +12,6 @@ from aadm_workbench.scan.read import supported_formats
 from ..job.direction import NEAR
 
 _STEADY_LOOKS = 2  # in a row with the same size: a file that grows changes between them
-_MOST_KNOWN = 2_000  # frames of some hours; names of older ones are forgotten
 _PATIENCE_LOOKS = 8  # a second or so, until a file of full size also has its content
 
 

@@ -91,12 +91,6 @@ def _unmeasured(point: PointResult, reason: str) -> PointResult:
 
 
 def _unspaced(spacing: SpacingResult, reason: str) -> SpacingResult:
-    return replace(
-        spacing,
-        measured_mm=None,
-        deviation_mm=None,
-        u_mm=None,
-        probability=None,
-        verdict=Verdict.NOT_MEASURED,
-        reason=reason,
+    return SpacingResult(
+        spacing.between, spacing.design_mm, None, None, None, spacing.limit_mm, Verdict.NOT_MEASURED, reason
     )

@@ -18,8 +18,6 @@ from aadm_workbench.assembly.rules import applicable_rules, not_assessed, rule_r
 from aadm_workbench.model import PairResult, PoseWindow, Profile, RuleResult, TrialPose, TrialReport, Verdict
 
 QUANTITY = "sleeve_rebar_distance"
-_HARDLY_SEEN = "but what was hardly seen does not pass"
-_TOO_CLOSE = "too close to the limit for the uncertainty"
 NO_POSE = "no pose brings every rebar into its sleeve"
 
 _MOST_RESCANNED = 2  # a person scans again once or twice, and then sees further
