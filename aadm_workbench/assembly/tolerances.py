@@ -41,6 +41,9 @@ QUANTITIES = {
     "column_axis": "radial",
     "elevation": "signed",
     "verticality": "signed",
+    "section_size": "signed",
+    "pattern_in_section": "per_axis",
+    "face_flatness": "signed",
 }
 """What a rule can limit, and how its deviation is taken unless the rule says otherwise."""
 

@@ -31,6 +31,7 @@ from aadm_workbench.assembly.survey.datum import with_absolute
 from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.errors import JobError
 from aadm_workbench.extract.sizes import extract_sizes
+from aadm_workbench.inspection.section import section_of
 from aadm_workbench.model import (
     AssemblyPoint,
     ColumnDesign,
@@ -45,6 +46,7 @@ from aadm_workbench.model import (
     TrialReport,
     Verdict,
 )
+from aadm_workbench.model.section import SectionReport
 
 IMAGE_UP_SCAN = np.array([0.0, -1.0, 0.0])
 """Direction of the image's top in the scan frame: -y."""
@@ -121,16 +123,30 @@ def check_column(
     checks = _wanted(design, scans, settings)
     measured = measure_column(design, scans, settings, stage)
     trial, repair = None, None
-    if "trial" in checks:
-        with stage("assembly"):
+    with stage("assembly"):
+        if "trial" in checks:
             trial = _try(design, measured[Kind.SLEEVE], measured[Kind.REBAR], settings)
             repair = _repair(design, measured[Kind.SLEEVE], measured[Kind.REBAR], trial, settings)
             trial = with_blame(trial, repair)
-    report = replace(_report(design, measured, trial, checks, settings.profile), repair=repair)
+        section = _section(design, scans, measured, settings)
+    report = replace(_report(design, measured, trial, checks, settings.profile), repair=repair, section=section)
     seen = {kind: Seen(_seen(design, kind, scans, measured[kind]), scans.of(kind)[0]) for kind in measured}
     rng = np.random.default_rng([settings.seed, 4])
     with stage("assembly"):
         return with_findings(report, design, seen, method=settings.method, rng=rng, others=scans.others, checks=checks)
+
+
+def _section(
+    design: ColumnDesign, scans: ColumnScans, measured: Mapping[Kind, Measured], settings: CheckSettings
+) -> SectionReport | None:
+    """The foot's own section, from the first of its scans."""
+    sleeves = measured.get(Kind.SLEEVE)
+    if sleeves is None or len(scans.sleeves) > 1 or settings.method != "refined":
+        return None
+    rng = np.random.default_rng([settings.seed, 5])
+    return section_of(
+        design, scans.sleeves[0], sleeves.extraction, sleeves.match, settings.profile, settings.decision, rng
+    )
 
 
 def _seen(design: ColumnDesign, kind: Kind, scans: ColumnScans, measured: Measured) -> SeenGroup:

@@ -11,6 +11,7 @@ from aadm_workbench.model.hoisting import HoistingReport
 from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile
+from aadm_workbench.model.section import SectionReport
 from aadm_workbench.model.verdicts import SUMMED, Verdict
 
 
@@ -18,7 +19,8 @@ from aadm_workbench.model.verdicts import SUMMED, Verdict
 class ColumnReport:
     """Everything that report.json holds about one column; ``repair`` where its trial did not pass.
 
-    ``findings`` are what contradicts the design, what was declared, or the camera.
+    ``findings`` are what contradicts the design, what was declared, or the camera. ``section`` is that of the foot;
+    None where the design does not say where its section lies, or nothing says which edge is which.
     """
 
     id: str
@@ -39,6 +41,7 @@ class ColumnReport:
     notes: tuple[str, ...] = ()
     repair: RepairReport | None = None
     findings: tuple[Finding, ...] = ()
+    section: SectionReport | None = None
 
 
 @dataclass(frozen=True, eq=False)

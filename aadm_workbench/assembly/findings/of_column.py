@@ -15,6 +15,7 @@ from aadm_workbench.assembly.findings.odd_bars import odd_bar_findings
 from aadm_workbench.assembly.findings.rules import findings_of
 from aadm_workbench.assembly.findings.shared_ids import shared_id_findings
 from aadm_workbench.assembly.findings.void import without_spoilt
+from aadm_workbench.assembly.section.findings import section_findings
 from aadm_workbench.extract.sizes import extract_sizes
 from aadm_workbench.model import ColumnDesign, ColumnReport, Extraction, Finding, Kind, Scan
 
@@ -57,7 +58,7 @@ def with_findings(
     found = _without_turns(
         [*findings_of(design, list(groups.values())), *mistaken_findings(design, groups, scans, others)]
     )
-    found += shared_id_findings(design)
+    found += [*shared_id_findings(design), *section_findings(report.section)]
     if Kind.REBAR in seen and method == "refined":
         found += odd_bar_findings(groups[Kind.REBAR], seen[Kind.REBAR].scan, found, rng)
     lost = {kind for kind, group in groups.items() if not group.match}

@@ -18,6 +18,7 @@ from aadm_workbench.design.ifc.under import Under
 from aadm_workbench.design.recognise.pattern import label_order
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Kind
 
+_SAME_SIDE_MM = 0.5  # a tenth of what a section may be off
 _PAIR_LIMIT_MM = 3.0
 """Between the centre lines of a bar and its sleeve: GB/T 51231-2016, 10.4."""
 
@@ -56,10 +57,18 @@ def points_of(found: FoundFoot, under: Under) -> ColumnDesign:
         rebars=rebars,
         size_mm=(round(foot.sides_mm[0], 6), round(foot.sides_mm[1], 6)),
         T_model_column=T,
+        section_middle_mm=_section_middle(foot, middle),
         rebar_outer_diameter_mm=_over_ribs(bars),
         embedded_length_mm=_embedded(bars, foot, mouths),
         warnings=(*found.warnings, *under.warnings, *_own_misses(sleeves, rebars)),
     )
+
+
+def _section_middle(foot: Foot, middle: Array) -> tuple[float, float] | None:
+    """Middle of the face in the column frame; None where the smallest rectangle around it stands askew."""
+    if not np.allclose(foot.sides_mm, 2.0 * foot.half_size_mm, atol=_SAME_SIDE_MM):
+        return None
+    return -float(middle[0]), -float(middle[1])
 
 
 def _own_misses(sleeves: Sequence[AssemblyPoint], rebars: Sequence[AssemblyPoint]) -> list[str]:

@@ -149,6 +149,7 @@ def inline_design(id: str, table: Mapping[str, Any]) -> ColumnDesign:  # noqa: A
         raise DesignError(
             f"The design of column {id} has bars of several sizes and one rebar_outer_diameter: give a list, one each."
         )
+    size_mm = _size(id, table.get("size"))
     order = label_order(centres).tolist()
     points = [(number, index, centres[index]) for number, index in enumerate(order, start=1)]
     why = "the job's text"
@@ -165,12 +166,22 @@ def inline_design(id: str, table: Mapping[str, Any]) -> ColumnDesign:  # noqa: A
         id=id,
         sleeves=tuple(sleeves),
         rebars=tuple(rebars),
-        size_mm=_size(id, table.get("size")),
+        size_mm=size_mm,
         names=(id,),
         rebar_outer_diameter_mm=None if outer_mm is None or unlike else outer_mm[0],
         embedded_length_mm=embedded_mm,
         exposed_length_mm=_length(id, table, "exposed_length"),
+        section_middle_mm=_section_middle(table["centres"], size_mm),
     )
+
+
+def _section_middle(written: Any, size_mm: tuple[float, float] | None) -> tuple[float, float] | None:
+    """Middle of the section in the column frame: the origin of the centres as written, where that lies within it."""
+    xy = np.array(written, dtype=np.float64)
+    if size_mm is None or (np.abs(xy) > np.array(size_mm) / 2.0).any():
+        return None
+    x, y = -xy.mean(axis=0)
+    return float(x), float(y)
 
 
 def _check_that_bars_enter(

@@ -12,11 +12,12 @@ shows that at the mouths, whose bores are known; whether it drops them before an
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from aadm_workbench.extract.section.face_samples import FaceSamples
-from aadm_workbench.model import Array, BoolArray
+from aadm_workbench.model import Array, BoolArray, IntArray
 
 _FIRST_REACH_MM = 30.0  # sections are cast to within 5 mm, and patterns stand within 10 mm of their place in them
 _REACH_MM, _REACH_PITCHES = 6.0, 8.0  # to both sides of an edge that is known by and by
@@ -25,10 +26,16 @@ _FEWEST_STRIPS = 8  # of fewer a line has no scatter
 _CORNER_MM = 3.0  # of the neighbouring edge: nothing is asked so near to it
 _WITHIN_SHARE = 0.5  # of the strip on the side of the face: how densely it is found there
 _ASKED_MIN, _BEYOND_STEPS = 0.7, 3.0  # of the inner quarter of a strip; places beyond the edge where no face was found
+_LEAST_CHANCE = 0.02  # flying pixels, lost ones: nothing is quite sure
 _FOUND_MIN, _FLUSH_MAX = 0.25, 0.15  # thinner is no face; denser is something that goes on beyond the edge
 _SEEN_MIN = 0.5  # of the strips of an edge: half of one may be out of the picture or behind something
 _TUKEY, _ROUNDS = 4.0, 8  # of the scatter; rounds settle in four
 _STARTS, _LIKE_PITCHES, _BEYOND_COST = 14, 1.5, 2.0  # some hundred lines are tried; of strips on a line; of one beyond
+_MOST_ASKEW_MM = 8.0  # from end to end: sections are cast to 5 mm, and what hides a part of one runs as it likes
+_MOST_OFF_MM = 8.0  # from its place by design: sections and patterns keep to 5 mm each
+_SETTLED_PITCHES = 1.0  # of a step of the line: places about it are then the same
+_RIMS = 4  # mouths nearest to an edge are asked: their median tells as much as that of twelve
+_BLIND_PITCHES = 1.0  # about an edge: places fill it where rows of pixels run across it at some angle
 _ROUGHEST_MM = 1.5  # of strips: an edge that is broken all along is none
 _LEAST_SCATTER_PITCHES = 0.05  # strips are never better than that
 _LEAST_U_PITCHES = 0.1  # of one edge: what returns at its very end hangs on what it is made of
@@ -47,7 +54,7 @@ _OUT_OF_PICTURE = "too little of this edge is in the picture"
 
 @dataclass(frozen=True, eq=False)
 class Chip:
-    """Where concrete is missing at an edge: from ``begin_mm`` to ``end_mm`` along it, ``depth_mm`` deep."""
+    """Where concrete is missing at an edge: from ``begin_mm`` to ``end_mm`` along it, ``depth_mm`` deep at least."""
 
     begin_mm: float
     end_mm: float
@@ -85,11 +92,17 @@ class KnownMouths:
 
 @dataclass(frozen=True, eq=False)
 class _Strips:
-    """Strips (k,) across an edge: their places along it, and where in each the face ends, mm."""
+    """Strips (k,) across an edge: their places along it, and where in each the face ends, mm.
+
+    ``bare`` (m,) are the places of strips that show no face at all within ``reach_mm`` of the edge.
+    """
 
     along: Array
     end: Array
     seen: float
+    bare: Array
+    reach_mm: float
+    width_mm: float
 
 
 def edge_line(samples: FaceSamples, start: Array, end: Array, mouths: KnownMouths, band_mm: float) -> EdgeLine | str:
@@ -100,32 +113,22 @@ def edge_line(samples: FaceSamples, start: Array, end: Array, mouths: KnownMouth
     band_mm
         About the face: what returned from within counts as face.
     """
-    length_mm = float(np.hypot(*(end - start)))
-    along = (end - start) / length_mm
+    along = (end - start) / float(np.hypot(*(end - start)))
     normal = np.array([along[1], -along[0]])
     band_mm = _WIDE_MM if _looks_past(samples, (start + end) / 2.0, normal) else band_mm
-    line = _Guess(along, normal, float((start + end) @ along) / 2.0, float((start + end) @ normal) / 2.0, 0.0)
-    half_mm = length_mm / 2.0 - _CORNER_MM
-    fine_mm = max(_REACH_MM, _REACH_PITCHES * samples.pitch_mm)
-    strips: _Strips | str = _OUT_OF_PICTURE
-    fit: _Line | str = _OUT_OF_PICTURE
-    for reach_mm, step in ((_FIRST_REACH_MM, 3.0), (fine_mm, 1.0), (fine_mm, 1.0)):
-        s, d, height = _across(samples, line, mouths, half_mm, reach_mm, step * samples.pitch_mm)
-        strips = _ends(s, d, np.abs(height) < band_mm, half_mm, reach_mm, step * samples.pitch_mm)
-        if isinstance(strips, str):
-            return strips
-        fit = _line(strips, step * samples.pitch_mm)
-        if isinstance(fit, str):
-            return fit
-        line = replace(line, offset_mm=line.offset_mm + fit.offset, turn=line.turn + fit.turn)
-    on_edge = along * line.middle_mm + normal * line.offset_mm
-    zone_mm = _mixed_zone(d - fit.offset - fit.turn * s, height, band_mm, samples.pitch_mm)
-    beyond_mm = zone_mm / 2.0 + _taken_in(samples, on_edge, normal, band_mm) + samples.wider_mm
-    covariance = fit.covariance.copy()
-    covariance[0, 0] += (samples.pitch_mm * _LEAST_U_PITCHES) ** 2
-    lost_mm = _lost_at_rims(samples, mouths, normal, band_mm)
-    shared = zone_mm**2 / 12.0 + lost_mm**2 / 12.0 + samples.wider_mm**2 / 3.0
-    chips = _chips(strips, fit, line.middle_mm)
+    guess = _Guess(along, normal, float((start + end) @ along) / 2.0, float((start + end) @ normal) / 2.0, 0.0)
+    found = _found_edge(samples, guess, mouths, float(np.hypot(*(end - start))) / 2.0 - _CORNER_MM, band_mm)
+    if isinstance(found, str):
+        return found
+    line, why = found.line, _doubt(found.line, guess, samples, float(np.hypot(*(end - start))))
+    if why:
+        return why
+    place = along * line.middle_mm + normal * line.offset_mm
+    beyond_mm = found.zone_mm / 2.0 + _taken_in(samples, place, normal, band_mm) + samples.wider_mm
+    covariance = found.fit.covariance.copy()
+    covariance[0, 0] += (samples.pitch_mm * _LEAST_U_PITCHES) ** 2 + found.blind_mm**2 / 12.0
+    # Anything from nothing to all of these is as likely.
+    spans_mm = found.zone_mm, _lost_at_rims(samples, mouths, normal, band_mm), 2.0 * samples.wider_mm
     return EdgeLine(
         normal,
         along,
@@ -133,11 +136,53 @@ def edge_line(samples: FaceSamples, start: Array, end: Array, mouths: KnownMouth
         line.turn,
         line.middle_mm,
         covariance,
-        float(np.sqrt(shared)),
-        strips.seen,
-        fit.scatter,
-        chips,
+        float(np.linalg.norm(spans_mm) / np.sqrt(12.0)),
+        found.strips.seen,
+        found.fit.scatter,
+        _chips(found.strips, found.fit, line.middle_mm),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _FoundEdge:
+    line: _Guess
+    strips: _Strips
+    fit: _Line
+    zone_mm: float
+    blind_mm: float
+
+
+def _found_edge(
+    samples: FaceSamples, line: _Guess, mouths: KnownMouths, half_mm: float, band_mm: float
+) -> _FoundEdge | str:
+    """The line on which the face ends: looked for in wide strips, then in narrow ones about what these give."""
+    fine_mm = max(_REACH_MM, _REACH_PITCHES * samples.pitch_mm)
+    found: _FoundEdge | str = _OUT_OF_PICTURE
+    for reach_mm, pitches in ((_FIRST_REACH_MM, 3.0), (fine_mm, 1.0), (fine_mm, 1.0)):
+        step = pitches * samples.pitch_mm
+        s, d, height = _across(samples, line, mouths, half_mm, reach_mm, step)
+        strips = _ends(s, d, np.abs(height) < band_mm, half_mm, reach_mm, step)
+        if isinstance(strips, str):
+            return strips
+        fit = _line(strips, step)
+        if isinstance(fit, str):
+            return fit
+        line = replace(line, offset_mm=line.offset_mm + fit.offset, turn=line.turn + fit.turn)
+        off = d - fit.offset - fit.turn * s
+        zone_mm = _mixed_zone(off, height, band_mm, samples.pitch_mm)
+        found = _FoundEdge(line, strips, fit, zone_mm, _blind_mm(off, samples.pitch_mm))
+        if pitches == 1.0 and abs(fit.offset) < _SETTLED_PITCHES * samples.pitch_mm:
+            break
+    return found
+
+
+def _doubt(line: _Guess, guess: _Guess, samples: FaceSamples, length_mm: float) -> str:
+    """What speaks against a line being the edge of the foot; empty where nothing does."""
+    if abs(line.turn) * length_mm > _MOST_ASKEW_MM:
+        return "what ends the face here runs askew to the section: something hides a part of it"
+    if samples.eye is None and abs(line.offset_mm - guess.offset_mm) > _MOST_OFF_MM:
+        return "a cloud without its camera does not tell an edge of the foot from the border of the picture"
+    return ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,7 +216,16 @@ def _across(
     for centre, radius in zip(mouths.centres, mouths.radii.tolist(), strict=True):
         if abs(float(centre @ line.normal) - line.offset_mm) < reach_mm + radius + _ABOUT_MOUTH_MM:
             wanted &= np.hypot(*(asked.xy - centre).T) > radius + _ABOUT_MOUTH_MM
-    return s[wanted], d[wanted], asked.height[wanted].astype(np.float64)
+    return s[wanted], d[wanted], asked.height[wanted]
+
+
+def _blind_mm(off: Array, pitch_mm: float) -> float:
+    """The widest gap, mm, between distances from an edge at which anything was asked, next to it.
+
+    Rows of pixels that run along an edge all lie on one side of it or the other: how far, nobody knows.
+    """
+    near = np.sort(off[np.abs(off) < _BLIND_PITCHES * pitch_mm])
+    return float(np.diff(near).max(initial=0.0)) if len(near) else 0.0
 
 
 def _mixed_zone(d: Array, height: Array, band_mm: float, pitch_mm: float) -> float:
@@ -197,9 +251,8 @@ def _ends(s: Array, d: Array, on: BoolArray, half_mm: float, reach_mm: float, st
     count = max(int(2.0 * half_mm / (_STRIP_PITCHES * step)), _FEWEST_STRIPS)
     strip = np.clip(((s + half_mm) / (2.0 * half_mm) * count).astype(np.int64), 0, count - 1)
     within, without = d < -_WITHIN_SHARE * reach_mm, d > _WITHIN_SHARE * reach_mm
-    asked, asked_within, asked_without, on_all, on_within, on_without = (
-        np.bincount(strip[chosen], minlength=count)
-        for chosen in (np.ones(len(s), bool), within, without, on, on & within, on & without)
+    asked_within, asked_without, on_within, on_without = (
+        np.bincount(strip[chosen], minlength=count) for chosen in (within, without, on & within, on & without)
     )
     quarter = 0.5 * (1.0 - _WITHIN_SHARE) * 2.0 * reach_mm * (2.0 * half_mm / count) / step**2
     share = on_within / np.maximum(asked_within, 1)
@@ -212,14 +265,33 @@ def _ends(s: Array, d: Array, on: BoolArray, half_mm: float, reach_mm: float, st
         return "something lies flush with the face beyond this edge"
     farthest = np.full(count, -reach_mm)
     np.maximum.at(farthest, strip, d)
-    farthest = np.where(farthest < reach_mm - 2.0 * step, farthest + step / 2.0, reach_mm)
-    end = -reach_mm + (reach_mm + farthest) * (on_all / np.maximum(asked, 1) - flush) / (found - flush)
+    end = _likeliest_ends(strip, d, on, count, found, flush)
     # A strip that the picture's border cuts before the edge tells nothing of it.
-    usable &= end < farthest - _BEYOND_STEPS * step
+    usable &= np.nan_to_num(end, nan=np.inf) < farthest - _BEYOND_STEPS * step
     if usable.sum() < max(_FEWEST_STRIPS, _SEEN_MIN * count):
         return _OUT_OF_PICTURE
     along = -half_mm + (np.arange(count) + 0.5) * 2.0 * half_mm / count
-    return _Strips(along[usable], end[usable], float(usable.mean()))
+    bare = (asked_within > _ASKED_MIN * quarter) & (share <= _FOUND_MIN)
+    return _Strips(along[usable], end[usable], float(usable.mean()), along[bare], reach_mm, 2.0 * half_mm / count)
+
+
+def _likeliest_ends(strip: IntArray, d: Array, on: BoolArray, count: int, found: float, flush: float) -> Array:
+    """Where each strip (k,) most likely ends, mm: face before it is found with one chance, beyond it with another.
+
+    The middle between the two places that the end lies between; NaN for a strip without places.
+    """
+    inside, outside = min(found, 1.0 - _LEAST_CHANCE), max(flush, _LEAST_CHANCE)
+    order = np.lexsort((d, strip))
+    gain = np.where(on[order], np.log(inside / outside), np.log((1.0 - inside) / (1.0 - outside)))
+    begin = np.searchsorted(strip[order], np.arange(count + 1))
+    before = np.concatenate([[0.0], np.cumsum(gain)])
+    sorted_d = d[order]
+    end = np.full(count, np.nan)
+    for k, (first, last) in enumerate(pairwise(begin.tolist())):
+        if last - first > 1:
+            best = first + int(np.argmax(before[first + 1 : last]))
+            end[k] = (sorted_d[best] + sorted_d[best + 1]) / 2.0
+    return end
 
 
 @dataclass(frozen=True, eq=False)
@@ -264,14 +336,17 @@ def _outermost(strips: _Strips, pitch_mm: float) -> Array:
 
 
 def _chips(strips: _Strips, fit: _Line, middle_mm: float) -> tuple[Chip, ...]:
-    depth = -fit.residual
+    """Runs of strips that end before the edge; one that shows no face at all is as deep as was looked, at least."""
+    depth = np.concatenate([-fit.residual, np.full(len(strips.bare), strips.reach_mm)])
+    along = np.concatenate([strips.along, strips.bare])
+    order = np.argsort(along)
+    along, depth = along[order], depth[order]
     missing = depth > max(_CHIP_MM, _CHIP_SIGMAS * fit.scatter)
-    half_mm = float(np.median(np.diff(strips.along))) / 2.0
     bounds = np.flatnonzero(np.diff(np.concatenate([[False], missing, [False]]).astype(np.int8)))
     return tuple(
         Chip(
-            middle_mm + float(strips.along[first]) - half_mm,
-            middle_mm + float(strips.along[last - 1]) + half_mm,
+            middle_mm + float(along[first]) - strips.width_mm / 2.0,
+            middle_mm + float(along[last - 1]) + strips.width_mm / 2.0,
             float(depth[first:last].max()),
         )
         for first, last in zip(bounds[::2], bounds[1::2], strict=True)
@@ -286,7 +361,8 @@ def _taken_in(samples: FaceSamples, place: Array, normal: Array, band_mm: float)
 def _lost_at_rims(samples: FaceSamples, mouths: KnownMouths, normal: Array, band_mm: float) -> float:
     """By how much, mm, the face ends before the rims of mouths that end it towards a direction; 0 if it does not."""
     lost = []
-    for centre, radius in zip(mouths.centres, mouths.radii.tolist(), strict=True):
+    nearest = np.argsort(-mouths.centres @ normal, kind="stable")[:_RIMS]
+    for centre, radius in zip(mouths.centres[nearest], mouths.radii[nearest].tolist(), strict=True):
         end = _rim_end(samples, centre, radius, normal, band_mm)
         if end is not None:
             lost.append(end - radius + _taken_in(samples, centre - radius * normal, normal, band_mm))

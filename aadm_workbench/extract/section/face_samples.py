@@ -68,7 +68,7 @@ def face_samples(scan: Scan, sample: Thinned, face: Plane, band_mm: float, outli
 
 
 def _by_lines_of_sight(scan: Scan, face: Plane, homography: Array) -> Ask:
-    back = np.linalg.inv(homography)
+    back = np.asarray(np.linalg.inv(homography), np.float64)
     rows, columns = scan.points.shape[:2]
 
     def ask(places: Array) -> Asked:
@@ -77,7 +77,7 @@ def _by_lines_of_sight(scan: Scan, face: Plane, homography: Array) -> Ask:
         number = np.unique(at[inside, 1] * columns + at[inside, 0])
         row, column = np.divmod(number, columns)
         xy = _through(homography, np.column_stack([column, row]).astype(np.float64))
-        return Asked(xy, face.height(scan.points[row, column]))
+        return Asked(xy, np.asarray(face.height(scan.points[row, column]), np.float64))
 
     return ask
 
@@ -104,7 +104,7 @@ def _by_cells(scan: Scan, face: Plane, band_mm: float, outline: Array, pitch_mm:
         cell = np.floor((places - low) / cell_mm).astype(np.int64)
         inside = (cell >= 0).all(axis=1) & (cell[:, 0] < columns) & (cell[:, 1] < rows)
         row, column = np.divmod(np.unique(cell[inside, 1] * columns + cell[inside, 0]), columns)
-        xy = low + (np.column_stack([column, row]) + 0.5) * cell_mm
+        xy: Array = low + (np.column_stack([column, row]) + 0.5) * cell_mm
         return Asked(xy, np.where(filled[row, column], 0.0, np.nan))
 
     return ask

@@ -21,7 +21,7 @@ _BAND_NOISES = 4.0  # of the face's own scatter; a camera that scatters more fin
 
 
 @dataclass(frozen=True, eq=False)
-class SectionEdge:
+class SeenEdge:
     """One edge of the section in the column frame, mm: where it crosses its own axis, and how it is turned.
 
     ``offset_mm`` is the distance from the column's axis to the edge at ``at_mm`` along it, outwards; ``turn`` radians,
@@ -40,7 +40,7 @@ class SectionEdge:
 
 def section_edges(
     scan: Scan, extraction: Extraction, T_scan_column: Array, outline: Array, rng: np.random.Generator
-) -> dict[str, SectionEdge | str]:
+) -> dict[str, SeenEdge | str]:
     """Edges of the face by their sides, or why one is not measured.
 
     Parameters
@@ -60,7 +60,7 @@ def section_edges(
         return dict.fromkeys(SIDES, "too few points lie on the face")
     mouths = _mouths(extraction)
     # Seen from outside, as the face's axes are, the corners run clockwise: the face lies to the left of the way back.
-    found: dict[str, SectionEdge | str] = {}
+    found: dict[str, SeenEdge | str] = {}
     for number, side in enumerate(SIDES):
         ends = corners[number], corners[(number + 1) % 4]
         start, end = ends if _area(corners) > 0.0 else ends[::-1]
@@ -81,12 +81,12 @@ def _mouths(extraction: Extraction) -> KnownMouths:
     return KnownMouths(in_plane(centres, extraction.plane)[:, :2], radii)
 
 
-def _in_column(line: EdgeLine, side: str, face: Plane, T_scan_column: Array) -> SectionEdge:
+def _in_column(line: EdgeLine, side: str, face: Plane, T_scan_column: Array) -> SeenEdge:
     """The line as seen along its side: two points of it, brought over."""
     half_mm = 100.0  # any two points will do
     ends = np.array([-half_mm, half_mm])
     places = np.outer(line.middle_mm + ends, line.along) + np.outer(line.offset_mm + line.turn * ends, line.normal)
-    T = np.linalg.inv(T_scan_column)
+    T = np.asarray(np.linalg.inv(T_scan_column), np.float64)
     xy = (from_face(places, face) @ T[:3, :3].T + T[:3, 3])[:, :2]
     sign, axis = (1.0 if side[0] == "+" else -1.0), "xy".index(side[1])
     outwards, along = np.zeros(2), np.zeros(2)
@@ -99,7 +99,7 @@ def _in_column(line: EdgeLine, side: str, face: Plane, T_scan_column: Array) -> 
     mirrored = np.sign((xy[1] - xy[0]) @ along)
     covariance = line.covariance * np.array([[1.0, -mirrored], [-mirrored, 1.0]])
     chips = tuple(_chip(chip, line, face, T, along) for chip in line.chips)
-    return SectionEdge(
+    return SeenEdge(
         side, float(middle @ outwards), float(middle @ along), turn, covariance, line.shared_u_mm, line.seen, chips
     )
 
