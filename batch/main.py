@@ -14,6 +14,7 @@ from aadm_workbench import __version__
 from aadm_workbench.errors import AadmError
 
 from .commands import (
+    ask,
     check,
     design,
     diff,
@@ -57,6 +58,7 @@ COMMANDS: tuple[Command, ...] = (
     writeback,
     profiles,
     doctor,
+    ask,
 )
 
 _EXIT_CODES = """\
