@@ -29,8 +29,8 @@ def columns(question: Mapping[str, Any]) -> dict[str, Any]:
     DesignError
         Where there is none; says what was looked at.
     """
-    from aadm_workbench.as_designed import read_design
     from aadm_workbench.design.design_text import write_design
+    from aadm_workbench.inspection.as_designed import read_design
 
     model, designs = (read_design(question["path"]), None) if "path" in question else _sampled(question)
     found = model.columns if designs is None else designs

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM
+from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
 from aadm_workbench.extract.edges.edge_shift import (
     BentDiscs,
     Shift,
@@ -89,6 +90,8 @@ def extract_sleeves(
     Extraction
         With an empty ``points`` and a ``reason`` where no face or no hole was found.
     """
+    if copies_depths(scan):
+        return Extraction(Kind.SLEEVE, "refined", (), None, None, reason=COPIED)
     sample = thinned(scan, _SAMPLE, rng)
     found = face_with_holes(scan, sample, diameter_mm / 2, rng)
     if found is None:

@@ -12,7 +12,6 @@ from pathlib import Path
 from ..exit_codes import ALL_PASS
 from ..switches import add_switches
 
-SUMMARY = "answer a question of the FreeCAD workbench"
 EXAMPLE = """\
 examples:
   aadm ask question.json answer.json"""
