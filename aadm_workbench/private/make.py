@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 PROBLEMS = ("busy", "in-use", "network", "no-wheel", "certificate", "proxy", "space", "broken", "pip", "folder")
@@ -63,36 +64,66 @@ def make(folder: Path, wheels: str) -> None:
         shutil.rmtree(left, ignore_errors=True)
     if shutil.disk_usage(folder.parent).free < _NEEDED_BYTES:
         raise NotMadeError("space", str(folder.parent))
-    new = folder.parent / f".new-{os.getpid()}"
-    running: list[subprocess.Popen[bytes]] = []
-    end_with_input(lambda: give_up(running, new))
+    begun = Begun(folder.parent / f".new-{os.getpid()}")
+    end_with_input(begun.give_up)
+    new = begun.folder
     try:
-        (new / "tmp").mkdir(parents=True)
-        install(new, wheels, running)
+        with begun.lock:
+            (new / "tmp").mkdir(parents=True)
+        install(begun, wheels)
         prove(new)
-        shutil.rmtree(new / "tmp", ignore_errors=True)
-        write_note(new)
-        if folder.exists() and not remove_folder(folder):
-            raise NotMadeError("in-use", str(folder))
-        new.rename(folder)
+        with begun.lock:
+            shutil.rmtree(new / "tmp", ignore_errors=True)
+            write_note(new)
+            if folder.exists() and not remove_folder(folder):
+                raise NotMadeError("in-use", str(folder))
+            new.rename(folder)
     finally:
-        shutil.rmtree(new, ignore_errors=True)
+        with begun.lock:
+            shutil.rmtree(new, ignore_errors=True)
 
 
-def install(new: Path, wheels: str, running: "list[subprocess.Popen[bytes]]") -> None:
-    """Have pip unpack each pin into ``new/site``."""
+class Begun:
+    """A folder that is being filled, and an end of that which leaves nothing, whenever it comes.
+
+    Whoever begins something holds ``lock``; who gives up does not let go of it.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.lock = threading.Lock()
+        self.running: subprocess.Popen[bytes] | None = None
+
+    def give_up(self) -> None:
+        """End pip, take away what it has written, end this process."""
+        from aadm_workbench.private.ending import ENDED
+
+        with self.lock:
+            if self.running is not None:
+                self.running.kill()
+                self.running.wait()
+            shutil.rmtree(self.folder, ignore_errors=True)
+            os._exit(ENDED)
+
+
+def install(begun: Begun, wheels: str) -> None:
+    """Have pip unpack each pin into ``site``."""
     from aadm_workbench.private import pins
 
     count, total, lines = 0, len(pins.pinned(pins.pins_file())), []
     command = [sys.executable, "-I", "-S", "-X", "utf8", f"{pins.pip_wheel()}/pip", "install", "--no-deps"]
-    command += ["--only-binary=:all:", "--progress-bar", "off", "--no-compile", "--target", str(new / "site")]
-    command += ["--requirement", str(pins.pins_file())]
+    command += ["--only-binary=:all:", "--progress-bar", "off", "--no-compile"]
+    command += ["--target", str(begun.folder / "site"), "--requirement", str(pins.pins_file())]
     command += ["--no-index", "--find-links", wheels] if wheels else []
     say(" ".join(command))
-    process = subprocess.Popen(
-        command, env=variables(new), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
-    )
-    running.append(process)
+    with begun.lock:
+        begun.running = process = subprocess.Popen(
+            command,
+            env=variables(begun.folder),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
     for raw in process.stdout or ():
         line = raw.decode("utf-8", errors="replace").rstrip()
         lines.append(line)
@@ -134,14 +165,6 @@ def prove(new: Path) -> None:
     if done.returncode != 0:
         said = done.stdout.decode("utf-8", errors="replace").strip()
         raise NotMadeError("broken", said.replace("\n", "; ") or f"the proof ended with {done.returncode}")
-
-
-def give_up(running: "list[subprocess.Popen[bytes]]", new: Path) -> None:
-    """End pip and take away what it has written."""
-    for process in running:
-        process.kill()
-        process.wait()
-    shutil.rmtree(new, ignore_errors=True)
 
 
 def wrong(problem: str, about: str) -> int:

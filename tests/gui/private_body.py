@@ -42,6 +42,12 @@ spin(lambda: column.Result is not None and checking.start_button.isEnabled(), 60
 result["said_by_ifc_check"] = sentences()
 result["panel_report"] = {**job_of(column.Result), "columns": [found_of(column.Result)]}
 
+# A click on a row shows what the row is about.
+checking.shows.setCurrentIndex(checking.shows.findData("minimax"))
+result["shown_by_choice"] = column.Result.ViewObject.Shows
+checking.table.selectRow(0)
+result["shown_by_row"] = [checking.table.rows[0].what, column.Result.ViewObject.Shows, checking.shows.currentData()]
+
 # Written beside the model; in place where that is chosen; refused where the model is not what was checked.
 Gui.runCommand("AADM_WriteResults")
 writing = panel(WritePanel)
@@ -147,6 +153,12 @@ result["without"] = {
 }
 if panel(ReportPanel) is not None:
     panel(ReportPanel).reject()
+from aadm_workbench.document import open_scan
+
+alone = open_scan.open(str(Path(SAMPLES) / "lab" / "scans" / "L-1-foot.ply"))
+result["scan_alone"] = buttons_of(lambda: panel(ImportPanel).start())
+panel(ImportPanel).reject()
+FreeCAD.closeDocument(alone.Name)
 opened = FreeCAD.newDocument("opened")
 open_report.insert(str(folder / "report" / "report.json"), opened.Name)
 result["opened_without"] = [[one.ColumnId, one.Result.Verdict] for one in api.columns_in(opened)]

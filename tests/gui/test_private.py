@@ -41,6 +41,11 @@ def test_panel_and_command_give_the_same_report(session: dict[str, Any], tmp_pat
     assert same.items() <= panel["job"].items()
 
 
+def test_click_on_a_row_shows_what_the_row_is_about(session: dict[str, Any]) -> None:
+    assert session["shown_by_choice"] == "minimax"
+    assert session["shown_by_row"] == ["position", "position", "position"]
+
+
 def test_results_are_written_beside_the_model(session: dict[str, Any]) -> None:
     assert session["ifc_is_known"].endswith("model/floor3.ifc")
     assert session["said_by_write_beside"] == []
@@ -78,6 +83,12 @@ def test_what_needs_the_environment_offers_one_button(session: dict[str, Any], w
     buttons, said = session["without"][what]
     assert sorted(buttons) == ["Close", "Install now"]
     assert "FreeCAD itself is not changed" in said[0]
+
+
+def test_scan_alone_leads_to_a_model(session: dict[str, Any]) -> None:
+    buttons, said = session["scan_alone"]
+    assert sorted(buttons) == ["Close", "IFC file…"]
+    assert "belongs to a column" in said[0]
 
 
 def test_reports_open_without_the_environment(session: dict[str, Any]) -> None:

@@ -105,6 +105,24 @@ def test_cancelled_by_closing_its_input(endless: Addon) -> None:
     assert endless.made() == []
 
 
+@pytest.mark.parametrize("waits_s", [0.0, 0.05, 0.1, 0.2, 0.3])
+def test_cancelled_at_any_moment_it_leaves_nothing(endless: Addon, waits_s: float) -> None:
+    process = endless.start("--wheels", str(endless.wheels))
+    time.sleep(waits_s)
+    end(process)
+    assert endless.made() == []
+    held = (endless.root / "requirements" / "pip-0-py3-none-any.whl").as_posix().encode()
+    running = [path for path in Path("/proc").glob("[0-9]*/cmdline") if held in read_or_nothing(path)]
+    assert running == [], "pip goes on"
+
+
+def read_or_nothing(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except OSError:
+        return b""
+
+
 def test_two_at_once_are_refused(endless: Addon) -> None:
     first = begun(endless)
     assert endless.make()[-1].startswith("!busy")

@@ -14,7 +14,7 @@ from aadm_workbench.document.column import DECISIONS, METHODS
 from aadm_workbench.document.display.colours import of_verdict
 from aadm_workbench.document.display.marks import pitch_of
 from aadm_workbench.document.display.messages import tell
-from aadm_workbench.document.display.result_rows import Row
+from aadm_workbench.document.display.result_rows import DISTANCE, Row
 from aadm_workbench.document.places import world_point
 from aadm_workbench.document.result import found_of
 from aadm_workbench.document.undo_step import undo_step
@@ -128,10 +128,13 @@ class CheckPanel(WorkingPanel):
             lines.append(translate("AADM_Check", "… and {count} more, see the table").format(count=more))
         lines += notes
         self.reasons.setText("\n".join(lines))
-        self.shows.blockSignals(True)
-        self.shows.setCurrentIndex(self.shows.findData(result.ViewObject.Shows))
-        self.shows.blockSignals(False)
+        self._say_what_is_shown()
         self._fill_table()
+
+    def _say_what_is_shown(self) -> None:
+        self.shows.blockSignals(True)
+        self.shows.setCurrentIndex(self.shows.findData(self.column.Result.ViewObject.Shows))
+        self.shows.blockSignals(False)
 
     def _shows_changed(self, index: int) -> None:
         if self.column.Result is not None:
@@ -149,6 +152,9 @@ class CheckPanel(WorkingPanel):
         result, view = self.column.Result, active_view()
         if result is None or row.place_mm is None:
             return
+        trial = "least_squares" if self.shows.currentData() == "least_squares" else "minimax"
+        result.ViewObject.Shows = trial if row.what == DISTANCE else "position"
+        self._say_what_is_shown()
         result.ViewObject.Proxy.pick(row.place_mm)
         if view is not None:
             zoom_to(view, np.asarray(world_point(result, row.place_mm)), 3.0 * pitch_of(found_of(result)))

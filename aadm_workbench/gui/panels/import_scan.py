@@ -20,8 +20,9 @@ from aadm_workbench.errors import AadmError, ScanError
 from aadm_workbench.gui import settings
 from aadm_workbench.gui.chosen import select
 from aadm_workbench.gui.panels.file_line import FileLine
+from aadm_workbench.gui.panels.sampling import of_ifc_file
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, close_panel, is_there, show_panel
-from aadm_workbench.gui.sentences import sentences
+from aadm_workbench.gui.sentences import sentences, show_error
 from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, TABLES
 
 translate = FreeCAD.Qt.translate
@@ -84,14 +85,18 @@ class ImportPanel(WorkingPanel):
     def start(self) -> None:
         """Have the file read."""
         with sentences(self.title):
+            if not self.columns:
+                show_error(self.title, self._no_column(), of_ifc_file(self.document))
+                return
             asked = self._asked()
             self.have_done(asked.work(), lambda read: self._take(asked, read))
 
+    def _no_column(self) -> AadmError:
+        return AadmError(
+            translate("AADM_Import", "A scan belongs to a column, and this document has none: Sample design first.")
+        )
+
     def _asked(self) -> AskedScan:
-        if not self.columns:
-            raise AadmError(
-                translate("AADM_Import", "A scan belongs to a column, and this document has none: Sample design first.")
-            )
         file = self.file.text()
         if not file:
             raise ScanError(translate("AADM_Import", "Choose the file of the scan."))
