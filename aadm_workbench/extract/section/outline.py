@@ -9,8 +9,10 @@ import numpy as np
 from aadm_workbench.extract.foot_face import FACE_BAND_MM
 from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.sample import thinned
-from aadm_workbench.extract.section.edge_lines import Chip, EdgeLine, KnownMouths, edge_line
+from aadm_workbench.extract.section.edge_lines import EdgeLine, edge_line
 from aadm_workbench.extract.section.face_samples import face_samples, from_face, outline_on_face
+from aadm_workbench.extract.section.rims import KnownMouths
+from aadm_workbench.extract.section.strips import Chip
 from aadm_workbench.model import Array, Extraction, Plane, Scan
 
 SIDES = ("-y", "+x", "+y", "-x")
