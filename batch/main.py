@@ -14,6 +14,8 @@ from aadm_workbench import __version__
 from aadm_workbench.errors import AadmError
 
 from .commands import (
+    cameras,
+    capture,
     check,
     design,
     diff,
@@ -47,6 +49,8 @@ COMMANDS: tuple[Command, ...] = (
     check,
     match,
     watch,
+    cameras,
+    capture,
     plan,
     design,
     extract,

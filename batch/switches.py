@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import argparse
 import math
+import re
+
+_UNITS_S = {"": 1.0, "s": 1.0, "ms": 1e-3, "min": 60.0}  # of a time
 
 
 def add_switches(parser: argparse.ArgumentParser, *, prints_json: str | None) -> None:
@@ -32,3 +35,11 @@ def length(text: str) -> float:
     if not (math.isfinite(value) and value > 0.0):
         raise argparse.ArgumentTypeError(f"{text!r} is not a length above zero")
     return value
+
+
+def duration(text: str) -> float:
+    """A time, in seconds: 2, 2s, 500ms, 1min."""
+    found = re.fullmatch(r"(\d+(?:\.\d+)?)\s*(s|ms|min|)", text.strip())
+    if found is None or float(found[1]) == 0.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no time; write 2s, 500ms or 1min")
+    return float(found[1]) * _UNITS_S[found[2]]

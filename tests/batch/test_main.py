@@ -221,6 +221,8 @@ def test_command_names() -> None:
         "check",
         "match",
         "watch",
+        "cameras",
+        "capture",
         "plan",
         "design",
         "extract",
