@@ -223,6 +223,7 @@ def test_command_names() -> None:
         "watch",
         "cameras",
         "capture",
+        "link",
         "plan",
         "design",
         "extract",
