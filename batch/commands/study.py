@@ -11,6 +11,7 @@ from ..exit_codes import ALL_PASS
 from ..job.command import METHODS
 from ..runner.one_thread import calculate_in_one_thread
 from ..study_hoisting import add_hoisting_studies
+from ..study_loop import add_loop_study
 from ..switches import add_switches, whole_number
 
 if TYPE_CHECKING:
@@ -56,6 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_switches(methods, prints_json="the numbers")
     methods.set_defaults(run=_study_methods)
     add_hoisting_studies(kinds, _prepare)
+    add_loop_study(kinds, _prepare)
 
 
 def _study_methods(options: argparse.Namespace) -> int:
