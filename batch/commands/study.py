@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..exit_codes import ALL_PASS
 from ..job.command import METHODS
 from ..study_hoisting import add_hoisting_studies
+from ..study_loop import add_loop_study
 from ..switches import add_switches, whole_number
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_switches(methods, prints_json="the numbers")
     methods.set_defaults(run=_study_methods)
     add_hoisting_studies(kinds, _prepare)
+    add_loop_study(kinds, _prepare)
 
 
 def _study_methods(options: argparse.Namespace) -> int:
