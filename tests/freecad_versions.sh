@@ -11,7 +11,7 @@ chroots=${AADM_CHROOTS:-"$root/build/freecad"}
 documents="$chroots/documents"
 mirror=${AADM_MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' | head -n 1)}
 packages="ca-certificates fonts-noto-cjk freecad libegl1 libgl1-mesa-dri python3-pip python3-pytest xvfb"
-wheels="numpy scipy opencv-python-headless ifcopenshell jsonschema python-neo-lzf rich"
+wheels="numpy scipy opencv-python-headless ifcopenshell msgspec python-neo-lzf rich"
 [ "$#" -gt 0 ] || set -- trixie sid
 [ "$(id -u)" = 0 ] || { echo "this needs root, for chroot" >&2; exit 2; }
 mkdir -p "$documents"

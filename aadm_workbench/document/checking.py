@@ -106,7 +106,7 @@ def _run(request: CheckRequest, stage: Stage) -> dict[str, Any]:
     from aadm_workbench.assembly.tolerances import load_profile
     from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
     from aadm_workbench.model import JobReport
-    from aadm_workbench.report.json import encode, report_document
+    from aadm_workbench.report.json import encoded_report
 
     profile = load_profile(request.tolerances)
     settings = CheckSettings(profile, request.method, request.decision, None, request.turns)  # type: ignore[arg-type]
@@ -123,7 +123,7 @@ def _run(request: CheckRequest, stage: Stage) -> dict[str, Any]:
     }
     report = JobReport({"name": "aadm", "version": __version__}, job, {}, None, profile, (found,))
     # Through its text: what the document keeps has the same digits as a report on disk.
-    plain: dict[str, Any] = json.loads(encode(report_document(report)))
+    plain: dict[str, Any] = json.loads(encoded_report(report))
     return plain
 
 

@@ -121,7 +121,7 @@ def _column_id(setting: Setting) -> str:
     return f"{setting.name}-1"
 
 
-def _design_table(setting: Setting) -> dict[str, Any]:
+def _design_table(setting: Setting) -> dict[str, float | list[float] | list[list[float]]]:
     """What ``[columns.design]`` of the job says."""
     return {
         "sleeve_diameter": setting.sleeve_diameter,

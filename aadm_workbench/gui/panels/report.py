@@ -37,14 +37,14 @@ _FORMS = (
 )
 
 _NEEDED = {
-    "html": ("jsonschema", "jinja2", "fontTools"),
-    "pdf": ("jsonschema", "reportlab"),
-    "xlsx": ("jsonschema", "xlsxwriter"),
-    "csv": ("jsonschema",),
-    "bcf": ("jsonschema",),
-    "crew": ("jsonschema", "reportlab"),
-    "scan-card": ("jsonschema", "reportlab"),
-    "fcstd": ("jsonschema",),
+    "html": ("msgspec", "jinja2", "fontTools"),
+    "pdf": ("msgspec", "reportlab"),
+    "xlsx": ("msgspec", "xlsxwriter"),
+    "csv": ("msgspec",),
+    "bcf": ("msgspec", "reportlab", "pypdfium2"),
+    "crew": ("msgspec", "reportlab"),
+    "scan-card": ("msgspec", "reportlab"),
+    "fcstd": ("msgspec",),
 }
 """Packages of each, by the names they are imported by."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -106,8 +107,9 @@ def open_panel(document: Any) -> WritePanel:
 
 def _write(report: dict[str, Any], model: Path, out: Path, *, force: bool) -> None:
     with naming_packages():
+        reader = import_module("aadm_workbench.report.read")
         writer = import_module("aadm_workbench.report.ifc.model")
-        writer.write_ifc(report, model, out, force=force)
+        writer.write_ifc(reader.parsed_report(json.dumps(report), str(model)), model, out, force=force)
 
 
 def _ifc_of(document: Any) -> str:
