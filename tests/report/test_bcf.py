@@ -285,3 +285,30 @@ def test_a_file_that_is_no_bcf_is_refused(report: dict[str, Any], tmp_path: Path
     with pytest.raises(ReportError, match=r"is of BCF version 2\.0.*save it as BCF 2\.1"):
         write_bcf(typed(report), tmp_path / "a.bcf", existing=newer)
     assert not (tmp_path / "a.bcf").exists()
+
+
+def pictures(report: dict[str, Any], path: Path) -> list[np.ndarray]:
+    write_bcf(typed(report), path)
+    held = [content for name, content in files(path).items() if name.endswith("snapshot.png")]
+    return [cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_GRAYSCALE) for content in held]
+
+
+def test_names_in_chinese_can_be_read_in_the_picture(report: dict[str, Any], tmp_path: Path) -> None:
+    """Two signs of a name are two drawings, of about as much ink as letters have; the foot below is the same."""
+    drawn = {}
+    for name in ("柱-307", "梁-307", "C-307"):
+        report["columns"][0] |= {"id": name}
+        drawn[name] = pictures(report, tmp_path / f"{len(drawn)}.bcf")[0]
+    first, second, letters = drawn.values()
+    ink = [int((picture[20:70, 20:56] < 200).sum()) for picture in (first, second, letters)]
+    assert np.abs(first[20:70, 20:56].astype(int) - second[20:70, 20:56]).max() > 100
+    assert min(ink[:2]) > 0.7 * ink[2] > 0
+    assert (first[110:] == second[110:]).all()
+
+
+def test_a_pair_is_ringed_in_its_own_picture(report: dict[str, Any], tmp_path: Path) -> None:
+    write_bcf(typed(report), tmp_path / "pairs.bcf", per="pair")
+    held = [content for name, content in files(tmp_path / "pairs.bcf").items() if name.endswith("snapshot.png")]
+    found = [cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_COLOR)[110:] for content in held]
+    blue = [(picture[..., 0].astype(int) - picture[..., 2] > 100).sum() for picture in found]
+    assert min(blue) > 200
