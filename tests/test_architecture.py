@@ -160,7 +160,7 @@ def no_grab_bags(path: PurePosixPath, tree: ast.Module) -> Iterator[Finding]:
             yield 1, f"is called {part}, which says nothing"
 
 
-CORE = {"cv2", "ifcopenshell", "numpy", "rich", "scipy"}  # the dependencies of pyproject.toml that have no extra
+CORE = {"cv2", "ifcopenshell", "msgspec", "numpy", "rich", "scipy"}  # the dependencies that have no extra
 
 
 def core_starts_without_extras(path: PurePosixPath, tree: ast.Module) -> Iterator[Finding]:

@@ -11,10 +11,10 @@ from aadm_workbench.report.pages.png import png_of
 from aadm_workbench.report.words.labels import COLOUR, FAINT, phrase, verdict_words
 
 _WIDTH = 900  # pixels: viewers show it at half of that
-_HEAD = 110  # a bar, the name, two lines of its reason
-_CAPTION = 44  # two lines under each sketch
-_FOOT = 34  # one line at the end
-_MARGIN = 24
+_HEAD = 110  # pixels: a bar, the name, two lines of its reason
+_CAPTION = 44  # pixels: two lines under each sketch
+_FOOT = 34  # pixels: one line at the end
+_MARGIN = 24  # pixels: a letter of the name
 
 
 def foot_picture(finding: Finding) -> bytes:
