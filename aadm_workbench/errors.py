@@ -6,7 +6,12 @@ What a scan cannot support (a plugged sleeve, a bar out of view) is no error: it
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterable
 from dataclasses import dataclass
+
+PRIVATE_ENVIRONMENT = "AADM_PRIVATE_ENVIRONMENT"
+"""Variable that is set in a process of FreeCAD's private environment, for which pip on the PATH does nothing."""
 
 
 class AadmError(Exception):
@@ -29,8 +34,24 @@ class CameraError(AadmError):
     """Intrinsics are missing or cannot belong to the scan."""
 
 
+class CaptureError(AadmError):
+    """A live camera did not give a frame that can be believed: this frame is lost, the next one may be had."""
+
+
+class CameraGoneError(CaptureError):
+    """A live camera does not answer any more: it must be opened again."""
+
+
+class EndOfFramesError(CaptureError):
+    """A camera that plays captures again has played them all."""
+
+
 class ReportError(AadmError):
     """A report.json cannot be used: broken, of another schema, or not what the schema describes."""
+
+
+class NoEnvironmentError(AadmError):
+    """FreeCAD's private environment is not there, or is not whole; the workbench offers to install it."""
 
 
 class MissingDependencyError(AadmError):
@@ -38,9 +59,13 @@ class MissingDependencyError(AadmError):
 
     def __init__(self, package: str, needed_for: str, install: str = "") -> None:
         install = install or package_called(package).install
-        super().__init__(
-            f"{needed_for} needs the package {package}, which is not installed. Install it with: {install}"
-        )
+        remedy = f"Install it with: {install}"
+        if os.environ.get(PRIVATE_ENVIRONMENT) and install.startswith("pip "):
+            remedy = (
+                "FreeCAD's private environment lacks it: repair that in About AADM and doctor, or name in the settings "
+                f"an aadm of your own that has it ({install})"
+            )
+        super().__init__(f"{needed_for} needs the package {package}, which is not installed. {remedy}")
         self.package = package
         self.install = install
 
@@ -75,17 +100,23 @@ PACKAGES = (
         others=("opencv-python", "opencv-contrib-python-headless", "opencv-contrib-python", "opencv"),
     ),
     Package("ifcopenshell", "ifcopenshell", "IFC models"),
+    Package("msgspec", "msgspec", "reading and writing report.json"),
     Package("rich", "rich", "tables in the terminal"),
     Package("jinja2", "jinja2", "report.html", "reports"),
     Package("fontTools", "fonttools", "Chinese in report.html", "reports"),
     Package("reportlab", "reportlab", "report.pdf, crew pages, scan cards", "reports"),
     Package("xlsxwriter", "xlsxwriter", "report.xlsx", "reports"),
-    Package("jsonschema", "jsonschema", "reading report.json", "reports"),
+    Package("pypdfium2", "pypdfium2", "pictures in report.bcf", "reports"),
     Package("lzf", "python-neo-lzf", "compressed PCD files", "formats"),
     Package("lazrs", "lazrs", "LAZ files", "formats"),
     Package("pye57", "pye57", "E57 files", "formats"),
     Package("tifffile", "tifffile", "TIFF of half floats and of X, Y, Z", "formats"),
     Package("imagecodecs", "imagecodecs", "TIFF packed with ZSTD, LZMA or LERC", "formats"),
+    Package("genicam", "genicam", "gentl: cameras", "camera"),
+    Package("harvesters", "harvesters", "gentl: cameras", "camera"),
+    Package("asyncua", "asyncua", "link --opcua", "link"),
+    Package("pymodbus", "pymodbus", "link --modbus", "link"),
+    Package("paho", "paho-mqtt", "link --mqtt", "link"),
     Package("psutil", "psutil", "check --jobs N", "batch"),
     Package("distributed", "distributed", "check --scheduler", "batch"),
     Package("open3d", "open3d", "virtual camera, methods of the literature", "twin", ("open3d-cpu",)),
@@ -105,3 +136,12 @@ def package_called(pip_name: str) -> Package:
 def install_of(extra: str) -> str:
     """The command that installs what one extra of this project brings."""
     return f"pip install 'aadm-workbench[{extra}]'"
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The end of a message about an unknown word: what is near to it, or all that is known."""
+    from difflib import get_close_matches
+
+    known = tuple(known)
+    near = get_close_matches(word, known, n=1, cutoff=0.6)
+    return f'did you mean "{near[0]}"?' if near else f"known: {', '.join(known)}"

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import monotonic, perf_counter, sleep
+from typing import Protocol
 
 import numpy as np
 
@@ -15,16 +16,15 @@ from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError, DesignError, JobError, ScanError
 from aadm_workbench.hoisting.contradiction import contradiction_of
-from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
 from aadm_workbench.hoisting.motion import Look, Motion, look_at, motion_of, with_look
 from aadm_workbench.hoisting.running import Running, combined
 from aadm_workbench.hoisting.turn_findings import with_contradiction
-from aadm_workbench.model import ColumnDesign, HoistingMeasurement, HoistingReport, Verdict
+from aadm_workbench.inspection.column import inspect_column
+from aadm_workbench.inspection.hoisting import Before, measure_frame, unread
+from aadm_workbench.inspection.tasks import ColumnTask
+from aadm_workbench.model import HoistingMeasurement, Verdict
 from aadm_workbench.report.json import encode
 
-from ..runner.column_task import check_task
-from ..runner.hoisting_task import Before, before_hoisting, read_frame
-from ..runner.task import ColumnTask
 from .folder import FolderWatch, corner_of
 from .state import Frame, frame_line, state_document
 
@@ -33,11 +33,21 @@ LOOK_EVERY_S = 0.15
 _PATIENCE_S = 3.0  # a file that is not whole by then is said to be broken
 
 
+class Live(Protocol):
+    """A camera that writes into the folder: it is asked for a frame before each look."""
+
+    ended: bool
+
+    def fault(self) -> str:
+        """Write the next frame if it is time; what kept it from being written, empty where nothing did."""
+
+
 @dataclass(frozen=True)
 class WatchOptions:
     """``frames`` and ``seconds``: when to stop (None: never); ``present``: begin with the frames that are there.
 
     ``near``: the corner of the camera that writes into the folder itself; None: that of the column in the job.
+    ``live``: that camera, where the watch asks it; None where another program does.
     """
 
     state: Path
@@ -45,6 +55,7 @@ class WatchOptions:
     seconds: float | None = None
     present: bool = False
     near: tuple[int, int] | None = None
+    live: Live | None = None
 
 
 class Watcher:
@@ -73,7 +84,7 @@ class Watcher:
         self._places = np.array([bar.centre[:2] for bar in self.design.rebars])
         rules = rules_for(task.settings.profile, "sleeve_rebar_distance")
         self._limit_mm = rules[0].upper if rules else None
-        self._sleeves, self._rebars = self._before()
+        self._before_hoisting = self._before()
         self._first_tries: dict[str, float] = {}
 
     def run(self, wait: Callable[[float], None] = sleep) -> Verdict:
@@ -82,6 +93,8 @@ class Watcher:
             self._folder.skip_present()
         began = monotonic()
         while not self._enough(monotonic() - began):
+            if self._no_more_comes():
+                break
             try:
                 ready = self._folder.ready()
             except OSError as error:
@@ -93,25 +106,36 @@ class Watcher:
             wait(LOOK_EVERY_S)
         return self.verdict
 
+    def _no_more_comes(self) -> bool:
+        """Ask the camera, if there is one, for a frame; one that it lost is a bad one. Whether it has no more."""
+        live = self.options.live
+        if live is None:
+            return False
+        began, fault = perf_counter(), live.fault()
+        if fault:
+            self._keep(_bad("camera", fault), self.options.near, self._now_ns() / 1e9, perf_counter() - began)
+        return live.ended
+
     def _enough(self, seconds: float) -> bool:
         frames, limit = self.options.frames, self.options.seconds
         return (frames is not None and self.frames >= frames) or (limit is not None and seconds >= limit)
 
-    def _before(self) -> tuple[Before, Before]:
+    def _before(self) -> Before:
         """Where the job's scans from before hoisting put sleeves and bars."""
         column = self.task.column
         if not column.sleeves and not column.rebars:
-            return None, None
+            return Before()
         self.say(f"{column.id}: measuring its scans from before hoisting")
-        report = check_task(self.task).report
+        report = inspect_column(self.task).report
         if report.verdict is Verdict.ERROR:
             self.say(f"{column.id}: {'; '.join(report.reasons)}; its design places are used")
-        return before_hoisting(report.sleeves), before_hoisting(report.rebars)
+        return Before.of(report)
 
     def _frame(self, path: Path) -> None:
         began, name = perf_counter(), self._folder.name_of(path)
         try:
-            measurement = self._measured(path, name, self.design)
+            scan = self.task.read(name, path=path)
+            measurement = measure_frame(self.task, self.design, scan, self._near(path), self._before_hoisting)
         except (ScanError, OSError) as error:
             if self._may_be_unfinished(path):
                 return
@@ -130,23 +154,11 @@ class Watcher:
         """The corner that a frame was taken from: its subfolder's, else the command's, else the job's."""
         return corner_of(path) or self.options.near or self.task.column.near
 
-    def _measured(self, path: Path, name: str, design: ColumnDesign) -> HoistingMeasurement:
-        scan = read_frame(self.task, path, name)
-        settings = self.task.settings
-        return measure_hoisting(
-            scan,
-            design,
-            near=self._near(path),
-            sleeves_before=self._sleeves,
-            rebars_before=self._rebars,
-            settings=HoistingSettings(settings.profile, settings.decision, seed=settings.seed),
-        )
-
     def _may_be_unfinished(self, path: Path) -> bool:
         """Whether a frame that cannot be read may still be written: for some seconds it may."""
         now = monotonic()
         first = self._first_tries.setdefault(self._folder.name_of(path), now)
-        if now - first >= _PATIENCE_S or not path.exists():
+        if now - first >= _PATIENCE_S or not path.exists() or path.is_dir():
             return False
         self._folder.wait_for(path)
         return True
@@ -197,5 +209,4 @@ class Watcher:
 
 
 def _bad(name: str, reason: str) -> HoistingMeasurement:
-    report = HoistingReport(name, (), None, None, None, Verdict.ERROR, reasons=(reason,), method="refined")
-    return HoistingMeasurement(report, np.empty((0, 2)), np.empty((0, 2, 2)))
+    return HoistingMeasurement(unread(name, reason, "refined"), np.empty((0, 2)), np.empty((0, 2, 2)))

@@ -19,8 +19,8 @@ from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.assembly.findings.rules import findings_of
 from aadm_workbench.assembly.findings.same_scan import with_same_scans
 from aadm_workbench.assembly.findings.scales import student_quantile
-from aadm_workbench.assembly.findings.shape import design_shape
 from aadm_workbench.assembly.matching.match import match_extraction
+from aadm_workbench.inspection.tasks import design_shape
 from aadm_workbench.model import (
     AssemblyPoint,
     ColumnDesign,
@@ -277,7 +277,7 @@ def test_sound_groups_of_any_size_and_scatter_have_no_finding() -> None:
 
 def passing(name_of: str, foot: str = "a", bars: str = "b") -> ColumnReport:
     groups = [
-        GroupReport(kind, f"{name}.ply", name and f"{name:0<64}", "refined", 12, 12, Verdict.PASS, (), (), None)
+        GroupReport(f"{name}.ply", name and f"{name:0<64}", "refined", 12, 12, Verdict.PASS, (), (), None)
         for kind, name in ((Kind.SLEEVE, foot), (Kind.REBAR, bars))
     ]
     trial = TrialReport(Verdict.PASS)

@@ -10,7 +10,6 @@ from aadm_workbench.model import (
     ColumnReport,
     GroupReport,
     JobReport,
-    Kind,
     PairResult,
     PointResult,
     Profile,
@@ -20,8 +19,7 @@ from aadm_workbench.model import (
     Verdict,
 )
 from batch.shown.terminal import show
-from batch.shown.verdict_table import summary_line, verdict_table
-from batch.shown.worst_point import worst_comparison
+from batch.shown.verdict_table import summary_line, verdict_table, worst_comparison
 
 
 def point(label: str, deviation_mm: float | None, verdict: Verdict, reason: str = "") -> PointResult:
@@ -33,7 +31,7 @@ def point(label: str, deviation_mm: float | None, verdict: Verdict, reason: str 
 
 def group(points: tuple[PointResult, ...], spacing: tuple[SpacingResult, ...] = ()) -> GroupReport:
     """Sleeves."""
-    return GroupReport(Kind.SLEEVE, "a.ply", "", "refined", 12, 12, Verdict.PASS, points, spacing, None)
+    return GroupReport("a.ply", "", "refined", 12, 12, Verdict.PASS, points, spacing, None)
 
 
 def pair(distance_mm: float, verdict: Verdict) -> TrialReport:
