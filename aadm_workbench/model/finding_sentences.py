@@ -184,21 +184,23 @@ FINDING_SENTENCES: dict[str, Sentence] = {
         "唯一",
     ),
     "pattern_off_section": Sentence(
-        "the sleeves as a group sit {dx_mm:+.1f}, {dy_mm:+.1f} mm (±{U_mm:.1f} mm) and {turn_deg:+.2f}° from their place "
-        "in the section: erected on its bars the column's faces are off by as much the other way (limit {limit_mm:g} mm, "
-        "unverified)",
+        "the sleeves as a group sit {dx_mm:+.1f}, {dy_mm:+.1f} mm (±{U_mm:.1f} mm) and {turn_deg:+.2f}° from their "
+        "place in the section: erected on its bars the column's faces are off by as much the other way (limit "
+        "{limit_mm:g} mm, unverified)",
         "整组套筒在截面内偏离设计位置 {dx_mm:+.1f}、{dy_mm:+.1f} mm(±{U_mm:.1f} mm),转角 {turn_deg:+.2f}°:"
         "按钢筋就位后,柱侧面将反向偏移同样的量(限值 {limit_mm:g} mm,未核实)",
     ),
     "section_size_differs": Sentence(
         "the section measures {measured_mm:.1f} mm (±{U_mm:.1f} mm) between its edges {between}, {design_mm:g} mm are "
         "designed (±{limit_mm:g} mm, unverified)",
-        "截面两边 {between} 间实测 {measured_mm:.1f} mm(±{U_mm:.1f} mm),设计为 {design_mm:g} mm(±{limit_mm:g} mm,未核实)",
+        "截面两边 {between} 间实测 {measured_mm:.1f} mm(±{U_mm:.1f} mm),设计为 {design_mm:g} mm"
+        "(±{limit_mm:g} mm,未核实)",
     ),
     "face_not_flat": Sentence(
         "the face of the foot is uneven by {range_mm:.1f} mm (±{U_mm:.1f} mm; limit {limit_mm:g} mm, unverified): look "
         "at the map of its heights, the column may rock on its shims",
-        "柱底面不平整,高差 {range_mm:.1f} mm(±{U_mm:.1f} mm;限值 {limit_mm:g} mm,未核实):请查看高差图,柱可能在垫片上晃动",
+        "柱底面不平整,高差 {range_mm:.1f} mm(±{U_mm:.1f} mm;限值 {limit_mm:g} mm,未核实):"
+        "请查看高差图,柱可能在垫片上晃动",
     ),
     "edge_chipped": Sentence(
         "at the edge {side} a piece is missing, {length_mm:.0f} mm long and {depth_mm:.0f} mm deep, at {at_mm:+.0f} mm "
