@@ -139,8 +139,8 @@ def _figure(value: str | float | int | bool) -> str:
 
 def _section(report: JobReport, column: ColumnReport) -> Iterator[Block]:
     if column.section is not None:
-        line = section_line(column.section)
-        yield from _block(phrase("ui.section"), SECTION, section_rows(report, column), line)
+        measured = [row for row in section_rows(report, column) if row[2] is not None]
+        yield from _block(phrase("ui.section"), *_unexplained(SECTION, measured), section_line(column.section))
 
 
 def _absolute(report: JobReport, column: ColumnReport) -> Iterator[Block]:

@@ -76,7 +76,7 @@ def _pattern(report: JobReport, section: SectionReport) -> Iterator[Row]:
 
 
 def section_line(section: SectionReport) -> Phrase | None:
-    """How square the section is, and how the pattern is turned in it."""
+    """How square the section is, how the pattern is turned in it, and which edges were not measured."""
     parts = []
     for word, value, u in (
         ("squareness", section.squareness_deg, section.u_squareness_deg),
@@ -85,6 +85,9 @@ def section_line(section: SectionReport) -> Phrase | None:
         if value is not None and u is not None:
             said = f"{number_text(value, 'deg')}° (±{number_text(2.0 * u, 'deg')}°)"
             parts.append(Phrase(f"{phrase(f'ui.{word}').en} {said}", f"{phrase(f'ui.{word}').zh} {said}"))
+    unseen = ", ".join(edge.side for edge in section.edges if edge.measured_mm is None)
+    if unseen:
+        parts.append(phrase("ui.edges_unseen", edges=unseen))
     if not parts:
         return None
     return Phrase(" · ".join(part.en for part in parts), " · ".join(part.zh for part in parts))
