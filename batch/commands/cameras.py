@@ -20,7 +20,6 @@ from ..switches import add_switches
 if TYPE_CHECKING:
     from aadm_workbench.camera.frame import Device
 
-SUMMARY = "list the cameras that are there"
 EXAMPLE = """\
 examples:
   aadm cameras gentl:/opt/vendor/producer.cti

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
     from ..capturing.session import Session
 
-SUMMARY = "take frames with a live camera"
 EXAMPLE = """\
 examples:
   aadm capture 'gentl:/opt/vendor/producer.cti#A1234' --out captures/C-301-foot

@@ -19,7 +19,6 @@ from ..switches import add_switches, length
 if TYPE_CHECKING:
     from ..link.publish import Link
 
-SUMMARY = "show the hoisting state to machines, read only"
 EXAMPLE = """\
 examples:
   aadm link frames/aadm-state.json --opcua 4840
