@@ -7,10 +7,11 @@ import math
 import re
 
 _BYTES = {"mb": 10**6, "mib": 2**20, "gb": 10**9, "gib": 2**30}
-_SECONDS = {"ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
+_SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 
 LEAST_MEMORY_BYTES = 256 * 10**6
 """The packages alone take about as much; below it nothing could be checked."""
+_UNITS_S = {"": 1.0, "s": 1.0, "ms": 1e-3, "min": 60.0}  # of a time
 
 
 def add_switches(parser: argparse.ArgumentParser, *, prints_json: str | None) -> None:
@@ -54,14 +55,17 @@ def time_span(text: str) -> float:
     return _quantity(text, _SECONDS, "90s, 15min or 1h")
 
 
-def duration(text: str) -> float:
-    """A time from one thing to the next with its unit, in seconds."""
-    return _quantity(text, _SECONDS, "2s, 500ms or 1min")
-
-
 def _quantity(text: str, units: dict[str, float] | dict[str, int], example: str) -> float:
     found = re.fullmatch(r"(\d+(?:\.\d+)?) ?([a-z]+)", text.strip().lower())
     unit = units.get(found[2]) if found else None
     if found is None or unit is None or float(found[1]) == 0.0:
         raise argparse.ArgumentTypeError(f"{text!r} is no limit; write {example}")
     return float(found[1]) * unit
+
+
+def duration(text: str) -> float:
+    """A time, in seconds: 2, 2s, 500ms, 1min."""
+    found = re.fullmatch(r"(\d+(?:\.\d+)?)\s*(s|ms|min|)", text.strip())
+    if found is None or float(found[1]) == 0.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no time; write 2s, 500ms or 1min")
+    return float(found[1]) * _UNITS_S[found[2]]
