@@ -14,7 +14,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "aadm_workbench"
-STAGES = ("design", "scan", "extract", "assembly", "hoisting", "report")
+STAGES = ("design", "scan", "extract", "assembly", "hoisting", "report", "stack")
 NOUNS = {"errors", "model", "atomic", "bounded", "own_files"}
 
 Finding: TypeAlias = tuple[int, str]
@@ -101,7 +101,7 @@ open3d_only_in_published_and_twin = only_in(
 
 
 def stages_import_from_the_left(path: PurePosixPath, tree: ast.Module) -> Iterator[Finding]:
-    """Rule: design, scan, extract, assembly, hoisting, report: each may know those to its left, nothing beyond them.
+    """Rule: the stages, design to stack: each may know those to its left, nothing beyond them.
 
     The nouns know each other alone; what else lies at the root (the recipe of a whole check) joins the stages.
     """

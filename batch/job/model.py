@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Literal
 
 from aadm_workbench.model import Camera, ColumnDesign, ControlPoint, Profile
+from aadm_workbench.stack.settings import StackSettings
 
 
 @dataclass(frozen=True)
@@ -67,4 +68,5 @@ class Job:
     depth_scale_mm: float | None
     columns: tuple[JobColumn, ...]
     capture: dict[str, str] = field(default_factory=dict)
+    stack: StackSettings = field(default_factory=StackSettings)
     lines: dict[str, int] = field(default_factory=dict)

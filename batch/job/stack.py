@@ -1,0 +1,60 @@
+"""The ``[stack]`` of a job: what setting adds that no scan tells."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+from dataclasses import asdict
+
+from aadm_workbench.errors import JobError
+from aadm_workbench.stack.settings import StackSettings
+
+from .table import JobTable
+
+_LENGTHS = ("plumb_u_mm", "fit_u_mm", "bars_u_mm", "level_u_mm")
+STACK = (*_LENGTHS, "braced", "height_mm")
+
+
+def read_stack(top: JobTable) -> StackSettings:
+    """The settings of a job; the usual ones where it has none.
+
+    Raises
+    ------
+    JobError
+        For keys that are not known and values that are none.
+    """
+    table = top.table("stack", "[stack]")
+    usual = StackSettings()
+    if table is None:
+        return usual
+    table.allow(STACK)
+    lengths = {key: table.length(key) for key in _LENGTHS}
+    return StackSettings(
+        **{key: getattr(usual, key) if value is None else value for key, value in lengths.items()},
+        braced=table.flag("braced", usual.braced),
+        height_mm=table.length("height_mm"),
+    )
+
+
+def carried_text(settings: StackSettings) -> str:
+    """The settings as report.json carries them among what it says of its job: the lines of their table."""
+    known = {key: value for key, value in asdict(settings).items() if value is not None}
+    return "\n".join(f"{key} = {str(value).lower()}" for key, value in known.items())
+
+
+def carried_settings(job: Mapping[str, str]) -> StackSettings | None:
+    """The settings that a report carries; None where its job had none.
+
+    Raises
+    ------
+    JobError
+        Where somebody has changed them to what is none.
+    """
+    if not (text := job.get("stack")):
+        return None
+    source = f"report.json of {job.get('name', 'a job')}, job.stack"
+    try:
+        values = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise JobError(f"{source}: is no TOML ({error}); repeat the check") from error
+    return read_stack(JobTable({"stack": values}, (), "the job", source, {}))
