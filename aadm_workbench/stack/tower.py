@@ -42,8 +42,14 @@ class Tower:
         found: dict[int, StackedColumn] = {}
         for place in sorted(range(len(columns)), key=lambda one: _foot_mm(columns[one])):
             below = _below(columns[place], found.values())
-            found[place] = self._column(columns[place], self.heights.get(place, self.settings.height_mm), below)
+            found[place] = self._column(columns[place], self._height_mm(place, columns), below)
         return tuple(found[place] for place in range(len(columns)))
+
+    def _height_mm(self, place: int, columns: Sequence[MeasuredColumn]) -> float | None:
+        """Of the model, else of the settings, else up to the foot of the column above; None where nobody knows."""
+        known = self.heights.get(place, self.settings.height_mm)
+        ways = [_way_up(columns[place], other) for other in columns]
+        return known if known is not None else min((way for way in ways if way is not None), default=None)
 
     def _column(self, column: MeasuredColumn, height_mm: float | None, below: StackedColumn | None) -> StackedColumn:
         ground, basis = self._ground(column, below)
@@ -113,16 +119,17 @@ def carried_over(below: StackedColumn, column: MeasuredColumn, *, braced: bool) 
 
 def _below(column: MeasuredColumn, others: Iterable[StackedColumn]) -> StackedColumn | None:
     """The nearest column that another one stands on; None where no report tells of one."""
-    if column.T_model_column is None:
-        return None
-    near = []
-    for other in others:
-        if other.measured.T_model_column is None:
-            continue
-        way = column.T_model_column[:3, 3] - other.measured.T_model_column[:3, 3]
-        if np.hypot(way[0], way[1]) <= _SAME_AXIS_MM and STOREY_MM[0] <= way[2] <= STOREY_MM[1]:
-            near.append((float(way[2]), other))
+    near = [(way, other) for other in others if (way := _way_up(other.measured, column)) is not None]
     return min(near, key=lambda one: one[0])[1] if near else None
+
+
+def _way_up(lower: MeasuredColumn, upper: MeasuredColumn) -> float | None:
+    """From foot to foot, mm, of two columns that stand upon each other; None of any others."""
+    if lower.T_model_column is None or upper.T_model_column is None:
+        return None
+    way = upper.T_model_column[:3, 3] - lower.T_model_column[:3, 3]
+    stands = np.hypot(way[0], way[1]) <= _SAME_AXIS_MM and STOREY_MM[0] <= way[2] <= STOREY_MM[1]
+    return float(way[2]) if stands else None
 
 
 def _foot_mm(column: MeasuredColumn) -> float:
