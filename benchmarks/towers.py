@@ -27,12 +27,12 @@ from scipy.stats import chi2
 from aadm_workbench.assembly.decision import standard_uncertainty
 from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.pose.best_pose import BestFit, fit_best_pose
+from aadm_workbench.assembly.pose.play import Gap
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.model import Array, Verdict
+from aadm_workbench.model import Array, StackSettings, Verdict
 from aadm_workbench.report.read import read_report
 from aadm_workbench.stack.limits import Limits
-from aadm_workbench.stack.measured import Gap, Ground, MeasuredColumn, MeasuredPair, measured_floor
-from aadm_workbench.stack.settings import StackSettings
+from aadm_workbench.stack.measured import Ground, MeasuredColumn, MeasuredPair, measured_floor
 from aadm_workbench.stack.tower import Tower
 from aadm_workbench.twin.parts import ring
 from batch.job.file import read_job

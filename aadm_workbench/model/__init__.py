@@ -61,6 +61,7 @@ from aadm_workbench.model.reports import (
     JobReport,
 )
 from aadm_workbench.model.results import (
+    AimedPose,
     BestPair,
     BestPose,
     Candidate,
@@ -87,6 +88,9 @@ from aadm_workbench.model.shipment import (
     ShipmentProblem,
     ShipmentReport,
 )
+from aadm_workbench.model.stack import (
+    StackSettings,
+)
 from aadm_workbench.model.verdicts import (
     SUMMED,
     WORST_FIRST,
@@ -103,6 +107,7 @@ __all__ = [
     "WORST_FIRST",
     "AbsolutePoint",
     "AbsolutePosition",
+    "AimedPose",
     "Array",
     "AssemblyPoint",
     "Assignment",
@@ -149,6 +154,7 @@ __all__ = [
     "ShipmentReport",
     "SleeveDrift",
     "SpacingResult",
+    "StackSettings",
     "TrialPose",
     "TrialReport",
     "TurnResult",

@@ -7,11 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from aadm_workbench.assembly.pose.planar import planar_matrix, planar_of
+from aadm_workbench.assembly.pose.play import nearest_to, play_limits
 from aadm_workbench.model import Array, Verdict
 from aadm_workbench.report.words.labels import phrase
-from aadm_workbench.stack.play import nearest_to, play_limits
 from aadm_workbench.stack.result import StackedColumn
-from aadm_workbench.stack.set_pose import planar_matrix, planar_of, turned_by
+from aadm_workbench.stack.set_pose import turned_by
 from aadm_workbench.stack.torsor import Torsor, carried_to
 
 WORTH_MM = 0.05
@@ -29,7 +30,7 @@ def chosen_aim(stacked: StackedColumn, ground: Torsor) -> tuple[Array, Array] | 
         Where the bars stand, against the grid.
     """
     column, height_mm = stacked.measured, stacked.height_mm
-    limits = play_limits(column) if column.goes_on is Verdict.PASS else None
+    limits = play_limits(column.gaps) if column.goes_on is Verdict.PASS else None
     if limits is None or column.T_bars_sleeves is None or height_mm is None:
         return None
     top = ground.through(carried_to(np.array([0.0, 0.0, height_mm]))).values
@@ -38,19 +39,9 @@ def chosen_aim(stacked: StackedColumn, ground: Torsor) -> tuple[Array, Array] | 
     turn = planar_matrix(np.array([0.0, 0.0, turned_by(trial, column.turn_deg)]))
     upright = planar_matrix(trial) @ np.linalg.inv(turn)
     wanted = np.linalg.inv(planar_matrix(top[[0, 1, 5]]) @ upright)
-    moved = planar_matrix(nearest_to(limits, planar(turn.T @ wanted @ turn), column.radius_mm or height_mm))
+    moved = planar_matrix(nearest_to(limits, planar_of(turn.T @ wanted @ turn), column.radius_mm or height_mm))
     moved = turn @ moved @ turn.T
-    return planar(upright @ moved), planar(moved)
-
-
-def planar(matrix: Array) -> Array:
-    """(3,) dx, dy mm and yaw radians of a motion (3, 3)."""
-    return np.array([matrix[0, 2], matrix[1, 2], math.atan2(matrix[1, 0], matrix[0, 0])])
-
-
-def in_degrees(motion: Array) -> tuple[float, float, float]:
-    """Dx, dy mm and yaw degrees."""
-    return float(motion[0]), float(motion[1]), math.degrees(motion[2])
+    return planar_of(upright @ moved), planar_of(moved)
 
 
 def is_worth(moved: Array, radius_mm: float | None) -> bool:

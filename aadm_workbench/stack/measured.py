@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 
-from aadm_workbench.model import Array, Verdict
+from aadm_workbench.assembly.pose.play import Gap, pair_gaps
+from aadm_workbench.model import Array, BestPair, Verdict
 from aadm_workbench.report.directions import Compass, Heading, compass_of
 from aadm_workbench.report.read import Report
 from aadm_workbench.report.shown_pose import shown_pose
@@ -26,15 +27,6 @@ PLAIN = Compass(
     placed=False,
 )
 """Directions of the column itself, where nothing better is known."""
-
-
-@dataclass(frozen=True, eq=False)
-class Gap:
-    """A distance that has to stay within a radius: ``vector`` (2,) mm, ``radius_mm``, ``u_mm`` per axis."""
-
-    vector: Array
-    radius_mm: float
-    u_mm: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +106,11 @@ class MeasuredColumn:
     radius_mm: float | None = None
     compass: Compass = PLAIN
 
+    @property
+    def gaps(self) -> list[tuple[Gap, Array]]:
+        """All distances that have to stay within limits, each with the place (2,) mm of its sleeve."""
+        return [(gap, pair.place) for pair in self.pairs for gap in pair.gaps]
+
 
 @dataclass(frozen=True, eq=False)
 class MeasuredFloor:
@@ -186,25 +183,15 @@ def _pairs(
         sleeve, rebar = sleeves.get(pair["sleeve"]), rebars.get(pair["rebar"])
         place = None if sleeve is None else sleeve["aligned_mm"] or sleeve["design_mm"]
         if place is not None:
-            gaps = tuple(_gaps(pair, sleeve, rebar, length_mm))
+            gaps = tuple(pair_gaps(_best_pair(pair), [_lean(rebar), _lean(sleeve)], length_mm))
             offset = np.array(pair["offset_mm"])
             yield MeasuredPair(pair["sleeve"], pair["rebar"], np.array(place[:2]), offset, pair["u_mm"], gaps)
 
 
-def _gaps(pair: _Json, sleeve: _Json | None, rebar: _Json | None, length_mm: float | None) -> Iterator[Gap]:
-    """What must stay within limits: without the axes, no point may move further than the room that is left."""
-    offset, u_mm = np.array(pair["offset_mm"]), float(pair["u_mm"] or 0.0)
-    if pair["limit_mm"] is not None:
-        yield Gap(offset, float(pair["limit_mm"]), u_mm)
-    left_mm, allowance_mm = pair["clearance_mm"], pair.get("allowance_mm")
-    if left_mm is None:
-        return
-    u_room_mm = float(pair.get("u_room_mm") or u_mm)
-    leans = [_lean(point) for point in (rebar, sleeve)]
-    if allowance_mm is None or length_mm is None or any(lean is None for lean in leans):
-        yield Gap(np.zeros(2), float(left_mm), u_room_mm)
-        return
-    yield from (Gap(offset - length_mm * lean, float(allowance_mm), u_room_mm) for lean in leans if lean is not None)
+def _best_pair(pair: _Json) -> BestPair:
+    """A pair as the room of the trial knows it; older reports have no room in theirs."""
+    known = {item.name for item in fields(BestPair)}
+    return BestPair(**{key: value for key, value in pair.items() if key in known})
 
 
 def _lean(point: _Json | None) -> Array | None:

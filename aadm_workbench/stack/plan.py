@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from aadm_workbench.design.floor import Floor
-from aadm_workbench.model import Profile
+from aadm_workbench.model import Profile, StackSettings
 from aadm_workbench.report.words.labels import phrase
 from aadm_workbench.stack.limits import Limits
 from aadm_workbench.stack.measured import MeasuredColumn, MeasuredFloor
 from aadm_workbench.stack.members import MembersOn
 from aadm_workbench.stack.result import NotFound, StackedColumn, StackPlan
-from aadm_workbench.stack.settings import StackSettings
 from aadm_workbench.stack.tower import Tower
 
 

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from aadm_workbench.assembly.pose.planar import planar_of
 from aadm_workbench.model import Array, Verdict
 from aadm_workbench.stack.measured import MeasuredColumn, rigid_motion
 
@@ -46,17 +47,6 @@ def pose_on_bars(column: MeasuredColumn) -> OnBars | None:
         dx, dy, yaw_deg = column.told
         return OnBars(np.array([dx, dy, math.radians(yaw_deg)]), covariance, "told")
     return OnBars(_unturned(planar_of(column.T_bars_sleeves), column.turn_deg), covariance, "trial")
-
-
-def planar_of(T: Array) -> Array:
-    """(3,) dx, dy mm and yaw radians of a motion (4, 4) in the plan."""
-    return np.array([T[0, 3], T[1, 3], math.atan2(T[1, 0], T[0, 0])])
-
-
-def planar_matrix(planar: Array) -> Array:
-    """(3, 3) that acts on (x, y, 1): turned by yaw about the origin, then moved by dx, dy."""
-    cosine, sine = math.cos(planar[2]), math.sin(planar[2])
-    return np.array([[cosine, -sine, planar[0]], [sine, cosine, planar[1]], [0.0, 0.0, 1.0]])
 
 
 def turned_by(planar: Array, turn_deg: float) -> float:

@@ -1,63 +1,31 @@
-"""What no scan of bars and sleeves tells of a column that is set: how plumb, how level, how near to its aim."""
+"""What setting adds to where a column stands: covariances of what no scan of bars and sleeves tells."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, StackSettings
 
 _USUAL_RADIUS_MM = 200.0
 """From the axis of a column to its bars where there are no bars to measure it on; columns are 400 to 800 mm wide."""
 
 
-@dataclass(frozen=True)
-class StackSettings:
-    """``[stack]`` of a job: standard uncertainties, mm, k = 1, of what a trial does not give.
+def of_setting(settings: StackSettings, radius_mm: float | None, height_mm: float | None) -> Array:
+    """Covariance (6, 6) of a column against where it is guided to: mm², mm·rad, rad².
 
     Parameters
     ----------
-    plumb_u_mm
-        Of the top against the foot, per axis, once the column is plumbed: half of the 5 mm of GB/T 51231-2016, table
-        10.4.12 (unverified), a limit taken as k = 2.
-    fit_u_mm
-        Of where the column comes to stand in its play against where it was guided to, per axis; also of its concrete
-        against its sleeves. A choice: a third of the 3 mm between bar and sleeve.
-    bars_u_mm
-        Of the bars in the head of a column, as a group, against its foot, per axis: half of the 2 mm of GB/T
-        51231-2016, table 9.7.4-3 (unverified), a limit taken as k = 2.
-    level_u_mm
-        Of the height of the foot. A choice: shims are levelled to 2 mm, k = 2, before the column comes; the 5 mm of
-        GB/T 51231-2016, table 10.4.12 (unverified), are for the finished member.
-    braced
-        Whether braces plumb each column anew; else it leans as the one below it leans, and its own lean is added.
+    radius_mm
+        Of its bars about its axis, root mean square: what presses on bars turns the column, too.
     height_mm
-        Of columns of which no model says it.
+        From foot to top; None where it is not known: then the tilt is not a number.
     """
+    tilt = np.nan if height_mm is None else settings.plumb_u_mm / height_mm
+    yaw = settings.fit_u_mm / (radius_mm or _USUAL_RADIUS_MM)
+    return np.diag(np.square([settings.fit_u_mm, settings.fit_u_mm, settings.level_u_mm, tilt, tilt, yaw]))
 
-    plumb_u_mm: float = 2.5
-    fit_u_mm: float = 1.0
-    bars_u_mm: float = 1.0
-    level_u_mm: float = 1.0
-    braced: bool = True
-    height_mm: float | None = None
 
-    def of_setting(self, radius_mm: float | None, height_mm: float | None) -> Array:
-        """Covariance (6, 6) of a column against where it is guided to: mm², mm·rad, rad².
-
-        Parameters
-        ----------
-        radius_mm
-            Of its bars about its axis, root mean square: what presses on bars turns the column, too.
-        height_mm
-            From foot to top; None where it is not known: then the tilt is not a number.
-        """
-        tilt = np.nan if height_mm is None else self.plumb_u_mm / height_mm
-        yaw = self.fit_u_mm / (radius_mm or _USUAL_RADIUS_MM)
-        return np.diag(np.square([self.fit_u_mm, self.fit_u_mm, self.level_u_mm, tilt, tilt, yaw]))
-
-    def of_bars(self, radius_mm: float | None) -> Array:
-        """Covariance (6, 6) of the bars in the head of a column against the column, as a group."""
-        yaw = self.bars_u_mm / (radius_mm or _USUAL_RADIUS_MM)
-        return np.diag(np.square([self.bars_u_mm, self.bars_u_mm, 0.0, 0.0, 0.0, yaw]))
+def of_bars(settings: StackSettings, radius_mm: float | None) -> Array:
+    """Covariance (6, 6) of the bars in the head of a column against the column, as a group."""
+    yaw = settings.bars_u_mm / (radius_mm or _USUAL_RADIUS_MM)
+    return np.diag(np.square([settings.bars_u_mm, settings.bars_u_mm, 0.0, 0.0, 0.0, yaw]))

@@ -1,7 +1,7 @@
 """Storey by storey: where the bars stand, where the column comes to stand on them, where its top is then.
 
 ξ_top = A(H) ξ,  Σ_top = A Σ Aᵀ,  and for the bars of the next storey Σ + Q: F sets the tilt to zero where braces plumb
-each column anew, and Q is what setting adds (:class:`.settings.StackSettings`). Bars that control points tie to the
+each column anew, and Q is what setting adds (:mod:`.settings`). Bars that control points tie to the
 grid start anew from there; others are reached through the column below, where a report tells of it.
 """
 
@@ -12,14 +12,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.model import Array, Verdict
+from aadm_workbench.assembly.pose.planar import in_degrees
+from aadm_workbench.model import Array, StackSettings, Verdict
 from aadm_workbench.report.words.labels import Phrase, phrase
-from aadm_workbench.stack.advice import chosen_aim, in_degrees, is_worth, without_advice
+from aadm_workbench.stack.advice import chosen_aim, is_worth, without_advice
 from aadm_workbench.stack.limits import Limits
 from aadm_workbench.stack.measured import MeasuredColumn
 from aadm_workbench.stack.result import Advice, Basis, StackedColumn, Top
 from aadm_workbench.stack.set_pose import OnBars, pose_on_bars
-from aadm_workbench.stack.settings import StackSettings
+from aadm_workbench.stack.settings import of_bars, of_setting
 from aadm_workbench.stack.torsor import STILL, Torsor, carried_to, in_plan, plumbed, seen_from
 
 STOREY_MM = (1500.0, 12000.0)
@@ -64,7 +65,7 @@ class Tower:
         stacked = replace(stacked, placed=placed)
         if height_mm is None:
             return without_advice(stacked, "no_height")
-        bars = placed.through(carried_to(np.array([0.0, 0.0, height_mm])), self.settings.of_bars(column.radius_mm))
+        bars = placed.through(carried_to(np.array([0.0, 0.0, height_mm])), of_bars(self.settings, column.radius_mm))
         stacked = replace(stacked, top=self._top(placed, stacked), next_bars=bars)
         return self._advised(stacked, ground, on_bars)
 
@@ -77,12 +78,12 @@ class Tower:
         carried = carried_over(below, column, braced=self.settings.braced)
         if not np.all(np.isfinite(carried.covariance)):
             return STILL, "bars"
-        return carried.plus(np.zeros(6), self.settings.of_bars(column.radius_mm)), "storey_below"
+        return carried.plus(np.zeros(6), of_bars(self.settings, column.radius_mm)), "storey_below"
 
     def _settled(self, stacked: StackedColumn, on_bars: OnBars) -> Array:
         """Covariance (6, 6) of a column on its bars: of the measurement, and what setting adds."""
         measured = in_plan(on_bars.planar, on_bars.covariance).covariance
-        return measured + self.settings.of_setting(stacked.measured.radius_mm, stacked.height_mm)
+        return measured + of_setting(self.settings, stacked.measured.radius_mm, stacked.height_mm)
 
     def _top(self, placed: Torsor, stacked: StackedColumn) -> Top:
         offset, covariance = placed.at(np.array([0.0, 0.0, stacked.height_mm or 0.0]))

@@ -22,17 +22,17 @@ from ..switches import add_switches
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from aadm_workbench.model import Profile
+    from aadm_workbench.model import Profile, StackSettings
     from aadm_workbench.report.read import Report
     from aadm_workbench.stack.result import StackPlan
-    from aadm_workbench.stack.settings import StackSettings
 
 SUMMARY = "say what set columns do to beams and to the next storey"
 EXAMPLE = """\
 examples:
   aadm stack floor3-report/report.json --model floor3.ifc
   aadm stack floor2-report/report.json floor3-report/report.json --model tower.ifc --html
-  aadm stack floor3-report/report.json --job floor3.toml --json > stack.json"""
+  aadm stack floor3-report/report.json --job floor3.toml --json > stack.json
+  aadm stack floor3-report/report.json --model floor3.ifc --write-ifc floor3-set.ifc"""
 
 PROFILE = "cn-gbt51231-2016"
 """The profile with limits of erected members; the usual one of a check has none of them."""
@@ -54,6 +54,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--language", choices=("en", "zh"), default="en", metavar="LANGUAGE", help="en or zh: of the page"
     )
+    parser.add_argument(
+        "--write-ifc", type=Path, metavar="FILE", help="write a copy of the model with the check's results and the plan"
+    )
     add_switches(parser, prints_json="the plan")
     parser.set_defaults(run=run)
 
@@ -68,6 +71,8 @@ def run(options: argparse.Namespace) -> int:
     reports = [read_report(path) for path in options.reports]
     plan = _planned(reports, options, load_profile(options.tolerances))
     written = [_page(plan, options)] if options.html else []
+    if options.write_ifc is not None:
+        written.append(_model(plan, reports, options))
     if options.json:
         from aadm_workbench.report.json import encode
         from aadm_workbench.stack.document import stack_document
@@ -96,7 +101,7 @@ def _planned(reports: Sequence[Report], options: argparse.Namespace, profile: Pr
 
 def _settings(job: Path | None, reports: Sequence[Report]) -> StackSettings:
     """Of the job that was named; else of the last report that carries any."""
-    from aadm_workbench.stack.settings import StackSettings
+    from aadm_workbench.model import StackSettings
 
     from ..job.file import read_job
     from ..job.stack import carried_settings
@@ -115,6 +120,20 @@ def _page(plan: StackPlan, options: argparse.Namespace) -> Path:
     path: Path = _folder(options, options.reports[0].parent) / "stack.html"
     write_stack_page(plan, path, options.language)
     return path
+
+
+def _model(plan: StackPlan, reports: Sequence[Report], options: argparse.Namespace) -> Path:
+    """A copy of the model that was checked, with its results and AADM_Setting."""
+    from aadm_workbench.errors import ReportError
+    from aadm_workbench.stack.setting import setting_properties
+
+    from ..model_results import write_results
+
+    if options.model is None or len(reports) != 1:
+        raise ReportError("--write-ifc writes one report into its model: name one REPORT.json and --model")
+    folder: Path = options.reports[0].parent
+    done = write_results(reports[0], folder, options.model, options.write_ifc, setting=setting_properties(plan))
+    return done.out
 
 
 def _exit_code(plan: StackPlan) -> int:

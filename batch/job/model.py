@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
-from aadm_workbench.model import Camera, ColumnDesign, ControlPoint, Profile
-from aadm_workbench.stack.settings import StackSettings
+from aadm_workbench.model import Camera, ColumnDesign, ControlPoint, Profile, StackSettings, Vector3
 
 
 @dataclass(frozen=True)
@@ -28,7 +27,7 @@ class JobColumn:
     ``..._up_deg``: column-frame direction at the top of the image, degrees from +x counter-clockwise from above.
     ``axes``: those of its clouds, None where they are to be found out. ``near``: signs of x and y of the corner of the
     bars nearest to the hoisting camera, ``hoisting_near`` the same for each of ``hoisting``. ``control_points`` are
-    measured in the scan of the rebars.
+    measured in the scan of the rebars. ``set_pose``: dx, dy mm and yaw degrees at which the crane is to set it.
     """
 
     id: str
@@ -44,6 +43,7 @@ class JobColumn:
     near: tuple[int, int] | None = None
     design: ColumnDesign | None = None
     control_points: tuple[ControlPoint, ...] = ()
+    set_pose: Vector3 | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,11 +7,14 @@ from collections.abc import Mapping
 from dataclasses import asdict
 
 from aadm_workbench.errors import JobError
-from aadm_workbench.stack.settings import StackSettings
+from aadm_workbench.model import StackSettings, Vector3
 
 from .table import JobTable
 
 _LENGTHS = ("plumb_u_mm", "fit_u_mm", "bars_u_mm", "level_u_mm")
+LARGEST_SET_POSE = 20.0
+"""Of each of its three numbers, mm or degrees: sleeves have 5 to 20 mm of room, and what is more is a slip."""
+
 STACK = (*_LENGTHS, "braced", "height_mm")
 
 
@@ -34,6 +37,18 @@ def read_stack(top: JobTable) -> StackSettings:
         braced=table.flag("braced", usual.braced),
         height_mm=table.length("height_mm"),
     )
+
+
+def read_set_pose(column: JobTable) -> Vector3 | None:
+    """The pose of a column's play at which the crane is to set it: dx, dy mm and yaw degrees; None without one."""
+    pose = column.numbers("set_pose", 3)
+    if not pose:
+        return None
+    if max(abs(value) for value in pose) > LARGEST_SET_POSE:
+        message = f"set_pose must lie within ±{LARGEST_SET_POSE:g} mm and degrees: no play is as large"
+        raise column.wrong("set_pose", message)
+    dx, dy, yaw_deg = pose
+    return dx, dy, yaw_deg
 
 
 def carried_text(settings: StackSettings) -> str:

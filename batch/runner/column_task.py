@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Generic, TypeVar
 
+from aadm_workbench.assembly.trial.aim import with_aim
 from aadm_workbench.check import ColumnScans, check_column
 from aadm_workbench.design.recognise.extent import extent_mm
 from aadm_workbench.errors import AadmError, DesignError
@@ -94,7 +95,7 @@ def _checked(task: ColumnTask, watch: Stopwatch) -> ColumnReport:
         return replace(report, hoisting=measure_frames(task, report, watch))
     with watch.stage("read"):
         scans = read_scans(task, task.design)
-    report = check_column(task.design, scans, task.settings, watch.stage)
+    report = with_aim(check_column(task.design, scans, task.settings, watch.stage), task.column.set_pose)
     return replace(report, id=task.column.id, hoisting=measure_frames(task, report, watch))
 
 

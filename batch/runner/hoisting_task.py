@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.hoisting.aim import aimed
 from aadm_workbench.hoisting.contradiction import contradiction_of
 from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.model import (
@@ -37,7 +38,8 @@ def measure_frames(task: ColumnTask, report: ColumnReport, watch: Stopwatch) -> 
     corners = column.hoisting_near or (column.near,) * len(column.hoisting)
     named = zip(column.hoisting, corners, strict=True)
     measured = [_measured(task, task.design, name, near, report, watch) for name, near in named]
-    return _held_against_each_other(measured, task.design)
+    target = None if report.trial_assembly is None else report.trial_assembly.target
+    return tuple(aimed(frame, target) for frame in _held_against_each_other(measured, task.design))
 
 
 def _held_against_each_other(

@@ -14,12 +14,13 @@ import numpy as np
 from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError, DesignError, JobError, ScanError
+from aadm_workbench.hoisting.aim import aimed
 from aadm_workbench.hoisting.contradiction import contradiction_of
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
 from aadm_workbench.hoisting.motion import Look, Motion, look_at, motion_of, with_look
 from aadm_workbench.hoisting.running import Running, combined
 from aadm_workbench.hoisting.turn_findings import with_contradiction
-from aadm_workbench.model import ColumnDesign, HoistingMeasurement, HoistingReport, Verdict
+from aadm_workbench.model import AimedPose, ColumnDesign, HoistingMeasurement, HoistingReport, Verdict
 from aadm_workbench.report.json import encode
 
 from ..runner.column_task import check_task
@@ -73,6 +74,7 @@ class Watcher:
         self._places = np.array([bar.centre[:2] for bar in self.design.rebars])
         rules = rules_for(task.settings.profile, "sleeve_rebar_distance")
         self._limit_mm = rules[0].upper if rules else None
+        self._target: AimedPose | None = None
         self._sleeves, self._rebars = self._before()
         self._first_tries: dict[str, float] = {}
 
@@ -106,6 +108,7 @@ class Watcher:
         report = check_task(self.task).report
         if report.verdict is Verdict.ERROR:
             self.say(f"{column.id}: {'; '.join(report.reasons)}; its design places are used")
+        self._target = None if report.trial_assembly is None else report.trial_assembly.target
         return before_hoisting(report.sleeves), before_hoisting(report.rebars)
 
     def _frame(self, path: Path) -> None:
@@ -160,6 +163,7 @@ class Watcher:
             self.bad_frames += 1
         else:
             measurement = self._compared(measurement, near)
+            measurement = replace(measurement, report=aimed(measurement.report, self._target))
             running = self._running = combined(self._running, measurement)
             motion = self._moved(measurement, captured_s)
         self.verdict = measurement.report.verdict

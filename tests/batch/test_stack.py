@@ -1,5 +1,6 @@
 """``aadm stack``: from report.json and a model to tables, JSON, a page and an exit code."""
 
+import hashlib
 import json
 from pathlib import Path
 from typing import Any
@@ -124,3 +125,56 @@ def test_what_is_no_model_is_an_error(folder: Path, capfdbinary: pytest.CaptureF
     assert main(["stack", str(folder / "demo.ifc")]) == 2
     assert main(["stack", str(folder / "none.json")]) == 2
     assert main(["stack", str(folder / "report.json"), "--tolerances", "moon"]) == 2
+
+
+def test_into_the_model_and_out_again(tmp_path: Path, capfdbinary: pytest.CaptureFixture[bytes]) -> None:
+    """AADM_Setting on columns and beams, read by ifcopenshell; written twice the same, taken out byte for byte."""
+    ifcopenshell = pytest.importorskip("ifcopenshell")
+    from ifcopenshell.util.element import get_psets
+
+    model = demo_model(tmp_path)
+    report = demo_report()
+    file = ifcopenshell.open(str(model))
+    ids = {column.Name: column.GlobalId for column in file.by_type("IfcColumn")}
+    report["model"] = {"source": "demo.ifc", "sha256": hashlib.sha256(model.read_bytes()).hexdigest()}
+    for column in report["columns"]:
+        column["global_id"] = ids[column["id"]]
+    (tmp_path / "report.json").write_text(json.dumps(report), encoding="utf-8")
+    words = ("--model", str(model), "--write-ifc", str(tmp_path / "set.ifc"), "--quiet")
+    run(tmp_path, capfdbinary, *words)
+    first = (tmp_path / "set.ifc").read_bytes()
+    run(tmp_path, capfdbinary, *words)
+    assert (tmp_path / "set.ifc").read_bytes() == first
+    written = ifcopenshell.open(str(tmp_path / "set.ifc"))
+    columns = {one.Name: get_psets(one)["AADM_Setting"] for one in written.by_type("IfcColumn")}
+    assert columns["C-1"]["SetX"] == pytest.approx(6.5, abs=0.01)
+    assert columns["C-1"]["TopVerdict"] == "inconclusive"
+    assert columns["C-1"]["Against"] == "control_points"
+    assert "SetX" not in columns["C-3"]
+    assert "does not go on" in columns["C-3"]["Reasons"]
+    assert columns["C-5"]["Against"] == "bars"
+    assert "TopLimit" not in columns["C-5"]
+    beams = {one.Name: get_psets(one)["AADM_Setting"] for one in written.by_type("IfcBeam")}
+    assert beams["KL1"]["Span"] == pytest.approx(-8.5, abs=0.05)
+    assert beams["KL1"]["SpanLimit"] == 10.0
+    assert main(["writeback", str(tmp_path / "set.ifc"), "--remove", "--out", str(tmp_path / "back.ifc")]) == 0
+    assert (tmp_path / "back.ifc").read_bytes() == model.read_bytes()
+
+
+def test_a_model_is_written_for_one_report_alone(folder: Path, tmp_path: Path) -> None:
+    report = str(folder / "report.json")
+    assert main(["stack", report, "--write-ifc", str(tmp_path / "a.ifc")]) == 2
+    assert main(["stack", report, report, "--model", str(folder / "demo.ifc"), "--write-ifc", "a.ifc"]) == 2
+
+
+def test_diff_tells_what_comes_to_stand_elsewhere(tmp_path: Path, capfdbinary: pytest.CaptureFixture[bytes]) -> None:
+    for name, dx in (("a", 1.0), ("b", 5.0)):
+        report = report_of(Standing("C-1", ground=(dx, 0.0, 0.0)))
+        (tmp_path / f"{name}.json").write_text(json.dumps(report), encoding="utf-8")
+    paths = [str(tmp_path / "a.json"), str(tmp_path / "b.json")]
+    assert main(["diff", *paths, "--json"]) in (10, 11)
+    (change,) = json.loads(capfdbinary.readouterr().out)["set"]
+    assert change["moved_mm"] == pytest.approx(4.0, abs=0.05)
+    assert main(["diff", *paths]) in (10, 11)
+    assert "4.00 mm" in capfdbinary.readouterr().out.decode()
+    assert main(["diff", paths[0], paths[0]]) == 0

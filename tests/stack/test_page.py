@@ -10,13 +10,13 @@ import pytest
 
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.design.ifc.floor import read_floor
+from aadm_workbench.model import StackSettings
 from aadm_workbench.stack.document import stack_document
 from aadm_workbench.stack.drawing import stack_drawings, top_in_plan
 from aadm_workbench.stack.measured import measured_floor
 from aadm_workbench.stack.page import stack_page, write_stack_page
 from aadm_workbench.stack.plan import plan_stack
 from aadm_workbench.stack.result import StackPlan
-from aadm_workbench.stack.settings import StackSettings
 from tests.report.browser import chromium
 from tests.stack.demo import HOSTILE, demo_model, demo_report
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from aadm_workbench.assembly.pose.play import nearest_to, play_limits, within
 from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.model import StackSettings
 from aadm_workbench.stack.limits import Limits
 from aadm_workbench.stack.measured import MeasuredColumn, measured_floor
-from aadm_workbench.stack.play import nearest_to, play_limits, within
-from aadm_workbench.stack.settings import StackSettings
 from aadm_workbench.stack.tower import Tower
 from tests.report.checked_floor import CENTRES
 from tests.stack.standing import Standing, report_of
@@ -44,7 +44,7 @@ def distances(column: MeasuredColumn, planar: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("wanted", [(-5.0, 2.0, -0.003), (0.4, 0.1, 0.0), (0.0, 9.0, 0.0), (0.0, 0.0, 0.05)])
 def test_the_nearest_permitted_pose(column: MeasuredColumn, wanted: tuple[float, float, float]) -> None:
-    limits = play_limits(column)
+    limits = play_limits(column.gaps)
     assert limits is not None
     aim, scale = np.array(wanted), np.array([1.0, 1.0, LEVER_MM])
     found = nearest_to(limits, aim, LEVER_MM)
@@ -60,7 +60,7 @@ def test_the_nearest_permitted_pose(column: MeasuredColumn, wanted: tuple[float,
 
 def test_the_play_is_smaller_by_what_is_not_known(column: MeasuredColumn) -> None:
     """Twelve gaps that together may fail in 5 %: each keeps 2.64 standard uncertainties away from its limit."""
-    limits = play_limits(column)
+    limits = play_limits(column.gaps)
     assert limits is not None
     gap = column.pairs[0].gaps[0]
     sigmas = (gap.radius_mm - limits.radii[0]) / gap.u_mm
@@ -73,7 +73,7 @@ def test_a_gap_beyond_its_smaller_radius_does_not_grow() -> None:
     tight = replace(
         column, pairs=tuple(replace(p, gaps=tuple(replace(g, u_mm=0.5) for g in p.gaps)) for p in column.pairs)
     )
-    limits = play_limits(tight)
+    limits = play_limits(tight.gaps)
     assert limits is not None
     before = distances(tight, np.zeros(3))
     after = distances(tight, nearest_to(limits, np.array([0.0, 5.0, 0.0]), LEVER_MM))
@@ -84,11 +84,11 @@ def test_a_gap_beyond_its_smaller_radius_does_not_grow() -> None:
 
 def test_a_trial_that_breaks_a_limit_has_no_play() -> None:
     column = measured_floor(report_of(Standing("C-1", off={"R1": (-3.6, -3.0), "R7": (3.6, 3.0)}))).columns[0]
-    assert play_limits(column) is None
+    assert play_limits(column.gaps) is None
 
 
 def test_what_was_asked_for_is_cut_at_the_limit(column: MeasuredColumn) -> None:
-    limits = play_limits(column)
+    limits = play_limits(column.gaps)
     assert limits is not None
     asked = np.array([8.0, 3.0, 0.001])
     kept = within(limits, asked)

@@ -7,11 +7,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.model import Verdict
+from aadm_workbench.model import StackSettings, Verdict
 from aadm_workbench.stack.limits import Limits
 from aadm_workbench.stack.measured import MeasuredColumn, measured_floor
 from aadm_workbench.stack.result import StackedColumn
-from aadm_workbench.stack.settings import StackSettings
 from aadm_workbench.stack.tower import Tower
 from tests.stack.standing import Standing, near, report_of, shifted
 

@@ -11,10 +11,10 @@ from scipy.spatial.transform import Rotation
 from scipy.stats import chi2
 
 from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.model import StackSettings
 from aadm_workbench.stack.limits import Limits
 from aadm_workbench.stack.measured import measured_floor
 from aadm_workbench.stack.result import StackedColumn
-from aadm_workbench.stack.settings import StackSettings
 from aadm_workbench.stack.tower import Tower
 from tests.stack.standing import Standing, report_of
 

@@ -14,6 +14,7 @@ from aadm_workbench.report.read import Report
 from aadm_workbench.report.shown_pose import shown_pose
 
 COLUMN_SET = "AADM_ColumnCheck"
+SETTING_SET = "AADM_Setting"
 POINT_SETS = {"sleeves": "AADM_SleeveCheck", "rebars": "AADM_RebarCheck"}
 _LENGTH, _POSITIVE, _LABEL, _TEXT = "IfcLengthMeasure", "IfcPositiveLengthMeasure", "IfcLabel", "IfcText"
 _ANGLE, _SHARE, _RATIO = "IfcPlaneAngleMeasure", "IfcNormalisedRatioMeasure", "IfcRatioMeasure"

@@ -9,6 +9,7 @@ as it is there, and not grow.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,8 +17,7 @@ from scipy.optimize import minimize
 from scipy.stats import norm
 
 from aadm_workbench.assembly.decision import PASS_PROBABILITY
-from aadm_workbench.model import Array
-from aadm_workbench.stack.measured import MeasuredColumn
+from aadm_workbench.model import Array, PairResult
 
 _STEPS_BACK = 40
 """Halvings of the way back to the trial's pose where rounding left a limit by a hair: to a millionth of a millionth."""
@@ -27,6 +27,44 @@ _MOST_ITERATIONS = 200
 
 _ROUNDING_MM = 1e-9
 """By which a gap may be longer than its radius: rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Gap:
+    """A distance that has to stay within a radius: ``vector`` (2,) mm, ``radius_mm``, ``u_mm`` per axis.
+
+    ``is_of_centres`` tells the distance of the centres from the rooms of the axes.
+    """
+
+    vector: Array
+    radius_mm: float
+    u_mm: float
+    is_of_centres: bool = False
+
+
+def pair_gaps(pair: PairResult, leans: Sequence[Array | None], length_mm: float | None) -> Iterator[Gap]:
+    """What of a pair must stay within limits: its centres, and its axes at both ends of the embedded length.
+
+    Parameters
+    ----------
+    pair
+        At the pose from which the column is to be displaced.
+    leans
+        How far the axes of bar and sleeve move in the plan, (2,), for each mm along the column; where one is not
+        known, no point may move further than the room that is left.
+    length_mm
+        The embedded length of the bar.
+    """
+    offset, u_mm = np.array(pair.offset_mm), pair.u_mm or 0.0
+    if pair.limit_mm is not None:
+        yield Gap(offset, pair.limit_mm, u_mm, is_of_centres=True)
+    if pair.clearance_mm is None:
+        return
+    allowance_mm, u_room_mm = getattr(pair, "allowance_mm", None), getattr(pair, "u_room_mm", None) or u_mm
+    if allowance_mm is None or length_mm is None or any(lean is None for lean in leans):
+        yield Gap(np.zeros(2), pair.clearance_mm, u_room_mm)
+        return
+    yield from (Gap(offset - length_mm * lean, allowance_mm, u_room_mm) for lean in leans if lean is not None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,9 +91,14 @@ class PlayLimits:
         return bool(np.all(lengths <= self.radii + _ROUNDING_MM))
 
 
-def play_limits(column: MeasuredColumn) -> PlayLimits | None:
-    """The limits of a column's play; None where nothing limits it, or its trial breaks one."""
-    rows = [(gap, pair.place) for pair in column.pairs for gap in pair.gaps]
+def play_limits(rows: Sequence[tuple[Gap, Array]]) -> PlayLimits | None:
+    """The limits of a column's play; None where nothing limits it, or its trial breaks one.
+
+    Parameters
+    ----------
+    rows
+        Gaps, each with the place (2,) mm of its sleeve in the column.
+    """
     if not rows:
         return None
     vectors, places = np.array([gap.vector for gap, _ in rows]), np.array([place for _, place in rows])
