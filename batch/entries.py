@@ -5,7 +5,7 @@ from __future__ import annotations
 from aadm_workbench.assembly.mould.moulds import assess_moulds
 from aadm_workbench.check import CheckSettings
 from aadm_workbench.design.model_design import ModelDesign
-from aadm_workbench.model import ColumnReport, JobReport
+from aadm_workbench.model import ColumnReport, JobReport, StackSettings
 
 from .job.model import Job
 from .program import tool_entry
@@ -35,4 +35,5 @@ def job_entry(job: Job, settings: CheckSettings) -> dict[str, str]:
         "method": settings.method,
         "decision": settings.decision,
         "seed": str(settings.seed),
+        **({} if job.stack == StackSettings() else {"stack": job.stack.text}),
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 
 @dataclass(frozen=True)
@@ -35,3 +35,9 @@ class StackSettings:
     level_u_mm: float = 1.0
     braced: bool = True
     height_mm: float | None = None
+
+    @property
+    def text(self) -> str:
+        """The lines of their table in a job, which report.json carries among what it says of the job."""
+        known = {item.name: getattr(self, item.name) for item in fields(self)}
+        return "\n".join(f"{key} = {str(value).lower()}" for key, value in known.items() if value is not None)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Mapping
-from dataclasses import asdict
 
 from aadm_workbench.errors import JobError
 from aadm_workbench.model import StackSettings, Vector3
@@ -49,12 +48,6 @@ def read_set_pose(column: JobTable) -> Vector3 | None:
         raise column.wrong("set_pose", message)
     dx, dy, yaw_deg = pose
     return dx, dy, yaw_deg
-
-
-def carried_text(settings: StackSettings) -> str:
-    """The settings as report.json carries them among what it says of its job: the lines of their table."""
-    known = {key: value for key, value in asdict(settings).items() if value is not None}
-    return "\n".join(f"{key} = {str(value).lower()}" for key, value in known.items())
 
 
 def carried_settings(job: Mapping[str, str]) -> StackSettings | None:

@@ -7,8 +7,12 @@ from typing import Any
 
 import pytest
 
+from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.check import CheckSettings
+from aadm_workbench.errors import JobError
+from batch.entries import job_entry
 from batch.job.file import read_job
-from batch.job.stack import carried_settings, carried_text
+from batch.job.stack import carried_settings
 from batch.main import main
 from tests.stack.demo import demo_model, demo_report
 from tests.stack.floors import FloorAuthor
@@ -82,8 +86,36 @@ def test_settings_go_through_a_report_unchanged(tmp_path: Path) -> None:
     settings = read_job(job).stack
     assert settings.fit_u_mm == 0.25
     assert not settings.braced
-    assert carried_settings({"stack": carried_text(settings)}) == settings
+    assert carried_settings(job_entry(read_job(job), CheckSettings(load_profile("cn")))) == settings
     assert carried_settings({}) is None
+    with pytest.raises(JobError, match=r"job\.stack"):
+        carried_settings({"stack": "fit_u_mm = ["})
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("[1.0, 2.0]", "3 numbers"),
+        ('"x"', "3 numbers"),
+        ("[0, 0, nan]", "a number"),
+        ("[0.0, 200.0, 0.0]", "within ±20"),
+    ],
+)
+def test_a_wrong_set_pose_names_its_line(tmp_path: Path, line: str, said: str) -> None:
+    job = tmp_path / "job.toml"
+    text = 'schema = 1\n[model]\npath = "a.ifc"\n[[columns]]\nid = "A"\nsleeves = "a.ply"\nset_pose = '
+    job.write_text(f"{text}{line}\n", encoding="utf-8")
+    with pytest.raises(JobError, match=f"line 7.*{said}"):
+        read_job(job)
+
+
+def test_set_pose_of_a_job(tmp_path: Path) -> None:
+    job = tmp_path / "job.toml"
+    text = 'schema = 1\n[model]\npath = "a.ifc"\n[[columns]]\nid = "A"\nsleeves = "a.ply"\n'
+    job.write_text(f"{text}set_pose = [1, -0.4, 0.05]\n", encoding="utf-8")
+    assert read_job(job).columns[0].set_pose == (1.0, -0.4, 0.05)
+    job.write_text(text, encoding="utf-8")
+    assert read_job(job).columns[0].set_pose is None
 
 
 def test_two_storeys(tmp_path: Path, capfdbinary: pytest.CaptureFixture[bytes]) -> None:
