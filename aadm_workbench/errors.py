@@ -6,7 +6,12 @@ What a scan cannot support (a plugged sleeve, a bar out of view) is no error: it
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterable
 from dataclasses import dataclass
+
+PRIVATE_ENVIRONMENT = "AADM_PRIVATE_ENVIRONMENT"
+"""Variable that is set in a process of FreeCAD's private environment, for which pip on the PATH does nothing."""
 
 
 class AadmError(Exception):
@@ -33,14 +38,22 @@ class ReportError(AadmError):
     """A report.json cannot be used: broken, of another schema, or not what the schema describes."""
 
 
+class NoEnvironmentError(AadmError):
+    """FreeCAD's private environment is not there, or is not whole; the workbench offers to install it."""
+
+
 class MissingDependencyError(AadmError):
     """A package that this command needs is not installed; the message holds the command that installs it."""
 
     def __init__(self, package: str, needed_for: str, install: str = "") -> None:
         install = install or package_called(package).install
-        super().__init__(
-            f"{needed_for} needs the package {package}, which is not installed. Install it with: {install}"
-        )
+        remedy = f"Install it with: {install}"
+        if os.environ.get(PRIVATE_ENVIRONMENT) and install.startswith("pip "):
+            remedy = (
+                "FreeCAD's private environment lacks it: repair that in About AADM and doctor, or name in the settings "
+                f"an aadm of your own that has it ({install})"
+            )
+        super().__init__(f"{needed_for} needs the package {package}, which is not installed. {remedy}")
         self.package = package
         self.install = install
 
@@ -105,3 +118,12 @@ def package_called(pip_name: str) -> Package:
 def install_of(extra: str) -> str:
     """The command that installs what one extra of this project brings."""
     return f"pip install 'aadm-workbench[{extra}]'"
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The end of a message about an unknown word: what is near to it, or all that is known."""
+    from difflib import get_close_matches
+
+    known = tuple(known)
+    near = get_close_matches(word, known, n=1, cutoff=0.6)
+    return f'did you mean "{near[0]}"?' if near else f"known: {', '.join(known)}"

@@ -18,6 +18,9 @@ from aadm_workbench.report.words.labels import Phrase
 
 _Json = Mapping[str, Any]
 
+_AS_ASKED = 1e-3
+"""mm and degrees: rounding of what was asked for."""
+
 PLAIN = Compass(
     (
         Heading((1.0, 0.0), Phrase("towards +x", "向 +x "), Phrase("towards −x", "向 −x ")),
@@ -80,6 +83,8 @@ class MeasuredColumn:
         How far it can move from that pose: ``dx_mm``, ``dy_mm``, ``yaw_deg``, each from, to; None without play.
     told
         dx, dy mm and yaw degrees that the job told the crane to aim at, as far as no limit forbids it; None without.
+    told_is_cut
+        Whether a limit did forbid a part of what the job asked for.
     radius_mm
         Of the bars about the axis, root mean square; None where nothing was measured.
     compass
@@ -100,6 +105,7 @@ class MeasuredColumn:
     turn_deg: float = 0.0
     window: Mapping[str, tuple[float, float]] | None = None
     told: tuple[float, float, float] | None = None
+    told_is_cut: bool = False
     ground: Ground | None = None
     ground_reason: str = ""
     hung: Hung | None = None
@@ -152,6 +158,7 @@ def _column(report: Report, column: dict[str, Any]) -> MeasuredColumn:
         turn_deg=float(trial.get("turn_deg") or 0.0),
         window=trial.get("window"),
         told=_told(trial.get("target")),
+        told_is_cut=_is_cut(trial.get("target")),
         ground=ground,
         ground_reason=why,
         hung=_hung(column["hoisting"], sleeves, rebars),
@@ -174,6 +181,11 @@ def _radius_mm(column: _Json) -> float | None:
 
 def _told(target: _Json | None) -> tuple[float, float, float] | None:
     return None if target is None else (target["dx_mm"], target["dy_mm"], target["yaw_deg"])
+
+
+def _is_cut(target: _Json | None) -> bool:
+    told = _told(target)
+    return target is not None and told is not None and not np.allclose(told, target["asked"], rtol=0.0, atol=_AS_ASKED)
 
 
 def _pairs(

@@ -57,6 +57,7 @@ class Tower:
         on_bars = pose_on_bars(column)
         through = below.measured.id if below is not None and basis == "storey_below" else None
         reasons = (phrase("stack.not_tied"),) if basis == "bars" else ()
+        reasons = (*reasons, phrase("stack.told_cut")) if column.told_is_cut else reasons
         if on_bars is None:
             said = (_why_not(column), *reasons)
             return StackedColumn(column, None, basis, through, height_mm=height_mm, reasons=said)

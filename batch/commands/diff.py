@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from aadm_workbench.report.changes import Changes, ColumnChange, PointChange
     from aadm_workbench.stack.changes import SetChange
 
-SUMMARY = "say what changed between two inspections"
 EXAMPLE = """\
 examples:
   aadm diff monday/report.json tuesday/report.json

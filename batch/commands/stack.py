@@ -26,7 +26,6 @@ if TYPE_CHECKING:
     from aadm_workbench.report.read import Report
     from aadm_workbench.stack.result import StackPlan
 
-SUMMARY = "say what set columns do to beams and to the next storey"
 EXAMPLE = """\
 examples:
   aadm stack floor3-report/report.json --model floor3.ifc
@@ -84,10 +83,9 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _planned(reports: Sequence[Report], options: argparse.Namespace, profile: Profile) -> StackPlan:
+    from aadm_workbench.inspection.as_designed import unforeseen_in
     from aadm_workbench.stack.measured import measured_floor
     from aadm_workbench.stack.plan import plan_stack
-
-    from ..unforeseen import unforeseen_in
 
     floors = [measured_floor(report) for report in reports]
     floor = None

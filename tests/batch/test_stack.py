@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.check import CheckSettings
 from aadm_workbench.errors import JobError
-from batch.entries import job_entry
+from aadm_workbench.inspection.check import CheckSettings
+from aadm_workbench.inspection.report import job_entry
+from aadm_workbench.inspection.tasks import JobPlan
 from batch.job.file import read_job
 from batch.job.stack import carried_settings
 from batch.main import main
@@ -86,7 +87,7 @@ def test_settings_go_through_a_report_unchanged(tmp_path: Path) -> None:
     settings = read_job(job).stack
     assert settings.fit_u_mm == 0.25
     assert not settings.braced
-    assert carried_settings(job_entry(read_job(job), CheckSettings(load_profile("cn")))) == settings
+    assert carried_settings(job_entry(JobPlan(read_job(job), None, CheckSettings(load_profile("cn")), ()))) == settings
     assert carried_settings({}) is None
     with pytest.raises(JobError, match=r"job\.stack"):
         carried_settings({"stack": "fit_u_mm = ["})

@@ -10,10 +10,10 @@ from unittest import mock
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from aadm_workbench import check
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.check import CheckSettings, ColumnScans, check_column
 from aadm_workbench.design.recognise.pattern import inline_design
+from aadm_workbench.inspection import check
+from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
 from aadm_workbench.model import (
     Array,
     AssemblyPoint,

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.make import make_finding
+from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
 from aadm_workbench.model import Finding
 
-_CODES = {SMOOTHED: "smoothed", GAPS_FILLED: "gaps_filled"}
+_CODES = {SMOOTHED: "smoothed", GAPS_FILLED: "gaps_filled", COPIED: "edges_fattened"}
 
 
-def filter_findings(group: SeenGroup) -> Iterator[Finding]:
-    """A finding where a group was not measured because a filter spoilt its scan."""
-    for reason, code in _CODES.items():
-        if reason in group.extraction.reason:
-            yield make_finding(code, [group.kind.plural], group=group.kind.plural)
+def filter_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
+    """A finding where a group was not measured because a filter spoilt its scan.
+
+    Where holes were filled in one scan of a column, another one in which no pixel is lost was filled, too.
+    """
+    filled = any(GAPS_FILLED in group.extraction.reason for group in groups)
+    for group in groups:
+        for reason, code in _CODES.items():
+            also = reason == GAPS_FILLED and filled and group.extraction.complete
+            if reason in group.extraction.reason or also:
+                yield make_finding(code, [group.kind.plural], group=group.kind.plural)
