@@ -22,6 +22,7 @@ from aadm_workbench.model import (
     GroupReport,
     HoistingMeasurement,
     HoistingReport,
+    Kind,
     Scan,
     Verdict,
 )
@@ -45,7 +46,8 @@ class Before:
     def of(cls, report: ColumnReport) -> Before:
         """What the scans before hoisting have told of a column."""
         trial = report.trial_assembly
-        return cls(_points(report.sleeves), _points(report.rebars), None if trial is None else trial.target)
+        target = None if trial is None else trial.target
+        return cls(_points(Kind.SLEEVE, report.sleeves), _points(Kind.REBAR, report.rebars), target)
 
 
 def measure_frames(
@@ -114,7 +116,7 @@ def _held_against_each_other(
     return tuple(reports)
 
 
-def _points(group: GroupReport | None) -> Points:
+def _points(kind: Kind, group: GroupReport | None) -> Points:
     if group is None or group.fit is None or group.fit.orientation == "ambiguous":
         return None
     points: list[AssemblyPoint | None] = []
@@ -126,5 +128,5 @@ def _points(group: GroupReport | None) -> Points:
         covariance = np.diag([u_mm**2, u_mm**2, u_mm**2])
         up = np.array([0.0, 0.0, 1.0])
         centre = np.array(point.aligned_mm, np.float64)
-        points.append(AssemblyPoint(point.label, group.kind, centre, up, point.diameter_mm or 0.0, covariance))
+        points.append(AssemblyPoint(point.label, kind, centre, up, point.diameter_mm or 0.0, covariance))
     return tuple(points)

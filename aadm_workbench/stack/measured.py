@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
@@ -10,10 +11,9 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.assembly.pose.play import Gap, pair_gaps
-from aadm_workbench.model import Array, BestPair, Verdict
+from aadm_workbench.model import Array, BestPair, JobReport, Verdict
 from aadm_workbench.report.directions import Compass, Heading, compass_of
-from aadm_workbench.report.read import Report
-from aadm_workbench.report.shown_pose import shown_pose
+from aadm_workbench.report.json import encoded_report
 from aadm_workbench.report.words.labels import Phrase
 
 _Json = Mapping[str, Any]
@@ -128,19 +128,21 @@ class MeasuredFloor:
     decision: str
 
 
-def measured_floor(report: Report) -> MeasuredFloor:
+def measured_floor(typed: JobReport) -> MeasuredFloor:
     """A report that was read, as this room needs it."""
+    report: dict[str, Any] = json.loads(encoded_report(typed))
+    compasses = [compass_of(typed.columns, column) for column in typed.columns]
     return MeasuredFloor(
         name=str(report["job"]["name"]),
-        columns=tuple(_column(report, column) for column in report["columns"]),
+        columns=tuple(map(_column, report["columns"], compasses)),
         model_sha256=(report["model"] or {}).get("sha256"),
         decision=str(report["job"].get("decision", "guarded")),
     )
 
 
-def _column(report: Report, column: dict[str, Any]) -> MeasuredColumn:
+def _column(column: dict[str, Any], compass: Compass) -> MeasuredColumn:
     trial = column["trial_assembly"] or {}
-    pose = shown_pose(trial)
+    pose = trial.get("best") or trial.get("minimax")
     sleeves, rebars = (_points(column[kind]) for kind in ("sleeves", "rebars"))
     ground, why = _ground(column["rebars"])
     return MeasuredColumn(
@@ -163,7 +165,7 @@ def _column(report: Report, column: dict[str, Any]) -> MeasuredColumn:
         ground_reason=why,
         hung=_hung(column["hoisting"], sleeves, rebars),
         radius_mm=_radius_mm(column),
-        compass=compass_of(report, column),
+        compass=compass,
     )
 
 

@@ -22,8 +22,7 @@ from ..switches import add_switches
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from aadm_workbench.model import Profile, StackSettings
-    from aadm_workbench.report.read import Report
+    from aadm_workbench.model import JobReport, Profile, StackSettings
     from aadm_workbench.stack.result import StackPlan
 
 EXAMPLE = """\
@@ -82,7 +81,7 @@ def run(options: argparse.Namespace) -> int:
     return _exit_code(plan)
 
 
-def _planned(reports: Sequence[Report], options: argparse.Namespace, profile: Profile) -> StackPlan:
+def _planned(reports: Sequence[JobReport], options: argparse.Namespace, profile: Profile) -> StackPlan:
     from aadm_workbench.inspection.as_designed import unforeseen_in
     from aadm_workbench.stack.measured import measured_floor
     from aadm_workbench.stack.plan import plan_stack
@@ -97,7 +96,7 @@ def _planned(reports: Sequence[Report], options: argparse.Namespace, profile: Pr
     return plan_stack(floors, _settings(options.job, reports), profile, floor)
 
 
-def _settings(job: Path | None, reports: Sequence[Report]) -> StackSettings:
+def _settings(job: Path | None, reports: Sequence[JobReport]) -> StackSettings:
     """Of the job that was named; else of the last report that carries any."""
     from aadm_workbench.model import StackSettings
 
@@ -106,7 +105,7 @@ def _settings(job: Path | None, reports: Sequence[Report]) -> StackSettings:
 
     if job is not None:
         return read_job(job).stack
-    carried = [found for report in reports if (found := carried_settings(report["job"])) is not None]
+    carried = [found for report in reports if (found := carried_settings(report.job)) is not None]
     return carried[-1] if carried else StackSettings()
 
 
@@ -120,7 +119,7 @@ def _page(plan: StackPlan, options: argparse.Namespace) -> Path:
     return path
 
 
-def _model(plan: StackPlan, reports: Sequence[Report], options: argparse.Namespace) -> Path:
+def _model(plan: StackPlan, reports: Sequence[JobReport], options: argparse.Namespace) -> Path:
     """A copy of the model that was checked, with its results and AADM_Setting."""
     from aadm_workbench.errors import ReportError
     from aadm_workbench.stack.setting import setting_properties

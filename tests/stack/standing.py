@@ -24,7 +24,7 @@ from aadm_workbench.model import (
     Kind,
     Scan,
 )
-from aadm_workbench.report.json import encode, report_document
+from aadm_workbench.report.json import encoded_report
 from tests.report.checked_floor import CENTRES, DESIGN, DIAMETERS_MM, LOOKING_DOWN
 
 PROFILE = load_profile("cn")
@@ -124,7 +124,7 @@ def report_of(*columns: Standing, name: str = "Floor 3") -> dict[str, Any]:
         PROFILE,
         tuple(column.report() for column in columns),
     )
-    document: dict[str, Any] = json.loads(encode(report_document(report)))
+    document: dict[str, Any] = json.loads(encoded_report(report))
     return document
 
 

@@ -5,11 +5,12 @@ import pytest
 
 from aadm_workbench.stack.changes import set_changes
 from aadm_workbench.stack.measured import MeasuredFloor, measured_floor
+from tests.report.typed import typed
 from tests.stack.standing import Standing, report_of
 
 
 def floor(**how: object) -> MeasuredFloor:
-    return measured_floor(report_of(Standing("C-1", **how)))  # type: ignore[arg-type]
+    return measured_floor(typed(report_of(Standing("C-1", **how))))  # type: ignore[arg-type]
 
 
 def test_bars_that_moved_as_a_group_take_the_column_along() -> None:

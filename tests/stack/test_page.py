@@ -18,6 +18,7 @@ from aadm_workbench.stack.page import stack_page, write_stack_page
 from aadm_workbench.stack.plan import plan_stack
 from aadm_workbench.stack.result import StackPlan
 from tests.report.browser import chromium
+from tests.report.typed import typed
 from tests.stack.demo import HOSTILE, demo_model, demo_report
 
 PROFILE = load_profile("cn-gbt51231-2016")
@@ -32,14 +33,14 @@ def report() -> dict[str, Any]:
 @pytest.fixture(scope="module")
 def plan(report: dict[str, Any], tmp_path_factory: pytest.TempPathFactory) -> StackPlan:
     floor = read_floor(demo_model(tmp_path_factory.mktemp("demo")))
-    return plan_stack([measured_floor(report)], StackSettings(), PROFILE, floor)
+    return plan_stack([measured_floor(typed(report))], StackSettings(), PROFILE, floor)
 
 
 @pytest.fixture(scope="module")
 def untied(report: dict[str, Any]) -> StackPlan:
     """The same without control points and without a model."""
     columns = [c | {"rebars": c["rebars"] and c["rebars"] | {"absolute": None}} for c in report["columns"]]
-    return plan_stack([measured_floor(report | {"columns": columns})], StackSettings(height_mm=3000.0), PROFILE)
+    return plan_stack([measured_floor(typed(report | {"columns": columns}))], StackSettings(height_mm=3000.0), PROFILE)
 
 
 def test_the_document_has_its_keys(plan: StackPlan) -> None:

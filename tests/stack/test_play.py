@@ -13,6 +13,7 @@ from aadm_workbench.stack.limits import Limits
 from aadm_workbench.stack.measured import MeasuredColumn, measured_floor
 from aadm_workbench.stack.tower import Tower
 from tests.report.checked_floor import CENTRES
+from tests.report.typed import typed
 from tests.stack.standing import Standing, report_of
 
 TOWER = Tower(StackSettings(height_mm=3000.0), Limits(load_profile("cn-gbt51231-2016"), "guarded"), {})
@@ -31,7 +32,7 @@ def column(request: pytest.FixtureRequest) -> MeasuredColumn:
         off={"R2": (1.2, 0.5)},
         u_mm=0.05,
     )
-    return measured_floor(report_of(standing)).columns[0]
+    return measured_floor(typed(report_of(standing))).columns[0]
 
 
 def distances(column: MeasuredColumn, planar: np.ndarray) -> np.ndarray:
@@ -69,7 +70,7 @@ def test_the_play_is_smaller_by_what_is_not_known(column: MeasuredColumn) -> Non
 
 def test_a_gap_beyond_its_smaller_radius_does_not_grow() -> None:
     standing = Standing("C-1", off={"R1": (1.94, 0.0), "R7": (-1.94, 0.0)}, u_mm=0.1)
-    column = measured_floor(report_of(standing)).columns[0]
+    column = measured_floor(typed(report_of(standing))).columns[0]
     tight = replace(
         column, pairs=tuple(replace(p, gaps=tuple(replace(g, u_mm=0.5) for g in p.gaps)) for p in column.pairs)
     )
@@ -83,7 +84,7 @@ def test_a_gap_beyond_its_smaller_radius_does_not_grow() -> None:
 
 
 def test_a_trial_that_breaks_a_limit_has_no_play() -> None:
-    column = measured_floor(report_of(Standing("C-1", off={"R1": (-3.6, -3.0), "R7": (3.6, 3.0)}))).columns[0]
+    column = measured_floor(typed(report_of(Standing("C-1", off={"R1": (-3.6, -3.0), "R7": (3.6, 3.0)})))).columns[0]
     assert play_limits(column.gaps) is None
 
 
@@ -111,7 +112,7 @@ def test_the_tower_is_led_back_to_the_grid(column: MeasuredColumn) -> None:
 
 def test_small_bars_have_room_over_the_ribs_alone() -> None:
     """A bar of 22 mm over its ribs has 7 mm of room in 36 mm; with 33 mm it has 1.5, and the play is that."""
-    column = measured_floor(report_of(Standing("C-1", ground=(6.0, 0.0, 0.0), u_mm=0.01))).columns[0]
+    column = measured_floor(typed(report_of(Standing("C-1", ground=(6.0, 0.0, 0.0), u_mm=0.01)))).columns[0]
     pairs = []
     for pair in column.pairs:
         narrow = replace(pair.gaps[0], radius_mm=1.5, vector=pair.offset)

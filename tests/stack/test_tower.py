@@ -12,6 +12,7 @@ from aadm_workbench.stack.limits import Limits
 from aadm_workbench.stack.measured import MeasuredColumn, measured_floor
 from aadm_workbench.stack.result import StackedColumn
 from aadm_workbench.stack.tower import Tower
+from tests.report.typed import typed
 from tests.stack.standing import Standing, near, report_of, shifted
 
 LIMITS = Limits(load_profile("cn-gbt51231-2016"), "guarded")
@@ -21,7 +22,7 @@ SETTINGS = StackSettings(plumb_u_mm=1.5, fit_u_mm=0.8, bars_u_mm=0.6, level_u_mm
 
 @pytest.fixture(scope="module")
 def ground_floor() -> MeasuredColumn:
-    return measured_floor(report_of(Standing("C-1", u_mm=1e-6, control_u_mm=1e-3))).columns[0]
+    return measured_floor(typed(report_of(Standing("C-1", u_mm=1e-6, control_u_mm=1e-3)))).columns[0]
 
 
 def storeys(first: MeasuredColumn, number: int, turned_deg: float = 0.0) -> list[MeasuredColumn]:
@@ -99,7 +100,7 @@ def test_control_points_begin_anew(ground_floor: MeasuredColumn) -> None:
 def test_where_it_stands_is_ground_and_trial_together() -> None:
     """Bars 4 mm off and turned by 0.1°; sleeves that make the column stand 0.7, −0.4 mm beside its bars."""
     report = report_of(Standing("C-1", (7000.0, 0.0, 0.0), 90.0, (4.0, 1.0, 0.1), sleeves=shifted(0.7, -0.4, 0.05)))
-    (column,) = stacked(list(measured_floor(report).columns))
+    (column,) = stacked(list(measured_floor(typed(report)).columns))
     # The check shows sleeves by their own fit: that the group sits off in its column, no scan of a foot tells.
     assert column.placed is not None
     assert near(column.placed.values[:3], [4.0, 1.0, 0.0], 0.01)
@@ -109,7 +110,7 @@ def test_where_it_stands_is_ground_and_trial_together() -> None:
 def test_one_bar_that_is_off_takes_the_column_along() -> None:
     """By hand: one bar 3 mm off in x of twelve; least squares goes 0.25 mm with it, the trial's pose further."""
     report = report_of(Standing("C-1", off={"R1": (3.0, 0.0)}, control_u_mm=1e-3, u_mm=1e-3))
-    (column,) = stacked(list(measured_floor(report).columns))
+    (column,) = stacked(list(measured_floor(typed(report)).columns))
     assert column.placed is not None
     assert 0.3 < column.placed.values[0] < 2.0
     assert abs(column.placed.values[1]) < 0.6
@@ -134,7 +135,7 @@ def test_a_column_set_turned_by_its_symmetry(ground_floor: MeasuredColumn, turn_
 
 def test_without_control_points_nothing_is_said_of_the_grid() -> None:
     report = report_of(Standing("C-1", ground=(6.0, 0.0, 0.0), control_u_mm=None))
-    (column,) = stacked(list(measured_floor(report).columns))
+    (column,) = stacked(list(measured_floor(typed(report)).columns))
     assert column.basis == "bars"
     assert column.top is not None
     assert column.top.judged.verdict is Verdict.NOT_MEASURED
@@ -146,7 +147,9 @@ def test_without_control_points_nothing_is_said_of_the_grid() -> None:
 
 def test_a_column_that_does_not_go_on_stands_nowhere() -> None:
     apart = {"R1": (-3.6, -3.0), "R7": (3.6, 3.0)}
-    columns = list(measured_floor(report_of(Standing("C-1", off=apart), Standing("C-2", off={"S7": None}))).columns)
+    columns = list(
+        measured_floor(typed(report_of(Standing("C-1", off=apart), Standing("C-2", off={"S7": None})))).columns
+    )
     fails, unseen = stacked(columns)
     assert fails.measured.goes_on is Verdict.FAIL
     assert unseen.measured.goes_on is Verdict.NOT_MEASURED
@@ -156,7 +159,8 @@ def test_a_column_that_does_not_go_on_stands_nowhere() -> None:
 
 
 def test_without_a_height_the_foot_alone_is_told() -> None:
-    (column,) = stacked(list(measured_floor(report_of(Standing("C-1"))).columns), replace(SETTINGS, height_mm=None))
+    columns = list(measured_floor(typed(report_of(Standing("C-1")))).columns)
+    (column,) = stacked(columns, replace(SETTINGS, height_mm=None))
     assert column.placed is not None
     assert column.top is None
     assert any("height" in reason.en for reason in column.reasons)

@@ -16,6 +16,7 @@ from aadm_workbench.stack.limits import Limits
 from aadm_workbench.stack.measured import measured_floor
 from aadm_workbench.stack.result import StackedColumn
 from aadm_workbench.stack.tower import Tower
+from tests.report.typed import typed
 from tests.stack.standing import Standing, report_of
 
 SETTINGS = StackSettings(plumb_u_mm=0.6, fit_u_mm=0.4, bars_u_mm=0.4, level_u_mm=1.0, height_mm=3600.0)
@@ -65,7 +66,7 @@ def misses() -> Iterator[np.ndarray]:
     standing = [column(number, rng) for number in range(NUMBER)]
     report = report_of(*standing)
     REPORT.update({one["id"]: one for one in report["columns"]})
-    found = TOWER.stacked(list(measured_floor(report).columns))
+    found = TOWER.stacked(list(measured_floor(typed(report)).columns))
     rows = []
     for one, stacked in zip(standing, found, strict=True):
         assert stacked.placed is not None
