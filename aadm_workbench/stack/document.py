@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from aadm_workbench.model import Array
@@ -19,7 +17,7 @@ _TO_DEGREES = np.array([1.0, 1.0, 1.0, *(180.0 / np.pi,) * 3])
 _NAMES = ("dx_mm", "dy_mm", "dz_mm", "rx_deg", "ry_deg", "yaw_deg")
 
 
-def stack_document(plan: StackPlan) -> dict[str, Any]:
+def stack_document(plan: StackPlan) -> dict[str, object]:
     """The plan as plain values; what is not known is null, and reasons say why."""
     return {
         "schema": SCHEMA,
@@ -31,7 +29,7 @@ def stack_document(plan: StackPlan) -> dict[str, Any]:
     }
 
 
-def _column(column: StackedColumn) -> dict[str, Any]:
+def _column(column: StackedColumn) -> dict[str, object]:
     measured, advice = column.measured, column.advice
     return {
         "id": measured.id,
@@ -52,7 +50,7 @@ def _column(column: StackedColumn) -> dict[str, Any]:
     }
 
 
-def _torsor(torsor: Torsor) -> dict[str, Any]:
+def _torsor(torsor: Torsor) -> dict[str, object]:
     """``cov`` is in the order of the six, in their units."""
     values = dict(zip(_NAMES, (torsor.values * _TO_DEGREES).tolist(), strict=True))
     return {**values, "cov": _plain(torsor.covariance * np.outer(_TO_DEGREES, _TO_DEGREES))}
@@ -62,19 +60,19 @@ def _plain(covariance: Array) -> list[list[float | None]]:
     return [[value if np.isfinite(value) else None for value in row] for row in covariance.tolist()]
 
 
-def _top(top: Top) -> dict[str, Any]:
+def _top(top: Top) -> dict[str, object]:
     judged = _judged(top.judged)
     return {"offset_mm": list(top.offset_mm), "u_mm": top.u_mm, "length_mm": judged.pop("value"), **judged}
 
 
-def _advice(advice: Advice) -> dict[str, Any]:
+def _advice(advice: Advice) -> dict[str, object]:
     return {
         "from_trial": dict(zip(("dx_mm", "dy_mm", "yaw_deg"), advice.from_trial, strict=True)),
         "top": None if advice.top is None else _top(advice.top),
     }
 
 
-def _member(member: StackedMember) -> dict[str, Any]:
+def _member(member: StackedMember) -> dict[str, object]:
     return {
         "id": member.id,
         "global_id": member.global_id,
@@ -87,11 +85,11 @@ def _member(member: StackedMember) -> dict[str, Any]:
     }
 
 
-def _neighbours(pair: Neighbours) -> dict[str, Any]:
+def _neighbours(pair: Neighbours) -> dict[str, object]:
     return {"column": pair.column, "members": list(pair.members), "flush_mm": _judged(pair.flush_mm)}
 
 
-def _judged(judged: Judged) -> dict[str, Any]:
+def _judged(judged: Judged) -> dict[str, object]:
     return {
         "value": judged.value,
         "u": judged.u,

@@ -130,7 +130,7 @@ class MeasuredFloor:
 
 def measured_floor(typed: JobReport) -> MeasuredFloor:
     """A report that was read, as this room needs it."""
-    report: dict[str, Any] = json.loads(encoded_report(typed))
+    report: _Json = json.loads(encoded_report(typed))
     compasses = [compass_of(typed.columns, column) for column in typed.columns]
     return MeasuredFloor(
         name=str(report["job"]["name"]),
@@ -140,7 +140,7 @@ def measured_floor(typed: JobReport) -> MeasuredFloor:
     )
 
 
-def _column(column: dict[str, Any], compass: Compass) -> MeasuredColumn:
+def _column(column: _Json, compass: Compass) -> MeasuredColumn:
     trial = column["trial_assembly"] or {}
     pose = trial.get("best") or trial.get("minimax")
     sleeves, rebars = (_points(column[kind]) for kind in ("sleeves", "rebars"))

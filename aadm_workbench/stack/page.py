@@ -77,7 +77,7 @@ def _raw(text: str) -> Any:
     return import_module("markupsafe").Markup(text)
 
 
-def _context(plan: StackPlan, language: Language) -> dict[str, Any]:
+def _context(plan: StackPlan, language: Language) -> dict[str, object]:
     return {
         "plan": plan,
         "language": language,
