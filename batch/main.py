@@ -44,6 +44,7 @@ COMMANDS = MappingProxyType(
         "study": "measure methods on synthetic scans of known truth",
         "report": "make HTML, PDF, XLSX, CSV, BCF, crew pages and scan cards from a report",
         "diff": "say what changed between two inspections",
+        "stack": "say what set columns do to beams and to the next storey",
         "writeback": "write the results of a check into the IFC model",
         "profiles": "list tolerance profiles and their rules",
         "doctor": "say what is installed and what is missing",

@@ -41,6 +41,9 @@ QUANTITIES = {
     "column_axis": "radial",
     "elevation": "signed",
     "verticality": "signed",
+    "bearing_length": "signed",
+    "flushness": "signed",
+    "inclination": "signed",
 }
 """What a rule can limit, and how its deviation is taken unless the rule says otherwise."""
 

@@ -64,6 +64,7 @@ from aadm_workbench.model.reports import (
     JobReport,
 )
 from aadm_workbench.model.results import (
+    AimedPose,
     BestPair,
     BestPose,
     Candidate,
@@ -91,6 +92,9 @@ from aadm_workbench.model.shipment import (
     ShipmentProblem,
     ShipmentReport,
 )
+from aadm_workbench.model.stack import (
+    StackSettings,
+)
 from aadm_workbench.model.verdicts import (
     SUMMED,
     WORST_FIRST,
@@ -107,6 +111,7 @@ __all__ = [
     "WORST_FIRST",
     "AbsolutePoint",
     "AbsolutePosition",
+    "AimedPose",
     "Array",
     "AssemblyPoint",
     "Assignment",
@@ -157,6 +162,7 @@ __all__ = [
     "ShipmentReport",
     "SleeveDrift",
     "SpacingResult",
+    "StackSettings",
     "TrialPose",
     "TrialReport",
     "TurnResult",
