@@ -7,10 +7,24 @@ What a scan cannot support (a plugged sleeve, a bar out of view) is no error: it
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from aadm_workbench.model.reason import Language
 
 
 class AadmError(Exception):
-    """Base of all errors that this product raises on purpose."""
+    """Base of all errors that this product raises on purpose: each with its reason."""
+
+    @property
+    def reason(self) -> str:
+        """What is wrong, where, and what to do: a reason of the table of sentences, or a text."""
+        return self.args[0] if self.args and isinstance(self.args[0], str) else str(self)
+
+    def in_language(self, language: Language) -> str:
+        """The reason in a language, as far as the table of sentences has it."""
+        said = self.reason
+        return str(said.in_language(language)) if hasattr(said, "in_language") else said
 
 
 class JobError(AadmError):
@@ -38,9 +52,9 @@ class MissingDependencyError(AadmError):
 
     def __init__(self, package: str, needed_for: str, install: str = "") -> None:
         install = install or package_called(package).install
-        super().__init__(
-            f"{needed_for} needs the package {package}, which is not installed. Install it with: {install}"
-        )
+        from aadm_workbench.model import Reason
+
+        super().__init__(Reason("errors.missing", needed_for=needed_for, package=package, install=install))
         self.package = package
         self.install = install
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from aadm_workbench.extract.edges.edge_shift import BLURRED
 from aadm_workbench.extract.patches import Patches
-from aadm_workbench.model import Array, BoolArray, FloatArray
+from aadm_workbench.model import Array, BoolArray, FloatArray, Reason
 
 _FALL_MM = (1.0, 60.0)  # from pixel to pixel on a ramp
 _EVEN = 6.0  # the steepest fall of three over the flattest
@@ -24,8 +24,8 @@ _OWN_NOISE = 0.55  # noise of which half is shared over a pixel and more comes t
 _RAMPED, _RAMPED_UNLOST = 0.1, 0.03  # slips of the fringe order and flying pixels come to 0.02
 _UNLOST = 1e-4  # a camera loses one pixel in a thousand at least
 
-SMOOTHED = "the camera smoothed this scan: its surfaces run into each other at their edges"
-GAPS_FILLED = "the camera filled in what it did not measure: surfaces lie where nothing is"
+SMOOTHED = Reason("extract.smoothed")
+GAPS_FILLED = Reason("extract.gaps_filled")
 """Reasons of what is not measured: what a filter made of an edge nobody knows."""
 
 _KEPT = 0.9  # of second differences; strays and edges make the largest

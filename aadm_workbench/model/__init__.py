@@ -51,6 +51,11 @@ from aadm_workbench.model.measured import (
     Plane,
     Scan,
 )
+from aadm_workbench.model.reason import (
+    Reason,
+    codes_of,
+    in_one,
+)
 from aadm_workbench.model.repairs import (
     RepairAction,
     RepairReport,
@@ -138,6 +143,7 @@ __all__ = [
     "PointResult",
     "PoseWindow",
     "Profile",
+    "Reason",
     "RepairAction",
     "RepairReport",
     "RepairStep",
@@ -155,5 +161,7 @@ __all__ = [
     "Vector2",
     "Vector3",
     "Verdict",
+    "codes_of",
+    "in_one",
     "worst",
 ]

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from aadm_workbench.model import codes_of
 from aadm_workbench.report.hoist import Hoist, hoist_of, worst_first
 from aadm_workbench.report.read import Report
 from aadm_workbench.report.words.labels import Phrase
-from aadm_workbench.report.words.reasons import in_both_languages
+from aadm_workbench.report.words.reasons import in_both_languages, recognised
 
 _SHOWN = 2  # reasons: a person reads two, the table has all
 
@@ -37,9 +38,10 @@ def findings(report: Report) -> list[Finding]:
 def _decisive(column: dict[str, Any]) -> list[str]:
     """The column's reasons; those of the trial first where it is the trial that fails."""
     reasons: list[str] = list(column["reasons"])
+    codes = [codes_of(recognised(reason)) for reason in reasons]
     # "not measured: S7" of the trial says less than "S7 not measured: the mouth is plugged" of the foot.
-    if any(" not measured: " in reason for reason in reasons):
-        reasons = [reason for reason in reasons if not reason.startswith("not measured: ")]
+    if any("assembly.not_measured" in one for one in codes):
+        reasons = [reason for reason, one in zip(reasons, codes, strict=True) if one != {"assembly.missing"}]
     if column["goes_on"] == "fail":
         of_trial = set((column["trial_assembly"] or {}).get("reasons", ()))
         reasons.sort(key=lambda reason: reason not in of_trial)

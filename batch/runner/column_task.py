@@ -14,6 +14,7 @@ from aadm_workbench.check import ColumnScans, check_column
 from aadm_workbench.design.recognise.extent import extent_mm
 from aadm_workbench.errors import AadmError, DesignError
 from aadm_workbench.model import ColumnDesign, ColumnReport, Kind, Scan, Verdict
+from aadm_workbench.model.reason import renamed
 from aadm_workbench.scan.plausible import check_plausible
 from aadm_workbench.scan.read import read_scan
 
@@ -157,7 +158,7 @@ def _group(
 def _as_named(task: ColumnTask, message: str) -> str:
     """A message with files called as the job calls them: where a job lies must not show in its report."""
     for name in files_of(task.column):
-        message = message.replace(str(task.path_of(name)), name)
+        message = renamed(message, str(task.path_of(name)), name)
     return message
 
 

@@ -21,6 +21,7 @@ from aadm_workbench.model import (
     Scan,
     Verdict,
 )
+from aadm_workbench.model.reason import renamed
 
 if TYPE_CHECKING:
     from ..stopwatch import Stopwatch
@@ -104,7 +105,7 @@ def _measured(
         with watch.stage("read"):
             scan = read_frame(task, task.path_of(name), name)
     except AadmError as error:
-        message = str(error).replace(str(task.path_of(name)), name)
+        message = renamed(error.reason, str(task.path_of(name)), name)
         return HoistingReport(name, (), None, None, None, Verdict.ERROR, reasons=(message,), method=settings.method)
     with watch.stage("hoisting"):
         if settings.method != "refined":

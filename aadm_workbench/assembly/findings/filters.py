@@ -7,13 +7,14 @@ from collections.abc import Iterator
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
-from aadm_workbench.model import Finding
+from aadm_workbench.model import Finding, codes_of
 
-_CODES = {SMOOTHED: "smoothed", GAPS_FILLED: "gaps_filled"}
+_FILTERS = {SMOOTHED.code: "smoothed", GAPS_FILLED.code: "gaps_filled"}
 
 
 def filter_findings(group: SeenGroup) -> Iterator[Finding]:
     """A finding where a group was not measured because a filter spoilt its scan."""
-    for reason, code in _CODES.items():
-        if reason in group.extraction.reason:
+    told = codes_of(group.extraction.reason)
+    for filtered, code in _FILTERS.items():
+        if filtered in told:
             yield make_finding(code, [group.kind.plural], group=group.kind.plural)

@@ -17,11 +17,11 @@ from aadm_workbench.assembly.findings.named_scan import FEWEST, FITS_SHARE, Name
 from aadm_workbench.design.recognise.bar_sizes import OVER_RIBS_MM
 from aadm_workbench.extract.edges.edge_shift import BLURRED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
-from aadm_workbench.model import AssemblyPoint, ColumnDesign, Finding, Kind
+from aadm_workbench.model import AssemblyPoint, ColumnDesign, Finding, Kind, codes_of
 
 _BADLY_BUILT_MM = 3.0  # root mean square: a half more than the limit of every single point
 _LOOKS = 3  # in one scan, for other columns' sizes: each takes as long as a check
-_UNFIT_REASONS = (SMOOTHED, GAPS_FILLED, BLURRED)
+_UNFIT = {SMOOTHED.code, GAPS_FILLED.code, BLURRED.code}
 _NEXT_BORE = 1.15  # sleeves for the next bar are 2 to 6 mm wider; found are those within 8 %
 _SIZES_EACH_WAY = 2  # bars two sizes off have been delivered; more would be seen from afar
 
@@ -68,7 +68,7 @@ def mistaken_findings(
 
 def _is_lost(group: SeenGroup) -> bool:
     """Whether nothing explains yet that a group lies nowhere."""
-    explained = group.match.contradiction or any(reason in group.extraction.reason for reason in _UNFIT_REASONS)
+    explained = group.match.contradiction or _UNFIT & codes_of(group.extraction.reason)
     return not group.match and not explained
 
 

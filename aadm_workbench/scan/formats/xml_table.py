@@ -7,6 +7,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from aadm_workbench.errors import CameraError
+from aadm_workbench.model import Reason
 
 _DECLARATION = re.compile("<!(?:DOCTYPE|ENTITY)", re.IGNORECASE)
 _DEEPEST_XML = 50  # the files of OpenCV nest three deep
@@ -21,17 +22,17 @@ def parse_xml(text: str) -> dict[str, Any]:
         For text that is no XML, declares entities, or is nested deeper than any file of intrinsics.
     """
     if _DECLARATION.search(text):
-        raise CameraError("declares its own XML document type, which no camera writes: it may be meant to harm")
+        raise CameraError(Reason("scan.xml_doctype"))
     try:
         root = ElementTree.fromstring(text.strip())
     except (ElementTree.ParseError, ValueError) as error:
-        raise CameraError(f"is no valid XML: {error}") from error
+        raise CameraError(Reason("scan.no_xml", why=error)) from error
     return {root.tag: _value(root, _DEEPEST_XML)}
 
 
 def _value(element: ElementTree.Element, deepest: int) -> Any:
     if deepest == 0:
-        raise CameraError(f"is XML nested more than {_DEEPEST_XML} deep, which no camera writes")
+        raise CameraError(Reason("scan.xml_deep", most=_DEEPEST_XML))
     table: dict[str, Any] = {name: _plain(text) for name, text in element.attrib.items()}
     for child in element:
         value = _value(child, deepest - 1)

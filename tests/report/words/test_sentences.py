@@ -1,0 +1,230 @@
+"""Every sentence for people stands in one table, in both languages; what makes one names it by its code.
+
+The files are read as syntax trees: that a code is known, that each place gets a value, and that nothing asks for words.
+"""
+
+import ast
+import re
+import string
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from aadm_workbench.model import Reason, codes_of
+from aadm_workbench.model.sentences import Sentence
+from aadm_workbench.report.pages.fonts import FONT_FILE
+from aadm_workbench.report.words.reasons import in_both_languages, recognised
+
+ROOT = Path(__file__).resolve().parents[3]
+TABLES = ROOT / "aadm_workbench" / "model" / "sentences"
+CHINESE = re.compile(r"[\u4e00-\u9fff]")
+HALF_WIDTH = re.compile(r"(?<=[\u4e00-\u9fff])[,;:?!(]|[,;:?!](?=[\u4e00-\u9fff])")
+ALIKE = {"said.all", "assembly.with_u"}
+"""Nothing but places, symbols, and signs between them."""
+
+
+@cache
+def table() -> dict[str, Sentence]:
+    """The whole table, read as files are found, not as the product asks for them."""
+    found: dict[str, Sentence] = {}
+    for file in TABLES.glob("[a-z]*.py"):
+        scope: dict[str, dict[str, Sentence]] = {}
+        exec(compile(file.read_text(encoding="utf-8"), str(file), "exec"), scope)
+        assert all(code.split(".")[0] == file.stem for code in scope["SENTENCES"])
+        found |= scope["SENTENCES"]
+    return found
+
+
+def places(text: str) -> list[tuple[str, str]]:
+    """Names and formats of the places, by the standard library's own reading."""
+    return sorted((name, form or "") for _, name, form, _ in string.Formatter().parse(text) if name)
+
+
+@pytest.mark.parametrize("code", sorted(table()))
+def test_both_languages_have_the_same_places(code: str) -> None:
+    english, chinese = table()[code]
+    assert english.strip()
+    assert CHINESE.search(chinese) or code in ALIKE or not re.search("[A-Za-z]", re.sub("{.*?}", "", english))
+    assert set(places(english)) == set(places(chinese))
+    assert not CHINESE.search(english) or "特殊处理方案" in english
+    shown = re.sub(r"{\w+:[^}]*[fg%]}", "1", chinese)
+    assert not HALF_WIDTH.search(re.sub("{.*?}", "柱", shown)), "Chinese signs are as wide as Chinese letters"
+
+
+def test_one_word_for_one_thing() -> None:
+    told = "".join(sentence.zh for sentence in table().values())
+    folder = ROOT / "aadm_workbench" / "resources"
+    told += (folder / "report" / "words.toml").read_text(encoding="utf-8")
+    told += (folder / "translations" / "AADM_zh-CN.ts").read_text(encoding="utf-8")
+    assert [word for word in ("未测到", "能否套入", "无法判定", "灌浆套管") if word in told] == []
+
+
+def test_the_font_has_every_sign() -> None:
+    known = pytest.importorskip("fontTools.ttLib").TTFont(FONT_FILE).getBestCmap()
+    assert {sign for sentence in table().values() for sign in "".join(sentence) if ord(sign) not in known} == set()
+
+
+@cache
+def modules() -> dict[Path, ast.Module]:
+    files = [file for folder in ("aadm_workbench", "batch") for file in (ROOT / folder).rglob("*.py")]
+    return {file: ast.parse(file.read_text(encoding="utf-8")) for file in files if TABLES not in file.parents}
+
+
+def made() -> Iterator[tuple[str, str, ast.Call]]:
+    """Every making of a reason whose code stands there: its place, its code, the call."""
+    for file, tree in modules().items():
+        for node in ast.walk(tree):
+            name = node.func.id if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) else ""
+            if isinstance(node, ast.Call) and name in {"Reason", "said_of"}:
+                told = node.args[0 if name == "Reason" else 1]
+                options = [told.body, told.orelse] if isinstance(told, ast.IfExp) else [told]
+                for one in options:
+                    if isinstance(one, ast.Constant):
+                        yield f"{file.relative_to(ROOT)}:{node.lineno}", str(one.value), node
+
+
+def test_every_code_that_is_made_is_known_and_gets_its_values() -> None:
+    wrong = []
+    for place, code, call in made():
+        if code not in table():
+            wrong.append(f"{place}: {code} is not in the table")
+            continue
+        given = {keyword.arg for keyword in call.keywords}
+        lacking = {name for name, _ in places(table()[code].en)} - given
+        if lacking and None not in given:
+            wrong.append(f"{place}: {code} gets no {lacking}")
+    assert wrong == []
+    assert len(list(made())) > 300
+
+
+def test_every_sentence_of_the_table_is_made_somewhere() -> None:
+    """A sentence that nobody makes any more would be translated for ever."""
+    text = "\n".join(file.read_text(encoding="utf-8") for file in modules())
+    parts = "".join(re.findall(r"f\"([a-z]+\.)", text))
+    unmade = [code for code in table() if not code.startswith(("words.", "finding.")) and f'"{code}"' not in text]
+    assert [code for code in unmade if not code.startswith(("assembly.hardly_seen", "assembly.undecided"))] == []
+    assert "finding." in parts
+
+
+TOLD = {"reason", "reasons", "said", "text", "texts", "message", "sentence", "notes", "note", "told"}
+
+
+def words_asked(tree: ast.Module) -> Iterator[int]:
+    """Lines on which a sentence is compared with a text, or asked what it holds, begins or ends with."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Compare):
+            sides = [node.left, *node.comparators]
+            literals = [side for side in sides if is_words(side)]
+            if literals and any(is_told(side) for side in sides):
+                yield node.lineno
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute):
+            asks = node.func.attr in {"startswith", "endswith", "removeprefix", "removesuffix", "partition", "find"}
+            if asks and any(map(is_words, node.args)) and is_told(node.func.value):
+                yield node.lineno
+
+
+def is_words(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and isinstance(node.value, str) and bool(re.search("[a-z]{3}", node.value))
+
+
+def is_told(node: ast.expr) -> bool:
+    """Whether something is called as sentences are, or is the text of an error."""
+    if isinstance(node, ast.Call):
+        is_text = isinstance(node.func, ast.Name) and node.func.id == "str"
+        return is_text and any(isinstance(one, ast.Name) and one.id == "error" for one in node.args)
+    if isinstance(node, ast.Subscript):
+        return isinstance(node.slice, ast.Constant) and node.slice.value in TOLD
+    return (isinstance(node, ast.Name) and node.id in TOLD) or (isinstance(node, ast.Attribute) and node.attr in TOLD)
+
+
+OTHERS_TEXTS = {
+    "aadm_workbench/design/ifc/text/",  # lines of an IFC file
+    "aadm_workbench/report/bcf/",  # labels of topics that other programs wrote
+    "aadm_workbench/scan/formats/",  # headers and rows of scans
+}
+"""Where what is called a text, or a message, was written by other programs."""
+
+
+def test_nothing_is_decided_by_words() -> None:
+    wrong = [f"{file.relative_to(ROOT)}:{line}" for file, tree in modules().items() for line in words_asked(tree)]
+    assert [place for place in wrong if not place.startswith(tuple(OTHERS_TEXTS))] == []
+
+
+@pytest.mark.parametrize(
+    ("code", "asks"),
+    [
+        ('cure = "open" if "plugged" in point["reason"] else ""', True),
+        ('kept = [reason for reason in report.reasons if "not measured" not in reason]', True),
+        ('reason.startswith("not measured: ")', True),
+        ('notes = [text for text in scan.notes if not text.startswith("the unit of the file")]', True),
+        ('words = str(error).removeprefix("has no ")', True),
+        ('cure = "open" if "extract.plugged" in codes_of(reason) else ""', False),
+        ('if verdict == "pass" and name.startswith("S"): pass', False),
+    ],
+)
+def test_what_is_noticed_of_words(code: str, asks: bool) -> None:
+    assert any(words_asked(ast.parse(code))) is asks
+
+
+NOT_SHOWN = {"KeyError", "MissingDependencyError"}
+"""One is caught where it arises; the other makes its sentence of a package and of what it is needed for."""
+
+
+def bare(tree: ast.Module) -> Iterator[int]:
+    """Lines on which an error is made of an English text that no table knows."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            name = node.func.id if isinstance(node.func, ast.Name) else getattr(node.func, "attr", "")
+            is_error = (name.endswith("Error") and name not in NOT_SHOWN) or name == "wrong"
+            texts = [one for one in node.args[:1] if isinstance(one, ast.Constant | ast.JoinedStr | ast.BinOp)]
+            if is_error and any(not isinstance(one, ast.Constant) or isinstance(one.value, str) for one in texts):
+                yield node.lineno
+
+
+READERS = ("aadm_workbench/scan/", "aadm_workbench/bounded.py")
+
+
+def test_no_error_of_the_readers_is_made_of_a_bare_text() -> None:
+    wrong = [f"{file.relative_to(ROOT)}:{line}" for file, tree in modules().items() for line in bare(tree)]
+    assert [place for place in wrong if place.startswith(READERS)] == []
+    assert list(bare(ast.parse('raise ScanError(f"{path}: is a folder")'))) == [1]
+
+
+WORDS = [code.removeprefix("words.") for code in table() if code.startswith("words.")]
+
+
+def filled(code: str, depth: int = 0) -> Reason:
+    """A reason with a value for every place, another for each."""
+    values: dict[str, object] = {}
+    for number, (name, form) in enumerate(places(table()[code].en)):
+        if form == "word":
+            values[name] = WORDS[(number + len(code)) % len(WORDS)]
+        elif form in {"", "and", ".", ";"}:
+            values[name] = f"{name}{number}.tiff"
+        else:
+            values[name] = number + (3 if form.endswith("d") else 1.25)
+    return Reason(code, **values)
+
+
+ALIASES = {"hoisting.resting": "hoisting.not_seen"}
+"""The same but for how two labels are joined."""
+
+AMID = {"hoisting.not_seen", "hoisting.resting", "scan.taken_without", "scan.unit_of_job"}
+"""Beside others these read like the beginning of another sentence."""
+
+
+@pytest.mark.parametrize("code", sorted(code for code in table() if not code.startswith(("words.", "said."))))
+def test_a_sentence_of_a_report_is_read_back_as_the_reason_that_it_was(code: str) -> None:
+    reason = filled(code)
+    english = str(reason)
+    again = recognised(english)
+    assert isinstance(again, Reason)
+    assert (again.code, str(again)) == (ALIASES.get(code, code), english)
+    assert in_both_languages(english).zh == reason.in_language("zh")
+    if code in AMID:
+        return
+    beside = recognised(f"floor/C-1.tiff: {english}; S1 not measured: no opening: the mouth is plugged or covered")
+    assert {ALIASES.get(code, code), "extract.plugged"} <= codes_of(beside)
+    assert str(beside).startswith("floor/C-1.tiff: ")
