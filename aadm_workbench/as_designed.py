@@ -15,7 +15,7 @@ from aadm_workbench.design.model_units import MM_PER_UNIT, check_units
 from aadm_workbench.design.published import PublishedPoint, published_points, sampled_surfaces
 from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
 from aadm_workbench.errors import DesignError, ScanError
-from aadm_workbench.model import Array, ColumnDesign
+from aadm_workbench.model import Array, ColumnDesign, Reason
 
 _SEED = 2026  # any: the same design gives the same points
 
@@ -67,7 +67,7 @@ def read_cloud(path: Path, rules: Rules | None = None, *, units: str = "mm") -> 
 
     began = perf_counter()
     if units not in MM_PER_UNIT:
-        raise DesignError(f"the unit of models is {units!r}; it must be one of {', '.join(MM_PER_UNIT)}")
+        raise DesignError(Reason("design.units", units=repr(units), known=MM_PER_UNIT))
     sha256 = sha256_of(path)
     points = MM_PER_UNIT[units] * _points(path)
     origin = Origin(str(path), sha256, "PCD")
@@ -99,7 +99,7 @@ def published_route(design: ColumnDesign) -> list[PublishedPoint]:
             write_pcd(path, cloud.astype(np.float32), mode="binary")
             return published_points(design, _points(path))
     except OSError as error:
-        raise DesignError(f"the model's cloud cannot be written for the published route: {error}") from error
+        raise DesignError(Reason("design.cloud_unwritten", why=error)) from error
 
 
 def _points(path: Path) -> Array:
@@ -109,7 +109,7 @@ def _points(path: Path) -> Array:
     try:
         scan = read_scan(path, axes="camera")
     except ScanError as error:
-        raise DesignError(str(error)) from error
+        raise DesignError(error.reason) from error
     points = scan.points.reshape(-1, 3).astype(np.float64)
     finite: Array = points[np.isfinite(points).all(axis=1)]
     return finite

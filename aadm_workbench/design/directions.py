@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from aadm_workbench.errors import JobError
+from aadm_workbench.model import Reason
 
 UP_DEG = {"+x": 0.0, "+y": 90.0, "-x": 180.0, "-y": -90.0}
 
@@ -30,4 +31,4 @@ def up_deg(written: str, label: str) -> float | None:
         value = math.nan
     if math.isfinite(value):
         return value
-    raise JobError(f"{label}: up must be +x, -x, +y, -y or a number of degrees from +x, it is {written!r}")
+    raise JobError(Reason("design.up", label=label, written=repr(written)))

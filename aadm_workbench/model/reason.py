@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
 from functools import cache
 from importlib import import_module
@@ -15,7 +15,7 @@ Language: TypeAlias = Literal["en", "zh"]
 Value: TypeAlias = "str | tuple[str, ...]"
 """What fills a place: a text, a reason, or several of them; numbers are rounded already as the sentence wants them."""
 
-_JOINED = {"and": (" and ", "和"), ";": ("; ", "；"), ".": (". ", "。")}
+_JOINED = {" ": (" ", ""), "and": (" and ", "和"), ";": ("; ", "；"), ".": (". ", "。")}
 """What several values of one place are joined by, English and Chinese, where its format says so; else by commas."""
 
 
@@ -68,6 +68,13 @@ class Reason(str):
     def in_language(self, language: Language) -> str:
         """The sentence in a language."""
         return str(self) if language == "en" else _filled(places_of(sentence(self.code)[1]), self.values, 1)
+
+
+def listed(names: Sequence[str], most: int) -> Reason:
+    """The first of some names, and how many more there are."""
+    if len(names) > most:
+        return Reason("said.and_more", shown=names[:most], count=len(names) - most)
+    return Reason("said.list", parts=names)
 
 
 def said_of(file: object, code: str, **values: object) -> Reason:

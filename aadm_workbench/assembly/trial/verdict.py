@@ -124,9 +124,9 @@ def _reasons(
     if existence is not None and by_measure is not Verdict.PASS:
         text = Reason("assembly.probability", percent=100.0 * existence.probability)
         if by_measure is Verdict.INCONCLUSIVE:
-            code = "hardly_seen" if existence.probability >= PASS_PROBABILITY else "undecided"
-            above_all = ".above_all" if rescan else ""
-            text = Reason(f"assembly.{code}{above_all}", text=text, points=[said for _, said in rescan])
+            likely = existence.probability >= PASS_PROBABILITY
+            code = "assembly.hardly_seen" if likely else "assembly.undecided"
+            text = Reason(f"{code}.above_all" if rescan else code, text=text, points=[said for _, said in rescan])
         reasons.append(text)
     if report.missing:
         reasons.append(Reason("assembly.missing", labels=report.missing))

@@ -18,7 +18,7 @@ from aadm_workbench.model.reason import Place, places_of, sentences_of
 from aadm_workbench.report.words.labels import Phrase
 
 _NAME = "(?:(?![;:] ).)+?"
-_VALUES = {"": _NAME, "word": _NAME, "and": ".+?", ";": ".+?", ".": ".+?"}
+_VALUES = {"": _NAME, "word": _NAME, " ": ".+?", "and": ".+?", ";": ".+?", ".": ".+?"}
 """What stands in the place of a text, by its format; in any other stands a number."""
 _SENTENCES = {"clause", "limit", "notes", "plan", "remedy", "said", "text", "what", "why"}
 """Places that other sentences stand in; names and labels hold no sign that parts sentences."""
