@@ -20,7 +20,7 @@ from aadm_workbench.extract.sample import thinned
 from aadm_workbench.extract.top_planes import top_planes
 from aadm_workbench.model import Array, Plane, Scan
 
-_SAMPLE = 90_000  # as of all bars
+_SAMPLE = 30_000  # pixels: they say where to look, within a stride
 _CORE_SHARE = 0.7  # of the nominal radius: the plane of a top two sizes smaller is found in it
 _BAND_MM = 0.8  # about the plane of a top: twice the noise at 2 m
 _ZONE = 0.35, 1.7  # of the nominal radius: bars two sizes off either way, and nothing that stands beside them

@@ -42,10 +42,10 @@ def step(p: Array, q: Array, weights: Array, z: Array, level: Array, lam: Array,
     slack = np.maximum(level[:, None] - value, _SMALLEST_SLACK * level[:, None])
     # Aimed at what the bound leaves open, not at the products: a step may centre long before it is near.
     mu = _CENTRING * np.maximum(level - bound, _SMALLEST_AIM * level) / lam.shape[1]
-    turned = np.einsum("kni,kni->kn", q, e)[:, :, None]
+    turned = (q * e).sum(axis=2, keepdims=True)
     gradient = np.concatenate([turned, e], axis=2) * (2.0 * weights[:, :, None])
     move, raised = _direction(q, gradient, lam, slack, mu, weights)
-    along = np.einsum("kni,ki->kn", gradient, move)
+    along = (gradient @ move[:, :, None])[:, :, 0]
     change = mu[:, None] / slack - lam + lam / slack * (along - raised[:, None])
     curved = weights * squared(move[:, None, :1] * q + move[:, None, 1:])
     longest = np.minimum(_STEP * _positive(lam, change), 1.0)
@@ -59,13 +59,12 @@ def step(p: Array, q: Array, weights: Array, z: Array, level: Array, lam: Array,
 def _direction(q: Array, gradient: Array, lam: Array, slack: Array, mu: Array, weights: Array) -> tuple[Array, Array]:
     """Newton direction of z (k, 3) and of the level (k,)."""
     stiffness = lam / slack
-    hessian = np.zeros((len(q), 4, 4))
-    hessian[:, :3, :3] = np.einsum("kn,kni,knj->kij", stiffness, gradient, gradient)
-    hessian[:, :3, 3] = hessian[:, 3, :3] = -np.einsum("kn,kni->ki", stiffness, gradient)
-    hessian[:, 3, 3] = stiffness.sum(axis=1)
+    by_level = np.concatenate([gradient, np.full((*stiffness.shape, 1), -1.0)], axis=2)
+    hessian = by_level.transpose(0, 2, 1) @ (stiffness[:, :, None] * by_level)
     _add_curvature(hessian, q, lam * weights)
     push = mu[:, None] / slack
-    right = np.concatenate([-np.einsum("kn,kni->ki", push, gradient), push.sum(axis=1, keepdims=True) - 1.0], axis=1)
+    right = -(push[:, None, :] @ by_level)[:, 0]
+    right[:, 3] -= 1.0
     move = _solved(hessian, right)
     return move[:, :3], move[:, 3]
 
@@ -106,14 +105,14 @@ def _barrier(value: Array, mu: Array) -> tuple[Array, Array]:
         inverse = mu[:, None] / (level[:, None] - value)
         # Newton's on the reciprocal of the sum, which is linear in s wherever the largest values are alike.
         total = inverse.sum(axis=1)
-        level = np.maximum(level + total * (total - 1.0) * mu / np.einsum("kn,kn->k", inverse, inverse), least)
+        level = np.maximum(level + total * (total - 1.0) * mu / (inverse * inverse).sum(axis=1), least)
     return level - mu * np.log((level[:, None] - value) / mu[:, None]).sum(axis=1), level
 
 
 def _add_curvature(hessian: Array, q: Array, pull: Array) -> None:
     """Add Σ λ_i·∇²f_i, the curvature of the squared lengths, to (k, 4, 4)."""
     hessian[:, 0, 0] += 2.0 * (pull * squared(q)).sum(axis=1)
-    mixed = 2.0 * np.einsum("kn,knd->kd", pull, q)
+    mixed = 2.0 * (pull[:, None, :] @ q)[:, 0]
     hessian[:, 0, 1:3] += mixed
     hessian[:, 1:3, 0] += mixed
     total = 2.0 * pull.sum(axis=1)

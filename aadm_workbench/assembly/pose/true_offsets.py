@@ -21,7 +21,7 @@ import numpy as np
 from aadm_workbench.assembly.matching.likelihood import USUAL_SCATTER_MM
 from aadm_workbench.model import Array
 
-CHAINS = 100
+CHAINS = 300
 """So many draws are made at once, each from the one before it."""
 
 _SETTLE = 8
@@ -67,9 +67,9 @@ def true_offsets(measured: Measured, generator: np.random.Generator) -> Iterator
         own = variance[:, None] / weight
         inverse = _inverse(own[..., None, None] * np.eye(2) + measured.covariances)
         pose = _drawn_pose(measured, by_pose, inverse, generator)
-        moved = np.einsum("nij,kj->kni", by_pose, pose)
+        moved = (pose @ by_pose.reshape(-1, 3).T).reshape(len(pose), -1, 2)
         scatter = _drawn_scatter(measured, moved, own, inverse, generator)
-        squares = np.einsum("kni,kni->kn", scatter, scatter)
+        squares = (scatter**2).sum(axis=2)
         freedom = _FREEDOM + squares / variance[:, None]
         weight = 2.0 * generator.gamma((_FREEDOM + 2.0) / 2.0, size=squares.shape) / freedom
         variance = _drawn_variance((weight * squares).sum(axis=1), squares.shape[1], generator)
@@ -94,13 +94,13 @@ def _inverse(matrices: Array) -> Array:
 
 def _drawn_pose(measured: Measured, by_pose: Array, inverse: Array, generator: np.random.Generator) -> Array:
     """Poses (k, 3) that lay the offsets about zero, given the law of scatter and error together."""
-    weighted = np.einsum("knij,njl->knil", inverse, by_pose)
-    precision = np.einsum("nil,knim->klm", by_pose, weighted)
-    right = -np.einsum("knil,ni->kl", weighted, measured.offsets)
+    weighted = (inverse @ by_pose).reshape(len(inverse), -1, 3)
+    precision = by_pose.reshape(-1, 3).T @ weighted
+    right = -measured.offsets.reshape(-1) @ weighted
     covariance = np.linalg.inv(precision)
     root = np.linalg.cholesky((covariance + covariance.transpose(0, 2, 1)) / 2.0)
-    middle = np.einsum("kij,kj->ki", covariance, right)
-    return np.asarray(middle + np.einsum("kij,kj->ki", root, generator.standard_normal(middle.shape)))
+    normal = generator.standard_normal(right.shape)
+    return np.asarray((covariance @ right[:, :, None] + root @ normal[:, :, None])[:, :, 0])
 
 
 def _drawn_scatter(
@@ -108,7 +108,7 @@ def _drawn_scatter(
 ) -> Array:
     """True scatter (k, n, 2) of each pair about its place in the pose."""
     gain = own[..., None, None] * inverse
-    middle = np.einsum("knij,knj->kni", gain, measured.offsets + moved)
+    middle = (gain @ (measured.offsets + moved)[..., None])[..., 0]
     return np.asarray(middle + _coloured(gain @ measured.covariances, generator.standard_normal(middle.shape)))
 
 

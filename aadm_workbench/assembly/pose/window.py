@@ -68,27 +68,27 @@ def _slopes(goals: Array, z: Array, tau: Array, stretch: float) -> Array:
 def _furthest(p: Array, q: Array, weights: Array, slopes: Array, growth: Array) -> Array:
     """Points z (k, 3) furthest along ``slopes`` where weights·|p + τ·q + t|² ≤ growth (k,), n constraints each."""
     z = np.zeros((len(slopes), 3))
+    columns = np.zeros((len(q), 2, 3))
+    columns[:, :, 0] = q
+    columns[:, 0, 1] = columns[:, 1, 2] = 1.0
+    curvature = (2.0 * weights[:, None, None] * (columns.transpose(0, 2, 1) @ columns)).reshape(-1, 9)
     pull = 1.0
     for _ in range(_REDUCTIONS):
         for _ in range(_NEWTON_STEPS):
-            if not _newton(p, q, weights, slopes * pull, growth, z):
+            if not _newton(p, q, weights, curvature, slopes * pull, growth, z):
                 break
         pull *= 10.0
     return z
 
 
-def _newton(p: Array, q: Array, weights: Array, slopes: Array, growth: Array, z: Array) -> bool:
+def _newton(p: Array, q: Array, weights: Array, curvature: Array, slopes: Array, growth: Array, z: Array) -> bool:
     """One damped Newton step, in place, on −slope·z − Σ log(growth − value_i); False where it hardly moves."""
     e = p + z[:, None, :1] * q + z[:, None, 1:]
     slack = growth[:, None] - weights * (e**2).sum(axis=2)
     gradient = 2.0 * weights[:, None] * np.concatenate([(q * e).sum(axis=2, keepdims=True), e], axis=2)
-    columns = np.zeros((len(q), 2, 3))
-    columns[:, :, 0] = q
-    columns[:, 0, 1] = columns[:, 1, 2] = 1.0
-    curvature = 2.0 * np.einsum("n,ndi,ndj->nij", weights, columns, columns)
-    hessian = np.einsum("kni,knj,kn->kij", gradient, gradient, slack**-2)
-    hessian += np.einsum("nij,kn->kij", curvature, 1.0 / slack)
-    downhill = slopes - np.einsum("kni,kn->ki", gradient, 1.0 / slack)
+    scaled = gradient / slack[:, :, None]
+    hessian = scaled.transpose(0, 2, 1) @ scaled + ((1.0 / slack) @ curvature).reshape(-1, 3, 3)
+    downhill = slopes - scaled.sum(axis=1)
     step = np.linalg.solve(hessian, downhill[:, :, None])[:, :, 0]
     decrement = np.sqrt(np.maximum((step * downhill).sum(axis=1), 0.0))
     # The damped step of a self-concordant barrier never leaves the set; near the centre it is a full one.
