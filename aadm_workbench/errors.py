@@ -7,10 +7,6 @@ What a scan cannot support (a plugged sleeve, a bar out of view) is no error: it
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from aadm_workbench.model.reason import Language
 
 
 class AadmError(Exception):
@@ -20,11 +16,6 @@ class AadmError(Exception):
     def reason(self) -> str:
         """What is wrong, where, and what to do: a reason of the table of sentences, or a text."""
         return self.args[0] if self.args and isinstance(self.args[0], str) else str(self)
-
-    def in_language(self, language: Language) -> str:
-        """The reason in a language, as far as the table of sentences has it."""
-        said = self.reason
-        return str(said.in_language(language)) if hasattr(said, "in_language") else said
 
 
 class JobError(AadmError):

@@ -30,6 +30,7 @@ from .commands import (
 )
 from .exit_codes import BAD_USAGE, INTERNAL, INTERRUPTED
 from .shown.printable import printable
+from .shown.told import told
 
 
 class Command(Protocol):
@@ -98,7 +99,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except AadmError as error:
         if options.debug and error.__cause__ is not None:
             _show_trace()
-        _say(str(error))
+        _say(told(error, options))
         return BAD_USAGE
     except KeyboardInterrupt:
         _say("interrupted")

@@ -19,6 +19,7 @@ from ..exit_codes import INTERNAL, INTERRUPTED, exit_code_of
 from ..job.command import add_job_arguments, pool_options, report_folder
 from ..report_files import add_format_switches, chosen_formats, require_packages
 from ..runner.one_thread import calculate_in_one_thread
+from ..shown.told import told
 
 if TYPE_CHECKING:
     from ..job.model import Job
@@ -108,7 +109,7 @@ def _run_in(folder: Path, job: Job, events: Events, options: argparse.Namespace)
                 raise
             journal.stop()
             events.send("interrupted", done=shown.done, columns=shown.total)
-            say(f"aadm: {str(stop) or 'interrupted'}")
+            say(f"aadm: {told(stop, options) if isinstance(stop, AadmError) else 'interrupted'}")
             kept = f"{shown.done} of {shown.total} columns are kept in {journal.path}"
             say(f"aadm: {kept}; repeat the command with --resume")
             return INTERRUPTED if isinstance(stop, KeyboardInterrupt) else INTERNAL
@@ -140,7 +141,7 @@ def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:
         _write_reports(folder, options)
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
-        say(f"aadm: {error}")
+        say(f"aadm: {told(error, options)}")
         code = INTERNAL
     if options.json:
         show_json(encode(report_document(done.report)))
@@ -172,7 +173,7 @@ def _write_model(done: JobRun, job: Job, folder: Path, options: argparse.Namespa
     try:
         written = write_checked_model(report_document(done.report), job, folder)
     except AadmError as error:
-        say(f"aadm: {error}")
+        say(f"aadm: {told(error, options)}")
         return INTERNAL
     if not options.quiet:
         say("\n".join(written_lines(written)))

@@ -16,6 +16,7 @@ from aadm_workbench.document.report.file import load_report
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import JobError
 from aadm_workbench.gui.aadm_process import AadmProcess
+from aadm_workbench.gui.language import language
 from aadm_workbench.gui.panels.file_line import FileLine
 from aadm_workbench.gui.panels.task_panel import TaskPanel, show_panel
 from aadm_workbench.gui.sentences import sentences, show_error
@@ -66,7 +67,9 @@ class JobPanel(TaskPanel):
             self.lines.clear()
             self.last_words.clear()
             self._busy(True)
-            self.process = AadmProcess(["check", str(job), "--out", out, "--json"], tempfile.gettempdir())
+            self.process = AadmProcess(
+                ["check", str(job), "--out", out, "--json", "--language", language()], tempfile.gettempdir()
+            )
             self.process.stepped.connect(self._stepped)
             self.process.said.connect(self._said)
             self.process.ended.connect(self._ended)

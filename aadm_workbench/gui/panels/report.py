@@ -15,7 +15,7 @@ from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.packages import require
 from aadm_workbench.errors import ReportError
 from aadm_workbench.gui.aadm_process import AadmProcess
-from aadm_workbench.gui.language import is_chinese
+from aadm_workbench.gui.language import language
 from aadm_workbench.gui.panels.file_line import FileLine
 from aadm_workbench.gui.panels.task_panel import TaskPanel, show_panel
 from aadm_workbench.gui.picture import save_picture
@@ -102,8 +102,7 @@ class ReportPanel(TaskPanel):
             self._words.clear()
             self._busy(True)
             arguments = ["report", str(folder / "report.json"), "--out", str(folder), *wanted]
-            if is_chinese():
-                arguments += ["--language", "zh"]
+            arguments += ["--language", language()]
             self.process = AadmProcess(arguments, tempfile.gettempdir())
             self.process.said.connect(self._words.append)
             self.process.ended.connect(lambda code: self._ended(code, folder))

@@ -34,10 +34,9 @@ class _Known(NamedTuple):
     """
 
     code: str
+    english: str
     longest: str
     literal: int
-    pattern: re.Pattern[str]
-    places: tuple[Place, ...]
 
 
 def in_both_languages(sentence: str) -> Phrase:
@@ -75,8 +74,9 @@ def _one(text: str) -> Reason | None:
 
 def _of_table(text: str) -> Reason | None:
     for known in _table():
-        if known.longest in text and (found := known.pattern.fullmatch(text)):
-            return Reason(known.code, **{place.name: _value(found[place.name], place) for place in known.places})
+        if known.longest in text and (found := _pattern(known.english).fullmatch(text)):
+            places = [place for place in places_of(known.english) if place.name]
+            return Reason(known.code, **{place.name: _value(found[place.name], place) for place in places})
     return None
 
 
@@ -119,11 +119,13 @@ def _filling(name: str, form: str) -> str:
 
 
 def _known(code: str, english: str) -> _Known:
-    places = places_of(english)
-    pattern = "".join(_patterns(places))
-    texts = [place.before for place in places]
-    named = tuple(place for place in places if place.name)
-    return _Known(code, max(texts, key=len), sum(map(len, texts)), re.compile(pattern, re.DOTALL), named)
+    texts = [place.before for place in places_of(english)]
+    return _Known(code, english, max(texts, key=len), sum(map(len, texts)))
+
+
+@cache
+def _pattern(english: str) -> re.Pattern[str]:
+    return re.compile("".join(_patterns(places_of(english))), re.DOTALL)
 
 
 def _patterns(places: tuple[Place, ...]) -> Iterator[str]:
