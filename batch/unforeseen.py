@@ -22,8 +22,7 @@ def unforeseen_in(model: str) -> Iterator[None]:
     except (AadmError, MemoryError):
         raise
     except Exception as error:
+        from aadm_workbench.model import Reason
+
         said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-        raise DesignError(
-            f"{model} cannot be evaluated: something in it is not as its format wants it ({said}); export it again "
-            "(--debug shows where)"
-        ) from error
+        raise DesignError(Reason("run.not_evaluated", model=model, error=said)) from error

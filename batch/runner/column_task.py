@@ -13,8 +13,8 @@ from typing import Generic, TypeVar
 from aadm_workbench.check import ColumnScans, check_column
 from aadm_workbench.design.recognise.extent import extent_mm
 from aadm_workbench.errors import AadmError, DesignError
-from aadm_workbench.model import ColumnDesign, ColumnReport, Kind, Scan, Verdict
-from aadm_workbench.model.reason import renamed
+from aadm_workbench.model import ColumnDesign, ColumnReport, Kind, Reason, Scan, Verdict
+from aadm_workbench.model.reason import reason_of, renamed
 from aadm_workbench.scan.plausible import check_plausible
 from aadm_workbench.scan.read import read_scan
 
@@ -25,7 +25,7 @@ from .task import ColumnTask
 
 Result = TypeVar("Result")
 
-_NO_MEMORY = "there is not enough memory for its scans: check fewer columns at a time, or raise --memory-limit"
+_NO_MEMORY = Reason("run.no_memory")
 _WITHOUT_MEMORY = ("Insufficient memory", "bad_alloc")  # as OpenCV and C++ say it
 
 
@@ -58,9 +58,9 @@ def attempt(task: ColumnTask, work: Callable[[ColumnTask, Stopwatch], Result]) -
         except MemoryError:
             error_found = error_report(task, _NO_MEMORY)
         except (AadmError, OSError) as error:
-            error_found = error_report(task, _as_named(task, str(error) or type(error).__name__))
+            error_found = error_report(task, _as_named(task, reason_of(error) or type(error).__name__))
         except Exception as error:  # noqa: BLE001 - a night's batch must not end at one column
-            reason = f"internal error ({_as_named(task, _described(error))}); --debug shows where"
+            reason = Reason("run.internal", error=_as_named(task, _described(error)))
             if any(words in str(error) for words in _WITHOUT_MEMORY):
                 reason = _NO_MEMORY
             error_found, where = error_report(task, reason), traceback.format_exc()
@@ -70,7 +70,7 @@ def attempt(task: ColumnTask, work: Callable[[ColumnTask, Stopwatch], Result]) -
 def check_task(task: ColumnTask) -> ColumnOutcome:
     """Read a column's scans and check it; errors become its verdict."""
     done = attempt(task, _checked)
-    report = done.result or done.error or error_report(task, "it was not checked")
+    report = done.result or done.error or error_report(task, Reason("run.not_checked"))
     return ColumnOutcome(report, done.seconds, done.where)
 
 
@@ -89,7 +89,7 @@ def _checked(task: ColumnTask, watch: Stopwatch) -> ColumnReport:
     if task.design is None:
         raise DesignError(task.no_design)
     if not task.column.sleeves and not task.column.rebars:
-        reason = "the job names no scan of its sleeves or rebars"
+        reason = Reason("run.no_scan")
         report = ColumnReport(task.column.id, Verdict.NOT_MEASURED, Verdict.NOT_ASSESSED, (reason,))
         report = _identified(report, task.design)
         return replace(report, hoisting=measure_frames(task, report, watch))
@@ -138,7 +138,7 @@ def _group(
     if not names:
         return ()
     if not design.points(kind):
-        raise DesignError(f"the design has no {kind.plural}, but the job names a scan of them ({names[0]})")
+        raise DesignError(Reason("run.no_group", kind=kind.plural, names=names[0]))
     longest_mm = extent_mm(design.points(kind))
     scans = []
     for number, name in enumerate(names):

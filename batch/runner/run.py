@@ -241,7 +241,7 @@ def _model_for(job: Job, columns: Sequence[JobColumn]) -> tuple[ModelDesign | No
     except DesignError as error:
         if not any(column.design is not None for column in columns):
             raise
-        return None, str(error)
+        return None, error.reason
 
 
 def check_named_once(job: Job, model: ModelDesign) -> None:
@@ -270,7 +270,7 @@ def _designed(model: ModelDesign, column: JobColumn) -> ColumnDesign | str:
     try:
         return model.column(column.id)
     except DesignError as error:
-        return str(error)
+        return error.reason
 
 
 def chosen_columns(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
