@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from aadm_workbench.errors import JobError
-from aadm_workbench.model import Reason
 
 UP_DEG = {"+x": 0.0, "+y": 90.0, "-x": 180.0, "-y": -90.0}
 
@@ -31,4 +30,6 @@ def up_deg(written: str, label: str) -> float | None:
         value = math.nan
     if math.isfinite(value):
         return value
+    from aadm_workbench.model import Reason
+
     raise JobError(Reason("design.up", label=label, written=repr(written)))

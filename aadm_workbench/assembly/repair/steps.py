@@ -84,7 +84,7 @@ def _why_not_bent(case: RepairCase, bend: Bend) -> str:
         return Reason("assembly.too_far.no_rule", rebar=pair.rebar, length_mm=bend.length_mm)
     far = Reason("assembly.too_far", rebar=pair.rebar, length_mm=bend.length_mm)
     rule = case.adjustment_rule
-    return Reason("assembly.beyond", what=far, upper=rule.upper, clause=describe_clause(rule))
+    return Reason("assembly.beyond", how=far, upper=rule.upper, clause=describe_clause(rule))
 
 
 def _deviations(measured: Array, design: Array) -> Array:

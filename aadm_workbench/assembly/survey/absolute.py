@@ -204,7 +204,7 @@ def _decide(offset: Array, covariance: Array | None, rule: Rule | None, decision
 def _reason(what: str, u_mm: float | None, rule: Rule | None, verdict: Verdict) -> str:
     if rule is None or verdict not in (Verdict.FAIL, Verdict.INCONCLUSIVE):
         return ""
-    text = Reason("assembly.beyond", what=what, upper=rule.upper, clause=describe_clause(rule))
+    text = Reason("assembly.beyond", how=what, upper=rule.upper, clause=describe_clause(rule))
     return text if verdict is Verdict.FAIL else Reason("assembly.close", what=text, u_mm=u_mm or 0.0)
 
 

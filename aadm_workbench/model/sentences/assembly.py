@@ -37,7 +37,7 @@ SENTENCES: dict[str, Sentence] = {
         "{what} (the best that was found; fewer bars might do)",
         "{what}（已找到的最佳方案；或许更少的钢筋即可）",
     ),
-    "assembly.beyond": Sentence("{what}, limit {upper:g} mm ({clause})", "{what}，限值 {upper:g} mm（{clause}）"),
+    "assembly.beyond": Sentence("{how}, limit {upper:g} mm ({clause})", "{how}，限值 {upper:g} mm（{clause}）"),
     "assembly.close": Sentence(
         "{what}: too close to it for an uncertainty of {u_mm:.2f} mm",
         "{what}：不确定度 {u_mm:.2f} mm，过于接近限值",
@@ -251,8 +251,8 @@ SENTENCES: dict[str, Sentence] = {
     "assembly.seen_length": Sentence(
         "of the embedded length of the bars {least_mm:.0f} to {most_mm:.0f} mm were seen; below, a bar is taken "
         "to be straight within 4 mm a metre (GB/T 1499.2-2018, 6.5, unverified)",
-        "钢筋埋入长度中见到 {least_mm:.0f} 至 {most_mm:.0f} mm；其下按每米 4 mm 以内视为直筋（GB/T "
-        "1499.2-2018,6.5，未核对）",
+        "钢筋埋入长度中见到 {least_mm:.0f} 至 {most_mm:.0f} mm；其下按每米 4 mm 以内视为直筋（GB/T 1499.2-2018 第 "
+        "6.5 条，未核对）",
     ),
     "assembly.shared_apart": Sentence(
         "the points it shares with the others lie up to {apart_mm:.2f} mm apart",

@@ -20,7 +20,7 @@ from aadm_workbench.report.words.labels import Phrase
 _NAME = "(?:(?![;:] ).)+?"
 _VALUES = {"": _NAME, "word": _NAME, " ": ".+?", "and": ".+?", ";": ".+?", ".": ".+?"}
 """What stands in the place of a text, by its format; in any other stands a number."""
-_SENTENCES = {"clause", "limit", "notes", "plan", "remedy", "said", "text", "what", "why"}
+_SENTENCES = {"notes", "plan", "remedy", "said", "what", "why"}
 """Places that other sentences stand in; names and labels hold no sign that parts sentences."""
 _LONGEST_SENTENCE = 1000
 """Characters: ours have at most some hundred, and patterns take a time that grows with their square."""
