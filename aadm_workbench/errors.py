@@ -6,6 +6,7 @@ What a scan cannot support (a plugged sleeve, a bar out of view) is no error: it
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 
@@ -110,3 +111,12 @@ def package_called(pip_name: str) -> Package:
 def install_of(extra: str) -> str:
     """The command that installs what one extra of this project brings."""
     return f"pip install 'aadm-workbench[{extra}]'"
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The end of a message about an unknown word: what is near to it, or all that is known."""
+    from difflib import get_close_matches
+
+    known = tuple(known)
+    near = get_close_matches(word, known, n=1, cutoff=0.6)
+    return f'did you mean "{near[0]}"?' if near else f"known: {', '.join(known)}"

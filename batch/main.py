@@ -7,28 +7,16 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Collection, Sequence
+from importlib import import_module
+from types import MappingProxyType
+from typing import Protocol, cast
 
 from aadm_workbench import __version__
 from aadm_workbench.errors import AadmError
 
-from .commands import (
-    check,
-    design,
-    diff,
-    doctor,
-    extract,
-    match,
-    plan,
-    profiles,
-    report,
-    simulate,
-    study,
-    watch,
-    writeback,
-)
 from .exit_codes import BAD_USAGE, INTERNAL, INTERRUPTED
+from .runner.machine import calculate_in_one_thread
 from .shown.printable import printable
 from .shown.told import told
 
@@ -36,29 +24,30 @@ from .shown.told import told
 class Command(Protocol):
     """What a module of ``commands/`` offers."""
 
-    __name__: str
-    SUMMARY: str
     EXAMPLE: str
 
     def add_arguments(self, parser: argparse.ArgumentParser) -> None:
         """Declare arguments, and the function that runs the command as ``run``."""
 
 
-COMMANDS: tuple[Command, ...] = (
-    check,
-    match,
-    watch,
-    plan,
-    design,
-    extract,
-    simulate,
-    study,
-    report,
-    diff,
-    writeback,
-    profiles,
-    doctor,
+COMMANDS = MappingProxyType(
+    {
+        "check": "check the columns of a job",
+        "match": "find out which column goes on which bars",
+        "watch": "measure each new hoisting frame in a folder",
+        "plan": "say where to put the camera while a column hangs",
+        "design": "list the sleeves and rebars of a model",
+        "extract": "find the points in one scan",
+        "simulate": "make synthetic scans with known truth",
+        "study": "measure methods on synthetic scans of known truth",
+        "report": "make HTML, PDF, XLSX, CSV, BCF, crew pages and scan cards from a report",
+        "diff": "say what changed between two inspections",
+        "writeback": "write the results of a check into the IFC model",
+        "profiles": "list tolerance profiles and their rules",
+        "doctor": "say what is installed and what is missing",
+    }
 )
+"""By the name of their module: what each does."""
 
 _EXIT_CODES = """\
 exit codes:
@@ -67,8 +56,8 @@ exit codes:
   130 interrupted: what was checked is kept, --resume goes on"""
 
 
-def build_parser() -> argparse.ArgumentParser:
-    """The parser of the whole command line."""
+def build_parser(wanted: Collection[str] = COMMANDS.keys()) -> argparse.ArgumentParser:
+    """The parser of the whole command line; commands that are not ``wanted`` are listed, without their arguments."""
     parser = argparse.ArgumentParser(
         prog="aadm",
         description="Checks precast columns before they are hoisted: grouting sleeves against connecting rebars.",
@@ -77,23 +66,21 @@ def build_parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("--version", action="version", version=f"aadm {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in COMMANDS:
-        command.add_arguments(
-            commands.add_parser(
-                command.__name__.rpartition(".")[2],
-                help=command.SUMMARY,
-                description=command.__doc__,
-                epilog=command.EXAMPLE,
-                formatter_class=argparse.RawDescriptionHelpFormatter,
-            )
-        )
+    for name, summary in COMMANDS.items():
+        found = commands.add_parser(name, help=summary, formatter_class=argparse.RawDescriptionHelpFormatter)
+        if name in wanted:
+            command = cast(Command, import_module(f"{__package__}.commands.{name}"))
+            found.description, found.epilog = command.__doc__, command.EXAMPLE
+            command.add_arguments(found)
     return parser
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code; bad usage ends in ``SystemExit(2)``."""
     _never_fail_on_a_sign()
-    options = build_parser().parse_args(arguments)
+    calculate_in_one_thread()
+    words = sys.argv[1:] if arguments is None else arguments
+    options = build_parser([word for word in words if not word.startswith("-")][:1]).parse_args(words)
     try:
         code: int = options.run(options)
     except AadmError as error:

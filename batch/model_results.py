@@ -11,10 +11,9 @@ from typing import TYPE_CHECKING
 from aadm_workbench.errors import JobError
 
 if TYPE_CHECKING:
+    from aadm_workbench.inspection.job import Job
     from aadm_workbench.report.ifc.model import WriteBack
     from aadm_workbench.report.read import Report
-
-    from .job.model import Job
 
 _REPORTS = ("report.html", "report.json")
 """What the columns of the model are linked to: the first of these that lies in the folder of the report."""

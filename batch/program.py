@@ -6,21 +6,14 @@ import hashlib
 import platform
 import re
 from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 import aadm_workbench
-from aadm_workbench import __version__
+from aadm_workbench.inspection.report import tool_entry
 
 from .runner.exact_json import to_exact_json
 
-_NUMERICAL_PACKAGES = ("numpy", "scipy", "opencv-python-headless", "ifcopenshell")
 _CODE = (".py", ".toml", ".json")
-
-
-def tool_entry() -> dict[str, str]:
-    """What reports say about the program: its version and those of the packages that the numbers come from."""
-    return {"name": "aadm", "version": __version__, **_versions()}
 
 
 @cache
@@ -55,14 +48,3 @@ def _code_hash() -> str:
             found.update(f"{path.relative_to(folder).as_posix()} {len(content)}\n".encode())
             found.update(content)
     return found.hexdigest()[:16]
-
-
-def _versions() -> dict[str, str]:
-    """Versions of the packages that the numbers come from, where they are installed under these names."""
-    found = {}
-    for name in _NUMERICAL_PACKAGES:
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:
-            continue
-    return found

@@ -9,8 +9,7 @@ from dataclasses import fields, is_dataclass, replace
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any, TypeVar
 
-from .job.column_files import files_of
-from .job.model import Job
+from aadm_workbench.inspection.job import Job
 
 Part = TypeVar("Part")
 
@@ -38,7 +37,7 @@ def _shown_names(job: Job) -> dict[str, str]:
     """What absolute paths are to be replaced by: files by their last part, folders by nothing."""
     folders = (job.folder.absolute(), job.folder.resolve(), Path(tempfile.gettempdir()))
     shown = {f"{folder}/": "" for folder in folders if len(folder.parts) > 1}
-    names = [name for column in job.columns for name in files_of(column)]
+    names = [name for column in job.columns for name in column.files()]
     if job.model is not None:
         names.append(job.model.path)
     for name in names:

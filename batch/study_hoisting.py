@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from .exit_codes import ALL_PASS
 from .job.command import METHODS
-from .runner.one_thread import calculate_in_one_thread
 from .switches import add_switches, whole_number
 
 if TYPE_CHECKING:
@@ -49,7 +48,6 @@ def add_hoisting_studies(kinds: Any, prepare: Callable[[argparse.Namespace], Non
 
 def _study(options: argparse.Namespace) -> int:
     options.prepare(options)
-    calculate_in_one_thread()
     from aadm_workbench.report.json import encode
     from aadm_workbench.twin.study.hoisting import cells_of, study_hoisting
 

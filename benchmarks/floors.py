@@ -9,10 +9,10 @@ from pathlib import Path
 import cv2
 
 from aadm_workbench.design.read import read_model
+from aadm_workbench.inspection.job import Job
 from aadm_workbench.model import Camera, ColumnDesign
 from aadm_workbench.scan.write import write_depth_tiff
 from batch.job.file import read_job
-from batch.job.model import Job
 
 SAMPLE = Path(__file__).resolve().parents[1] / "samples" / "floor"
 SOUND = {"C-301": "+y", "C-302": "+y", "C-303": "+y", "C-305": "-x", "C-307": "+y"}

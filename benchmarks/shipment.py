@@ -26,7 +26,7 @@ import psutil
 
 from batch.job.file import read_job
 from batch.program import program_versions
-from batch.runner.one_thread import calculate_in_one_thread
+from batch.runner.machine import calculate_in_one_thread
 from benchmarks.floors import SMALL, write_floor
 
 PARTS = ("start", "floor", "growth")
@@ -138,14 +138,13 @@ def _bare_loops(job: Path, processes: int) -> float:
 def loop(job: Path, part: str) -> None:
     """Check every so many-th column of a job, one after the other."""
     calculate_in_one_thread()
-    from batch.runner.column_task import check_task
-    from batch.runner.run import RunOptions, plan_tasks
-    from batch.stopwatch import Stopwatch
+    from aadm_workbench.inspection.column import inspect_column
+    from aadm_workbench.inspection.tasks import plan_job
 
     first, step = (int(number) for number in part.split("/"))
-    _, _, tasks = plan_tasks(read_job(job), RunOptions(), Stopwatch())
+    tasks = plan_job(read_job(job)).tasks
     for task in tasks[first::step]:
-        check_task(task)
+        inspect_column(task)
 
 
 def growth(folder: Path, sizes: list[int]) -> list[dict[str, Any]]:

@@ -13,7 +13,7 @@ from aadm_workbench.model import Reason
 
 _IFC = (".ifc", ".ifczip")
 SUPPORTED = (".ifc", ".FCStd", *KERNEL, *MESHES, ".pcd", ".ifczip")
-"""Endings of all files that hold a design; clouds are read by :mod:`aadm_workbench.as_designed`."""
+"""Endings of all files that hold a design; clouds are read by :mod:`aadm_workbench.inspection.as_designed`."""
 
 
 def read_model(

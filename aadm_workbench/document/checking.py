@@ -104,7 +104,7 @@ def run(request: CheckRequest, stage: Stage = lambda name: nullcontext()) -> dic
 
 def _run(request: CheckRequest, stage: Stage) -> dict[str, Any]:
     from aadm_workbench.assembly.tolerances import load_profile
-    from aadm_workbench.check import CheckSettings, ColumnScans, check_column
+    from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
     from aadm_workbench.model import JobReport
     from aadm_workbench.report.json import encode, report_document
 
@@ -172,8 +172,7 @@ def _source(cloud: Any) -> ScanSource:
 
 
 def _read(source: ScanSource, request: CheckRequest) -> Any:
-    from aadm_workbench.design.recognise.extent import extent_mm
-    from aadm_workbench.scan.plausible import check_plausible
+    from aadm_workbench.scan.plausible import check_plausible, extent_mm
     from aadm_workbench.scan.read import read_scan
 
     points = request.design.points(source.kind)

@@ -13,7 +13,9 @@ import numpy as np
 from scipy.special import expit
 
 from aadm_workbench.extract.bars_in_scan import Standing, find_standing, standing_along
+from aadm_workbench.extract.burrs import burr_u_mm
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
+from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
 from aadm_workbench.extract.edges.edge_shift import Bend, bend_at_edges, eroded_rings, no_bend, shift_of_tops
 from aadm_workbench.extract.edges.seen_disc import seen_discs
 from aadm_workbench.extract.edges.sight_lines import SightLines, sight_lines_on_tops
@@ -54,6 +56,9 @@ _BAR_LEAN_U = 7e-3  # ribs, which stand out on one side here and on the other th
 _USUAL_LEAN, _COMMON_COUNT = 5e-3, 4  # 0.3 degrees, as bars are cast in
 _BENT_SHARE = 0.1  # of bars that lean by more than that: bent by hand, or hit
 _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)  # before the vertical is known bars lean by degrees
+# of the size that was looked for: cores have 0.94 to 1.03 of it, outlines a few hundredths more or less; each look
+# finds more of what is larger than the last one took it for
+_OF_SIZE, _SIZES_TRIED = (0.9, 1.06), 3
 _TURNS = 3  # each is seen along what the last one's bars show: a choice, not tuned since
 
 
@@ -88,6 +93,8 @@ def extract_rebars(
     others_mm
         Diameters of other bars in the same group: what is nearer to one of these is left out.
     """
+    if copies_depths(scan):
+        return _nothing(COPIED)
     sample, sizes_mm = thinned(scan, _SAMPLE, rng), (diameter_mm, *others_mm)
     standing = find_standing(sample, diameter_mm / 2, scan.viewpoint, rng)
     if standing is not None and standing.floor is None:
@@ -95,9 +102,19 @@ def extract_rebars(
     if standing is None:
         return _nothing(Reason("extract.no_upright_bar", diameter_mm=diameter_mm))
     bars = _measured(scan, sample, standing, places, sizes_mm, _BAR_PRIORS, rng)
+    for _ in range(_SIZES_TRIED):
+        if isinstance(bars, str) or _is_of_size(bars, sizes_mm[0]):
+            break
+        sizes_mm = (2.0 * float(np.median(bars.fit.outline_radius)), *others_mm)
+        bars = _measured(scan, sample, standing, places, sizes_mm, _BAR_PRIORS, rng)
     if isinstance(bars, str):
         return _nothing(bars)
     return _extraction(bars, standing, diameter_mm)
+
+
+def _is_of_size(bars: _Bars, diameter_mm: float) -> bool:
+    low, high = _OF_SIZE
+    return low < 2.0 * float(np.median(bars.fit.outline_radius)) / diameter_mm < high
 
 
 def _turned_to_the_bars(
@@ -276,7 +293,7 @@ def _points(tops: Tops, fit: PooledFit, lean_prior: float, level: Plane) -> tupl
         tops.residual_mm,
         2 * fit.outline_radius,
         [
-            f"{edges} edge and {sides} side points"
+            Reason("extract.edges_and_sides", edges=edges, sides=sides)
             for edges, sides in zip(fit.edge_count.tolist(), fit.wall_count.tolist(), strict=True)
         ],
         lean_covariance,
@@ -292,7 +309,8 @@ def _shape_u_mm(tops: Tops, fit: PooledFit) -> Array:
     spoilt += 0.5 * (behind > 1.0).sum(axis=1) / count + 0.5 * (1.0 - tops.rims.coverage)
     held = tops.beyond.seen.sum(axis=1) > 0.5 * count
     ribs = np.where(held, *_SHAPE_U_PITCHES) * tops.pitch_mm
-    return np.asarray(np.hypot(ribs, _SPOILT_U_MM * spoilt))
+    burrs = burr_u_mm(tops.rims, fit.centre, float(np.median(fit.outline_radius)))
+    return np.asarray(np.hypot(np.hypot(ribs, burrs), _SPOILT_U_MM * spoilt))
 
 
 def _mean_axis(points: tuple[AssemblyPoint, ...]) -> Array:

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM
+from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
 from aadm_workbench.extract.edges.edge_shift import (
     BentDiscs,
     Shift,
@@ -89,6 +90,8 @@ def extract_sleeves(
     Extraction
         With an empty ``points`` and a ``reason`` where no face or no hole was found.
     """
+    if copies_depths(scan):
+        return Extraction(Kind.SLEEVE, "refined", (), None, None, reason=COPIED)
     sample = thinned(scan, _SAMPLE, rng)
     found = face_with_holes(scan, sample, diameter_mm / 2, rng)
     if found is None:
@@ -279,7 +282,7 @@ def _points(mouths: Mouths, fit: PooledFit, face: Plane, pitch_mm: float) -> tup
         np.full(count, face.residual_mm),
         2 * fit.radius,
         [
-            f"{walls} wall and {edges} edge points at {pitch_mm:.2f} mm"
+            Reason("extract.walls_and_edges", walls=walls, edges=edges, pitch_mm=pitch_mm)
             for walls, edges in zip(fit.wall_count.tolist(), fit.edge_count.tolist(), strict=True)
         ],
         fit.lean_covariance + _BORE_LEAN_U**2 * np.eye(2),

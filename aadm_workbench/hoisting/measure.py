@@ -13,7 +13,6 @@ import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.pose.upright import turn
-from aadm_workbench.design.recognise.extent import extent_mm
 from aadm_workbench.errors import ScanError
 from aadm_workbench.hoisting.bar_fit import fit_bars
 from aadm_workbench.hoisting.bars import SeenBars, find_bars
@@ -37,7 +36,7 @@ from aadm_workbench.model import (
     Reason,
     Scan,
 )
-from aadm_workbench.scan.plausible import check_plausible
+from aadm_workbench.scan.plausible import check_plausible, extent_mm
 
 METHOD = "refined"
 # what two scans of one point differ by beyond their noise: warps of two poses of the camera, 0.025 mm each

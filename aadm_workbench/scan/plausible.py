@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from aadm_workbench.errors import ScanError
-from aadm_workbench.model import Array, Reason, Scan, codes_of
+from aadm_workbench.model import Array, AssemblyPoint, Reason, Scan, codes_of
 from aadm_workbench.scan.ray_distance import refuse_ray_distances
 
 FEWEST_POINTS = 500
@@ -21,6 +22,12 @@ LARGEST_EXTENT_RATIO = 100.0
 _PERCENTILES = (1.0, 99.0)  # of coordinates: strays beyond do not stretch what is measured
 _SAMPLE_SIZE = 50_000  # points: percentiles to a tenth of one
 _MM_PER_INCH = 25.4  # exactly, since 1959
+
+
+def extent_mm(points: Sequence[AssemblyPoint]) -> float:
+    """Longest side of a pattern in the plane, mm, over the outsides of its sleeves or bars."""
+    centres = np.array([point.centre[:2] for point in points])
+    return float(np.ptp(centres, axis=0).max()) + max(point.diameter_mm for point in points)
 
 
 def check_plausible(scan: Scan, expected_extent_mm: float) -> Scan:

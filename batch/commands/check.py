@@ -8,9 +8,12 @@ Ctrl-C, a crash or a power failure --resume goes on, and the report is the same 
 from __future__ import annotations
 
 import argparse
-from contextlib import closing
-from dataclasses import replace
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING
 
 from aadm_workbench.errors import AadmError, JobError
@@ -18,15 +21,16 @@ from aadm_workbench.errors import AadmError, JobError
 from ..exit_codes import INTERNAL, INTERRUPTED, exit_code_of
 from ..job.command import add_job_arguments, pool_options, report_folder
 from ..report_files import add_format_switches, chosen_formats, require_packages
-from ..runner.one_thread import calculate_in_one_thread
 from ..shown.told import told
 
 if TYPE_CHECKING:
-    from ..job.model import Job
-    from ..runner.run import JobRun
-    from ..shown.events import Events
+    from aadm_workbench.inspection.job import Job
+    from aadm_workbench.model import JobReport
 
-SUMMARY = "check the columns of a job"
+    from ..runner.journal import Journal
+    from ..runner.run import JobRun
+    from ..shown.follow import Events, ShownCheck
+
 EXAMPLE = """\
 examples:
   aadm check floor3.toml
@@ -68,36 +72,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Check a job; the exit code is that of its worst column."""
-    calculate_in_one_thread()
-    from ..job.file import read_job
-
-    # Before the rest is imported: who has mistyped a key should not wait for it.
-    job = read_job(options.job)
-    if options.events == "-" and options.json:
-        raise JobError("--events - and --json both want stdout; write the events into a file")
-    require_packages(chosen_formats(options))
-    if options.write_ifc:
-        from ..model_results import ifc_model_of
-
-        ifc_model_of(job)  # before the night's work, not after it
+    job = _asked(options)
     from ..runner.folder_lock import locked
-    from ..runner.interrupts import end_requests
-    from ..shown.events import Events
-
-    folder = report_folder(options)
-    with closing(Events(options.events)) as events, locked(folder), end_requests():
-        return _run_in(folder, job, events, options)
-
-
-def _run_in(folder: Path, job: Job, events: Events, options: argparse.Namespace) -> int:
-    """Check a job into a folder that nobody else writes into."""
     from ..runner.journal import PREVIOUS_NAME, Journal
     from ..runner.run import RunOptions, run_job
-    from ..served_report import without_absolute_paths
-    from ..shown.follow import ShownCheck
+    from ..shown.follow import Events, ShownCheck
     from ..shown.terminal import say
 
-    with closing(Journal(folder, resume=options.resume)) as journal:
+    folder = report_folder(options)
+    with ExitStack() as held:
+        events = held.enter_context(closing(Events(options.events)))
+        held.enter_context(locked(folder))
+        held.enter_context(_end_requests())
+        journal = held.enter_context(closing(Journal(folder, resume=options.resume)))
         if journal.put_aside:
             say(f"an unfinished check lay in {folder}; its results are in {PREVIOUS_NAME} (--resume goes on with such)")
         try:
@@ -107,36 +94,77 @@ def _run_in(folder: Path, job: Job, events: Events, options: argparse.Namespace)
         except (AadmError, KeyboardInterrupt) as stop:
             if isinstance(stop, AadmError) and not shown.done:
                 raise
-            journal.stop()
-            events.send("interrupted", done=shown.done, columns=shown.total)
-            say(f"aadm: {told(stop, options) if isinstance(stop, AadmError) else 'interrupted'}")
-            kept = f"{shown.done} of {shown.total} columns are kept in {journal.path}"
-            say(f"aadm: {kept}; repeat the command with --resume")
-            return INTERRUPTED if isinstance(stop, KeyboardInterrupt) else INTERNAL
-        if not options.absolute_paths:
-            done = replace(done, report=without_absolute_paths(done.report, job))
-        code = _hand_over(done, folder, options)
-        if options.write_ifc and code != INTERNAL:
-            code = _write_model(done, job, folder, options) or code
+            return _stopped(stop, told(stop, options), shown, journal, events)
+        code = _hand_over(done, job, folder, options)
         if code != INTERNAL:
             journal.finish()
         events.send("finished", exit_code=code, report=str(folder / "report.json"), summary=done.report.summary())
         return code
 
 
-def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:
+def _asked(options: argparse.Namespace) -> Job:
+    """The job, where all that is asked of it can be had; whoever has mistyped a key waits for nothing else."""
+    from ..job.file import read_job
+
+    job = read_job(options.job)
+    if options.events == "-" and options.json:
+        raise JobError("--events - and --json both want stdout; write the events into a file")
+    require_packages(chosen_formats(options))
+    if options.write_ifc:
+        from ..model_results import ifc_model_of
+
+        ifc_model_of(job)  # before the night's work, not after it
+    return job
+
+
+@contextmanager
+def _end_requests() -> Iterator[None]:
+    """Whoever ends this process in an orderly way (SIGTERM, a closed terminal) is heard like Ctrl-C."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    there = [number for name in ("SIGTERM", "SIGHUP") if (number := getattr(signal, name, None)) is not None]
+    # Under nohup a closed terminal is to be ignored.
+    heard = [number for number in there if signal.getsignal(number) is signal.SIG_DFL]
+    before = {number: signal.signal(number, _interrupt) for number in heard}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _interrupt(number: int, frame: FrameType | None) -> None:
+    raise KeyboardInterrupt
+
+
+def _stopped(stop: BaseException, said: str, shown: ShownCheck, journal: Journal, events: Events) -> int:
+    """Say that a check ends before its end, and what is kept of it."""
+    from ..shown.terminal import say
+
+    journal.stop()
+    events.send("interrupted", done=shown.done, columns=shown.total)
+    say(f"aadm: {said or 'interrupted'}")
+    kept = f"{shown.done} of {shown.total} columns are kept in {journal.path}"
+    say(f"aadm: {kept}; repeat the command with --resume")
+    return INTERRUPTED if isinstance(stop, KeyboardInterrupt) else INTERNAL
+
+
+def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace) -> int:
+    """Write and show what a check came to; the exit code."""
     from aadm_workbench.atomic import write_atomically
     from aadm_workbench.report.json import encode, report_document, write_report
 
-    from ..shown.terminal import say, show, show_json
-    from ..shown.verdict_table import advice_lines, summary_line, verdict_table
+    from ..served_report import without_absolute_paths
+    from ..shown.terminal import say, show_json
 
     if options.debug:
         for name, trace in done.traces.items():
             say(f"{name}: {trace}")
-    code = exit_code_of(column.verdict for column in done.report.columns)
+    report = done.report if options.absolute_paths else without_absolute_paths(done.report, job)
+    code = exit_code_of(column.verdict for column in report.columns)
     try:
-        write_report(done.report, folder / "report.json")
+        write_report(report, folder / "report.json")
         write_atomically(folder / "timing.json", encode(done.seconds))
         _write_reports(folder, options)
     except AadmError as error:
@@ -144,11 +172,13 @@ def _hand_over(done: JobRun, folder: Path, options: argparse.Namespace) -> int:
         say(f"aadm: {told(error, options)}")
         code = INTERNAL
     if options.json:
-        show_json(encode(report_document(done.report)))
+        show_json(encode(report_document(report)))
     elif not options.quiet and options.events != "-":
-        advice = list(advice_lines(done.report))
-        show(verdict_table(done.report), "", *advice, *([""] if advice else []))
-        show(summary_line(done.report), f"Report: {folder / 'report.json'}")
+        from ..shown.verdict_table import show_verdicts
+
+        show_verdicts(report, f"Report: {folder / 'report.json'}")
+    if options.write_ifc and code != INTERNAL:
+        return _write_model(report, job, folder, options) or code
     return code
 
 
@@ -163,7 +193,7 @@ def _write_reports(folder: Path, options: argparse.Namespace) -> None:
         write_reports(read_report(folder / "report.json"), formats, folder, options.language)
 
 
-def _write_model(done: JobRun, job: Job, folder: Path, options: argparse.Namespace) -> int:
+def _write_model(report: JobReport, job: Job, folder: Path, options: argparse.Namespace) -> int:
     """Write the model with the results; 0 where that went well."""
     from aadm_workbench.report.json import report_document
 
@@ -171,7 +201,7 @@ def _write_model(done: JobRun, job: Job, folder: Path, options: argparse.Namespa
     from ..shown.terminal import say
 
     try:
-        written = write_checked_model(report_document(done.report), job, folder)
+        written = write_checked_model(report_document(report), job, folder)
     except AadmError as error:
         say(f"aadm: {told(error, options)}")
         return INTERNAL

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from aadm_workbench.design.model_design import ModelDesign, NotTaken
     from aadm_workbench.model import AssemblyPoint, ColumnDesign
 
-SUMMARY = "list the sleeves and rebars of a model"
 EXAMPLE = """\
 examples:
   aadm design floor3.ifc
@@ -62,11 +61,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print a model's design; without any column the exit code is 11."""
-    from aadm_workbench.as_designed import read_design
+    from aadm_workbench.inspection.as_designed import read_design, unforeseen_in
 
     from ..shown.published_table import published_tables
     from ..shown.terminal import say, show
-    from ..unforeseen import unforeseen_in
 
     wanted: str | None = options.column
     selector = wanted if wanted and _SELECTOR.search(wanted) else None

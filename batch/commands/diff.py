@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
     from aadm_workbench.report.changes import Changes, ColumnChange, PointChange
 
-SUMMARY = "say what changed between two inspections"
 EXAMPLE = """\
 examples:
   aadm diff monday/report.json tuesday/report.json

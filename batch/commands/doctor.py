@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
     from aadm_workbench.errors import Package
 
-SUMMARY = "say what is installed and what is missing"
 EXAMPLE = """\
 examples:
   aadm doctor

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 from ..exit_codes import ALL_PASS, UNDECIDED
 from ..job.command import METHODS
-from ..runner.one_thread import calculate_in_one_thread
 from ..switches import add_switches, length, whole_number
 
 if TYPE_CHECKING:
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
 
     from aadm_workbench.model import Array, AssemblyPoint, Extraction, Scan
 
-SUMMARY = "find the points in one scan"
 EXAMPLE = """\
 examples:
   aadm extract C-301-foot.ply --kind sleeve --diameter 36 --expected 12
@@ -61,7 +59,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the points of a scan; 11 where fewer are found than expected, or none."""
-    calculate_in_one_thread()
     import numpy as np
 
     from aadm_workbench.extract.file_axes import in_coordinates_of_the_file

@@ -17,12 +17,10 @@ from typing import TYPE_CHECKING
 
 from ..exit_codes import INTERNAL, exit_code_of
 from ..job.command import add_job_arguments, pool_options, report_folder
-from ..runner.one_thread import calculate_in_one_thread
 
 if TYPE_CHECKING:
     from ..matching.run import MatchRun
 
-SUMMARY = "find out which column goes on which bars"
 EXAMPLE = """\
 examples:
   aadm match floor3.toml
@@ -38,7 +36,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Match a job; the exit code is that of its worst assignment."""
-    calculate_in_one_thread()
     from ..job.file import read_job
 
     job = read_job(options.job)

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from aadm_workbench.hoisting.plan import CameraPlan, View
     from aadm_workbench.model import Camera, ColumnDesign
 
-SUMMARY = "say where to put the camera while a column hangs"
 EXAMPLE = """\
 examples:
   aadm plan --size 600 --sleeve-diameter 36 --rebar-diameter 20 --per-side 4 --height 180
@@ -109,17 +108,17 @@ def _subject(options: argparse.Namespace) -> tuple[ColumnDesign, Camera]:
         if options.size is None:
             raise JobError("name a job with --column, or a column with --size")
         return _square(options), camera or PRO_M
+    from aadm_workbench.inspection.tasks import plan_job
+
     from ..job.file import read_job
-    from ..runner.run import RunOptions, plan_tasks
-    from ..stopwatch import Stopwatch
 
     if options.column is None:
         raise JobError("say with --column which column of the job is meant")
     job = read_job(options.job)
-    _, _, tasks = plan_tasks(job, RunOptions(only=(options.column,)), Stopwatch())
-    if tasks[0].design is None or not tasks[0].design.rebars:
-        raise JobError(tasks[0].no_design or f"the design of {options.column} has no bars")
-    return tasks[0].design, camera or job.camera or PRO_M
+    (task,) = plan_job(job, only=(options.column,)).tasks
+    if task.design is None or not task.design.rebars:
+        raise JobError(task.no_design or f"the design of {options.column} has no bars")
+    return task.design, camera or job.camera or PRO_M
 
 
 def _square(options: argparse.Namespace) -> ColumnDesign:

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
     from aadm_workbench.model import Profile, Rule
 
-SUMMARY = "list tolerance profiles and their rules"
 EXAMPLE = """\
 examples:
   aadm profiles

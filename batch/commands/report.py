@@ -20,7 +20,6 @@ from ..switches import add_switches
 if TYPE_CHECKING:
     from aadm_workbench.report.read import Report
 
-SUMMARY = "make HTML, PDF, XLSX, CSV, BCF, crew pages and scan cards from a report"
 EXAMPLE = """\
 examples:
   aadm report floor3-report/report.json --html --pdf --xlsx
@@ -94,9 +93,7 @@ def only_columns(report: Report, ids: list[str], source: Path) -> Report:
     ReportError
         Where it has no such column.
     """
-    from aadm_workbench.errors import ReportError
-
-    from ..job.table import did_you_mean
+    from aadm_workbench.errors import ReportError, did_you_mean
 
     known = [column["id"] for column in report["columns"]]
     for name in ids:

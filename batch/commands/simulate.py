@@ -9,7 +9,6 @@ from pathlib import Path
 from ..exit_codes import ALL_PASS
 from ..switches import add_switches
 
-SUMMARY = "make synthetic scans with known truth"
 EXAMPLE = """\
 example:
   aadm simulate pair --setting field --out pair --seed 7

@@ -9,14 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 from ..exit_codes import ALL_PASS
 from ..job.command import METHODS
-from ..runner.one_thread import calculate_in_one_thread
 from ..study_hoisting import add_hoisting_studies
 from ..switches import add_switches, whole_number
 
 if TYPE_CHECKING:
     from aadm_workbench.twin.study.methods import MethodStudy
 
-SUMMARY = "measure methods on synthetic scans of known truth"
 EXAMPLE = """\
 example:
   aadm study methods --setting lab --scenes 5 --out study"""
@@ -60,7 +58,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _study_methods(options: argparse.Namespace) -> int:
     _prepare(options)
-    calculate_in_one_thread()
     from aadm_workbench.report.json import encode
     from aadm_workbench.twin.camera import PRO_M
     from aadm_workbench.twin.pair import SETTINGS

@@ -13,10 +13,8 @@ from pathlib import Path
 
 from ..exit_codes import exit_code_of
 from ..job.direction import NEAR
-from ..runner.one_thread import calculate_in_one_thread
 from ..switches import add_switches, length, whole_number
 
-SUMMARY = "measure each new hoisting frame in a folder"
 EXAMPLE = """\
 examples:
   aadm watch floor3.toml --column C-301 frames
@@ -44,20 +42,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Watch a folder; the exit code is that of the last frame."""
-    calculate_in_one_thread()
     from ..job.file import read_job
 
     job = read_job(options.job)
-    from ..runner.run import RunOptions, plan_tasks
+    from aadm_workbench.inspection.tasks import plan_job
+
     from ..shown.terminal import say, show_json
-    from ..stopwatch import Stopwatch
     from ..watch.run import Watcher, WatchOptions
 
-    _, _, tasks = plan_tasks(job, RunOptions(only=(options.column,)), Stopwatch())
+    (task,) = plan_job(job, only=(options.column,)).tasks
     state = options.state or options.folder / STATE_NAME
     quiet = options.quiet or options.json
     watcher = Watcher(
-        tasks[0],
+        task,
         options.folder,
         WatchOptions(state, options.frames, options.seconds, options.present, NEAR.get(options.near)),
         (lambda line: None) if quiet else say,

@@ -17,7 +17,6 @@ from ..switches import add_switches
 if TYPE_CHECKING:
     from aadm_workbench.report.ifc.model import WriteBack
 
-SUMMARY = "write the results of a check into the IFC model"
 EXAMPLE = """\
 examples:
   aadm writeback floor3-report/report.json floor3.ifc

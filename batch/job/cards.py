@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from aadm_workbench.errors import DesignError
+from aadm_workbench.inspection.job import Job
+from aadm_workbench.inspection.tasks import chosen_columns, model_of
 from aadm_workbench.report.pages.scan_card import CardDesign, ScanCard, design_cards
-
-from ..runner.run import chosen_columns, model_of
-from .model import Job
 
 
 def job_cards(job: Job, only: Sequence[str] = ()) -> list[ScanCard]:

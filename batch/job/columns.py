@@ -6,12 +6,12 @@ from typing import Any
 
 from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import DesignError
+from aadm_workbench.inspection.job import JobColumn
 from aadm_workbench.model import ColumnDesign
 from aadm_workbench.scan.axes import AXES
 
 from .control import read_control_points
 from .direction import near_corner, read_frames, up_deg
-from .model import JobColumn
 from .table import JobTable
 
 _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")

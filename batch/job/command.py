@@ -6,8 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..runner.limits import memory_size, time_span
-from ..switches import add_switches, whole_number
+from ..switches import add_switches, memory_size, time_span, whole_number
 
 if TYPE_CHECKING:
     from ..runner.cluster import Certificates

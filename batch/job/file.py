@@ -14,6 +14,7 @@ from typing import Literal, cast
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.design.model_units import MM_PER_UNIT
 from aadm_workbench.errors import CameraError, JobError, ScanError
+from aadm_workbench.inspection.job import Job, JobModel
 from aadm_workbench.model import Camera, Profile
 from aadm_workbench.scan.file import load
 from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
@@ -21,7 +22,6 @@ from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
 from ..shown.printable import steering_character
 from .columns import read_columns
 from .lines import lines_of
-from .model import Job, JobModel
 from .table import WINDOWS_PATHS, JobTable
 
 LARGEST_JOB_BYTES = 16 * 2**20

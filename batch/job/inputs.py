@@ -8,12 +8,11 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
+from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.scan.capture import MOST_FILES
 from aadm_workbench.scan.file import LARGEST_FILE_BYTES
 
 from ..runner.exact_json import to_exact_json
-from ..runner.task import ColumnTask
-from .column_files import files_of
 
 _CHUNK_BYTES = 1 << 20  # bounds the memory, not the time
 
@@ -34,7 +33,7 @@ def task_key(task: ColumnTask, program: str) -> str:
         task.others,
     )
     found = hashlib.sha256(f"{program}\n{to_exact_json(said)}\n".encode(errors="surrogatepass"))
-    for name in files_of(task.column):
+    for name in task.column.files():
         found.update(f"{content_hash(task.path_of(name))}\n".encode())
     return found.hexdigest()
 
@@ -73,7 +72,7 @@ def read_for_shipping(task: ColumnTask) -> tuple[ShippedFile, ...]:
     """The files of a column by content; what cannot be read is left out, and its worker finds it missing."""
     shipped: list[ShippedFile] = []
     left_bytes = LARGEST_FILE_BYTES
-    for name in files_of(task.column):
+    for name in task.column.files():
         path = task.path_of(name)
         try:
             for file, inside in _inside(path) if path.is_dir() else [(path, "")]:

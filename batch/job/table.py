@@ -6,11 +6,10 @@ import math
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
-from aadm_workbench.errors import JobError
+from aadm_workbench.errors import JobError, did_you_mean
 
 from ..shown.printable import steering_character
 from .lines import KeyPath
@@ -30,13 +29,6 @@ def is_finite_number(value: Any) -> bool:
         return math.isfinite(value)
     except OverflowError:
         return False
-
-
-def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """The end of a message about an unknown word: what is near to it, or all that is known."""
-    known = tuple(known)
-    near = get_close_matches(word, known, n=1, cutoff=0.6)
-    return f'did you mean "{near[0]}"?' if near else f"known: {', '.join(known)}"
 
 
 def local_path(name: str, folder: Path) -> str:

@@ -10,17 +10,18 @@ import numpy as np
 from aadm_workbench.assembly.matching.assign import best_assignment
 from aadm_workbench.assembly.trial.shipment import interchangeable, joined_design, try_margin
 from aadm_workbench.assembly.trial.virtual import try_scans
-from aadm_workbench.check import CheckSettings, Measured
 from aadm_workbench.errors import JobError
+from aadm_workbench.inspection.check import CheckSettings, Measured
+from aadm_workbench.inspection.job import Job
+from aadm_workbench.inspection.report import job_entry, tool_entry
+from aadm_workbench.inspection.stopwatch import Stopwatch
+from aadm_workbench.inspection.tasks import plan_job
 from aadm_workbench.model import Assignment, ColumnDesign, FitCell, ShipmentGroup, ShipmentReport
 
-from ..entries import job_entry
 from ..job.inputs import read_for_shipping
-from ..job.model import Job
-from ..program import tool_entry
 from ..runner.engine import Unwatched, work_through
-from ..runner.run import RunOptions, opened_pool, plan_tasks
-from ..stopwatch import Stopwatch
+from ..runner.pools import opened_pool
+from ..runner.run import RunOptions
 from .task import MeasuredColumn, lost_measurement, measure_task
 
 
@@ -60,7 +61,9 @@ def run_match(job: Job, options: RunOptions, started: Callable[[int], Callable[[
     """
     watch = Stopwatch()
     with watch.stage("total"):
-        _, settings, tasks = plan_tasks(job, options, watch)
+        with watch.stage("model"):
+            plan = plan_job(job, only=options.only, method=options.method)
+        settings, tasks = plan.settings, plan.tasks
         feet = sum(bool(task.column.sleeves) for task in tasks)
         if not feet or not any(task.column.rebars for task in tasks):
             raise JobError(f"{job.source} has nothing to match: it needs scans of sleeves and scans of rebars")
@@ -75,7 +78,7 @@ def run_match(job: Job, options: RunOptions, started: Callable[[int], Callable[[
             groups = _groups(columns, settings)
     report = ShipmentReport(
         tool=tool_entry(),
-        job=job_entry(job, settings),
+        job=job_entry(plan),
         profile=job.profile.name,
         turns=job.turns,
         groups=groups,

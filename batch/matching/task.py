@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from aadm_workbench.check import Measured, measure_column
 from aadm_workbench.errors import DesignError
+from aadm_workbench.inspection.check import Measured, measure_column
+from aadm_workbench.inspection.column import attempt, read_scans
+from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.model import ColumnDesign, Kind, ShipmentProblem, Verdict
-
-from ..runner.column_task import attempt, read_scans
-from ..runner.task import ColumnTask
-from ..stopwatch import Stopwatch
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,18 +34,23 @@ def measure_task(task: ColumnTask) -> MeasuredColumn:
     seconds: dict[str, float] = {}
     where = ""
     for kind in _scanned(task):
-        done = attempt(_task_of(task, kind), _measured)
-        for stage, value in done.seconds.items():
+        alone, found = _task_of(task, kind), None
+        with attempt(alone) as (outcome, watch):
+            if alone.design is None:
+                raise DesignError(alone.no_design)
+            with watch.stage("read"):
+                scans = read_scans(alone, alone.design)
+            found = measure_column(alone.design, scans, alone.settings, watch.stage)[kind]
+        for stage, value in outcome.seconds.items():
             seconds[stage] = round(seconds.get(stage, 0.0) + value, 4)
-        where = where or done.where
-        if done.result is None:
-            reasons = () if done.error is None else done.error.reasons
-            problems.append(ShipmentProblem(task.column.id, kind.plural, Verdict.ERROR, reasons))
-        elif not done.result.match:
-            reason = f"{kind.plural}: {done.result.match.reason}"
+        where = where or outcome.where
+        if found is None:
+            problems.append(ShipmentProblem(task.column.id, kind.plural, Verdict.ERROR, outcome.report.reasons))
+        elif not found.match:
+            reason = f"{kind.plural}: {found.match.reason}"
             problems.append(ShipmentProblem(task.column.id, kind.plural, Verdict.NOT_MEASURED, (reason,)))
         else:
-            measured[kind] = done.result
+            measured[kind] = found
     sleeves, rebars = measured.get(Kind.SLEEVE), measured.get(Kind.REBAR)
     return MeasuredColumn(task.column.id, task.design, sleeves, rebars, tuple(problems), seconds, where)
 
@@ -68,12 +71,3 @@ def _task_of(task: ColumnTask, kind: Kind) -> ColumnTask:
     column = task.column
     alone = replace(column, rebars=(), control_points=()) if kind is Kind.SLEEVE else replace(column, sleeves=())
     return replace(task, column=alone)
-
-
-def _measured(task: ColumnTask, watch: Stopwatch) -> Measured:
-    if task.design is None:
-        raise DesignError(task.no_design)
-    with watch.stage("read"):
-        scans = read_scans(task, task.design)
-    (measured,) = measure_column(task.design, scans, task.settings, watch.stage).values()
-    return measured

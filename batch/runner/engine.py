@@ -94,7 +94,7 @@ class _Order:
 
 def work_through(
     tasks: Sequence[Task],
-    pool: Pool,
+    pool: Pool | None,
     work: Callable[[Task], Outcome],
     lost: Callable[[Task, str], Outcome],
     watcher: Watcher,
@@ -104,6 +104,8 @@ def work_through(
 
     Parameters
     ----------
+    pool
+        None for this process itself: each task is done when its outcome is asked for, and what kills it kills all.
     work
         A function of a module, which catches what can go wrong.
     lost
@@ -111,8 +113,27 @@ def work_through(
     doubtful
         Places of tasks that come after the others: an earlier run ended while it worked on them.
     """
-    fresh = deque(place for place in range(len(tasks)) if place not in doubtful)
-    order = _Order(fresh, deque(sorted(doubtful)))
+    fresh = [place for place in range(len(tasks)) if place not in doubtful]
+    if pool is not None:
+        return _spread(tasks, pool, work, lost, watcher, _Order(deque(fresh), deque(sorted(doubtful))))
+    order = (*fresh, *sorted(doubtful))
+    return zip(order, map(work, _begun(tasks, order, watcher)), strict=True)
+
+
+def _begun(tasks: Sequence[Task], order: Sequence[int], watcher: Watcher) -> Iterator[Task]:
+    for place in order:
+        watcher.began(place)
+        yield tasks[place]
+
+
+def _spread(
+    tasks: Sequence[Task],
+    pool: Pool,
+    work: Callable[[Task], Outcome],
+    lost: Callable[[Task, str], Outcome],
+    watcher: Watcher,
+    order: _Order,
+) -> Iterator[tuple[int, Outcome]]:
     deaths: dict[int, list[Death]] = {}
     running: set[int] = set()
     left = len(tasks)
@@ -140,28 +161,6 @@ def work_through(
             else:
                 left -= 1
                 yield ended.place, lost(tasks[ended.place], _reason(died))
-
-
-class Here:
-    """A pool of one: this process itself. It starts at once, and what kills it kills everything."""
-
-    def __init__(self) -> None:
-        self._begun: tuple[int, Callable[[Any], Any], Any] | None = None
-
-    def idle(self) -> Sequence[str]:
-        """The one place there is, where it has nothing to do."""
-        return () if self._begun else ("here",)
-
-    def begin(self, name: str, place: int, work: Callable[[Any], Any], task: Any) -> None:
-        """Keep the task for the next wait."""
-        self._begun = (place, work, task)
-
-    def wait(self) -> Sequence[Ended]:
-        """Work on what was begun."""
-        if self._begun is None:
-            return ()
-        (place, work, task), self._begun = self._begun, None
-        return (Ended(place, work(task)),)
 
 
 class Unwatched:

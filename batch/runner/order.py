@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from aadm_workbench.inspection.column import inspect_column, lost
+from aadm_workbench.inspection.tasks import ColumnTask
+
 from ..job.inputs import ShippedFile, read_for_shipping, task_key
-from .column_task import check_task, killed
 from .record import Record
-from .task import ColumnTask
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,12 +32,12 @@ class CheckOrder:
 def fill_order(order: CheckOrder) -> Record | None:
     """Check a column; None where nothing that its result follows from has changed."""
     key = task_key(order.task, order.program)
-    return None if key == order.known else Record.of(check_task(order.task), key)
+    return None if key == order.known else Record.of(inspect_column(order.task), key)
 
 
 def give_up(order: CheckOrder, reason: str) -> Record:
     """The record of a column that cost its process too often."""
-    return Record.of(killed(order.task, reason), "")
+    return Record.of(lost(order.task, reason), "")
 
 
 def ship_order(order: CheckOrder) -> tuple[ShippedFile, ...]:

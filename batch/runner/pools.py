@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
-import contextlib
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import os
+import threading
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from .engine import Here, Pool
+from aadm_workbench.errors import AadmError
+from aadm_workbench.own_files import open_to_write, remove
 
 if TYPE_CHECKING:
+    from aadm_workbench.inspection.tasks import ColumnTask
+
+    from ..job.inputs import ShippedFile
     from .cluster import Certificates
+    from .engine import Pool
+
+SCRATCH_NAME, LOG_NAME = ".aadm-workers", "workers.log"
+_APPEND = os.O_WRONLY | os.O_APPEND
 
 MOST_COLUMNS_HERE = 8
 """Up to so many columns are done in this process before a second one has started and loaded its packages."""
@@ -68,8 +79,8 @@ def open_pool(
     say: Callable[[str], None],
     log: Callable[[str], None],
     log_folder: Path,
-) -> Iterator[Pool]:
-    """The pool for a job of some columns, closed with the context.
+) -> Iterator[Pool | None]:
+    """The pool for a job of some columns, closed with the context; None for this process itself.
 
     Parameters
     ----------
@@ -90,7 +101,7 @@ def open_pool(
         Where no scheduler answers.
     """
     if options.scheduler is None and _is_for_here(options, columns, say):
-        yield Here()
+        yield None
         return
     from .worker import Terms
 
@@ -112,7 +123,7 @@ def open_pool(
     terms = Terms(folder, log_folder, options.memory_bytes, seconds)
     with remote_cluster(options.scheduler, log, options.certificates) as cluster:
         there = DaskPool(cluster, terms, ship=chosen_ship, say=say, log=log)
-        with contextlib.closing(there):
+        with closing(there):
             yield there
 
 
@@ -130,3 +141,57 @@ def _is_for_here(options: PoolOptions, columns: int, say: Callable[[str], None])
             say(f"one column at a time, all in one process: {install_of('batch')} to use every core")
         return True
     return False
+
+
+@contextmanager
+def opened_pool(
+    options: PoolOptions,
+    tasks: Sequence[ColumnTask],
+    folder: Path | None,
+    ship: Callable[[Any], tuple[ShippedFile, ...]],
+    say: Callable[[str], None],
+) -> Iterator[Pool | None]:
+    """As :func:`open_pool`; what workers write goes into a folder, or is forgotten with them."""
+    with ExitStack() as stack:
+        scratch = _scratch(stack, folder)
+        log = (lambda line: None) if folder is None else WorkersLog(folder).write
+        job_folder = tasks[0].folder if tasks else Path()
+        yield stack.enter_context(
+            open_pool(options, len(tasks), job_folder, ship=ship, say=say, log=log, log_folder=scratch)
+        )
+
+
+def _scratch(stack: ExitStack, folder: Path | None) -> Path:
+    """A folder for what workers write while they work, gone afterwards; that of a killed run is removed first."""
+    if folder is None:
+        return Path(stack.enter_context(TemporaryDirectory(prefix="aadm-workers-", ignore_cleanup_errors=True)))
+    scratch = folder / SCRATCH_NAME
+    stack.callback(remove, scratch)
+    remove(scratch)
+    try:
+        # Nobody else may write into it, whoever may write beside it.
+        scratch.mkdir(mode=0o700)
+    except OSError as error:
+        reason = f"cannot be made ({error.strerror}); remove what is there, or name another folder with --out"
+        raise AadmError(f"{scratch}: the folder of the workers {reason}") from error
+    return scratch
+
+
+class WorkersLog:
+    """``DIR/workers.log``: what workers and Dask have to say, a line each with its time.
+
+    That it cannot be written is never the reason why a check fails.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._path = folder / LOG_NAME
+        self._lock = threading.Lock()
+
+    def write(self, line: str) -> None:
+        """Add a line."""
+        # What a scan's name or a native library says is not to steer the terminal that shows the log.
+        line = "".join(sign if sign.isprintable() else "\N{REPLACEMENT CHARACTER}" for sign in line)
+        now = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+        said = f"{now} {line}\n".encode(errors="replace")
+        with self._lock, suppress(OSError), open(open_to_write(self._path, _APPEND), "ab") as stream:  # noqa: PTH123
+            stream.write(said)

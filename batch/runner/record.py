@@ -6,9 +6,9 @@ import json
 import zlib
 from dataclasses import dataclass, field
 
+from aadm_workbench.inspection.column import ColumnOutcome
 from aadm_workbench.model import ColumnReport, Verdict
 
-from .column_task import ColumnOutcome
 from .exact_json import from_exact_json, to_exact_json
 
 _REPORT = ',"report":'
@@ -29,7 +29,7 @@ class Record:
     report
         The :class:`~aadm_workbench.model.ColumnReport`, as exact JSON.
     seconds, where
-        As of a :class:`~.column_task.ColumnOutcome`.
+        As of a :class:`~aadm_workbench.inspection.column.ColumnOutcome`.
     """
 
     id: str

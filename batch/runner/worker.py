@@ -18,7 +18,7 @@ from typing import IO, Any
 from ..job.inputs import ShippedFile, unpack
 from ..program import difference, program_versions
 from .engine import Death
-from .one_thread import is_in_one_thread
+from .machine import is_in_one_thread
 
 LOOK_S, LOOK_SOON_S = 0.5, 0.1
 """So often is looked which workers there are; more often while some are starting."""
@@ -98,7 +98,7 @@ def introduce(terms: Terms) -> Introduction:
         _write_into(_log)
         faulthandler.enable(_log)
     _limit_memory(terms.memory_bytes)
-    import_module(f"{__package__}.column_task")
+    import_module("aadm_workbench.inspection.column")
     return Introduction(
         pid=os.getpid(),
         host=socket.gethostname(),

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import json
+import sys
 from collections.abc import Callable
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
+from pathlib import Path
+from typing import IO, Any
+
+from aadm_workbench.errors import JobError
 
 from ..runner.engine import Death
 from ..runner.record import Record
 from ..runner.run import Follower
-from .events import Events
-from .pace import Pace
-from .progress import ColumnProgress
+from .progress import ColumnProgress, Pace
+
+STDOUT = "-"
 
 
 class ShownCheck(ExitStack, Follower):
@@ -72,3 +78,41 @@ class ShownCheck(ExitStack, Follower):
 
 def _rounded(value: float | None) -> float | None:
     return None if value is None else round(value, 3)
+
+
+class Events:
+    """A stream of events, into a file or, for ``-``, to stdout; None is for nobody.
+
+    Raises
+    ------
+    JobError
+        Where the file cannot be opened.
+    """
+
+    def __init__(self, target: str | None) -> None:
+        self._stream: IO[str] | None = None
+        self._is_own = target not in (None, STDOUT)
+        if target == STDOUT:
+            self._stream = sys.stdout
+        elif target is not None:
+            try:
+                self._stream = Path(target).open("a", encoding="utf-8", errors="replace", buffering=1)  # noqa: SIM115
+            except OSError as error:
+                raise JobError(f"{target}: events cannot be written there ({error.strerror})") from error
+
+    def send(self, event: str, **what: Any) -> None:
+        """Write one event; a reader that has gone away is no reason to stop."""
+        if self._stream is None:
+            return
+        try:
+            self._stream.write(json.dumps({"event": event, **what}, ensure_ascii=False, default=str) + "\n")
+            self._stream.flush()
+        except (OSError, ValueError):
+            self._stream = None
+
+    def close(self) -> None:
+        """Let go of the file."""
+        if self._is_own and self._stream is not None:
+            with suppress(OSError):
+                self._stream.close()
+        self._stream = None

@@ -18,7 +18,7 @@ def published_tables(columns: Sequence[ColumnDesign]) -> Iterator[Table | str]:
     """One table for each column, in the model's frame, with the distance in the plane from the exact centres."""
     from rich.text import Text
 
-    from aadm_workbench.as_designed import published_route
+    from aadm_workbench.inspection.as_designed import published_route
 
     from .terminal import new_table
 
@@ -40,7 +40,7 @@ def published_tables(columns: Sequence[ColumnDesign]) -> Iterator[Table | str]:
 
 def published_entries(columns: Sequence[ColumnDesign]) -> list[dict[str, Any]]:
     """The same for ``--json``."""
-    from aadm_workbench.as_designed import published_route
+    from aadm_workbench.inspection.as_designed import published_route
 
     return [
         {

@@ -7,9 +7,9 @@ import argparse
 from aadm_workbench.errors import AadmError
 
 
-def told(error: AadmError, options: argparse.Namespace) -> str:
+def told(error: BaseException, options: argparse.Namespace) -> str:
     """The reason of an error in the language of ``--language``, where a command has that, else in English."""
-    if getattr(options, "language", None) != "zh":
+    if getattr(options, "language", None) != "zh" or not isinstance(error, AadmError):
         return str(error)
     from aadm_workbench.report.words.reasons import in_both_languages
 

@@ -15,17 +15,16 @@ from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError, DesignError, JobError, ScanError
 from aadm_workbench.hoisting.contradiction import contradiction_of
-from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
 from aadm_workbench.hoisting.motion import Look, Motion, look_at, motion_of, with_look
 from aadm_workbench.hoisting.running import Running, combined
 from aadm_workbench.hoisting.turn_findings import with_contradiction
-from aadm_workbench.model import ColumnDesign, HoistingMeasurement, HoistingReport, Verdict
+from aadm_workbench.inspection.column import inspect_column
+from aadm_workbench.inspection.hoisting import Before, measure_frame, unread
+from aadm_workbench.inspection.tasks import ColumnTask
+from aadm_workbench.model import HoistingMeasurement, Verdict
 from aadm_workbench.model.reason import reason_of, renamed
 from aadm_workbench.report.json import encode
 
-from ..runner.column_task import check_task
-from ..runner.hoisting_task import Before, before_hoisting, read_frame
-from ..runner.task import ColumnTask
 from .folder import FolderWatch, corner_of
 from .state import Frame, frame_line, state_document
 
@@ -74,7 +73,7 @@ class Watcher:
         self._places = np.array([bar.centre[:2] for bar in self.design.rebars])
         rules = rules_for(task.settings.profile, "sleeve_rebar_distance")
         self._limit_mm = rules[0].upper if rules else None
-        self._sleeves, self._rebars = self._before()
+        self._before_hoisting = self._before()
         self._first_tries: dict[str, float] = {}
 
     def run(self, wait: Callable[[float], None] = sleep) -> Verdict:
@@ -98,21 +97,22 @@ class Watcher:
         frames, limit = self.options.frames, self.options.seconds
         return (frames is not None and self.frames >= frames) or (limit is not None and seconds >= limit)
 
-    def _before(self) -> tuple[Before, Before]:
+    def _before(self) -> Before:
         """Where the job's scans from before hoisting put sleeves and bars."""
         column = self.task.column
         if not column.sleeves and not column.rebars:
-            return None, None
+            return Before()
         self.say(f"{column.id}: measuring its scans from before hoisting")
-        report = check_task(self.task).report
+        report = inspect_column(self.task).report
         if report.verdict is Verdict.ERROR:
             self.say(f"{column.id}: {'; '.join(report.reasons)}; its design places are used")
-        return before_hoisting(report.sleeves), before_hoisting(report.rebars)
+        return Before.of(report)
 
     def _frame(self, path: Path) -> None:
         began, name = perf_counter(), self._folder.name_of(path)
         try:
-            measurement = self._measured(path, name, self.design)
+            scan = self.task.read(name, path=path)
+            measurement = measure_frame(self.task, self.design, scan, self._near(path), self._before_hoisting)
         except (ScanError, OSError) as error:
             if self._may_be_unfinished(path):
                 return
@@ -130,18 +130,6 @@ class Watcher:
     def _near(self, path: Path) -> tuple[int, int] | None:
         """The corner that a frame was taken from: its subfolder's, else the command's, else the job's."""
         return corner_of(path) or self.options.near or self.task.column.near
-
-    def _measured(self, path: Path, name: str, design: ColumnDesign) -> HoistingMeasurement:
-        scan = read_frame(self.task, path, name)
-        settings = self.task.settings
-        return measure_hoisting(
-            scan,
-            design,
-            near=self._near(path),
-            sleeves_before=self._sleeves,
-            rebars_before=self._rebars,
-            settings=HoistingSettings(settings.profile, settings.decision, seed=settings.seed),
-        )
 
     def _may_be_unfinished(self, path: Path) -> bool:
         """Whether a frame that cannot be read may still be written: for some seconds it may."""
@@ -198,5 +186,4 @@ class Watcher:
 
 
 def _bad(name: str, reason: str) -> HoistingMeasurement:
-    report = HoistingReport(name, (), None, None, None, Verdict.ERROR, reasons=(reason,), method="refined")
-    return HoistingMeasurement(report, np.empty((0, 2)), np.empty((0, 2, 2)))
+    return HoistingMeasurement(unread(name, reason, "refined"), np.empty((0, 2)), np.empty((0, 2, 2)))

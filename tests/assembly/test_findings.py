@@ -19,8 +19,8 @@ from aadm_workbench.assembly.findings.make import make_finding
 from aadm_workbench.assembly.findings.rules import findings_of
 from aadm_workbench.assembly.findings.same_scan import with_same_scans
 from aadm_workbench.assembly.findings.scales import student_quantile
-from aadm_workbench.assembly.findings.shape import design_shape
 from aadm_workbench.assembly.matching.match import match_extraction
+from aadm_workbench.inspection.tasks import design_shape
 from aadm_workbench.model import (
     AssemblyPoint,
     ColumnDesign,

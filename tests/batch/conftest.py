@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from aadm_workbench import check
+from aadm_workbench.inspection import check
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Scan
 from aadm_workbench.scan.write import write_ply
 from aadm_workbench.twin.parts import ring

@@ -20,6 +20,7 @@ from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.document.hoisting_state import guidance_of, read_measurement
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
 from aadm_workbench.hoisting.running import combined
+from aadm_workbench.inspection.tasks import plan_job
 from aadm_workbench.model import HoistingMeasurement
 from aadm_workbench.report.hoisting_fitness import seconds_of
 from aadm_workbench.report.json import report_schema
@@ -29,8 +30,6 @@ from aadm_workbench.twin.scenes import LAB
 from aadm_workbench.twin.study.hoisting import design_of
 from batch.job.file import read_job
 from batch.main import main
-from batch.runner.run import RunOptions, plan_tasks
-from batch.stopwatch import Stopwatch
 from batch.watch.folder import FolderWatch, corner_of
 from batch.watch.run import Watcher, WatchOptions
 from tests import hoisting_scenes as scenes
@@ -178,12 +177,12 @@ def test_a_swinging_column_is_never_ready_and_is_pushed_from_its_rest(
     times_s = 1.3 * np.arange(8)
     shifts = 9.0 * np.sin(2.0 * np.pi * times_s / 4.7)
     frames = iter([moved_by(usual, float(shift)) for shift in shifts])
-    monkeypatch.setattr("batch.watch.run.measure_hoisting", lambda *_, **__: next(frames))
+    monkeypatch.setattr("batch.watch.run.measure_frame", lambda *_, **__: next(frames))
     clock = {"s": 0.0}
     watched = folder / "frames"
     watched.mkdir()
     job = read_job(folder / "job.toml")
-    _, _, tasks = plan_tasks(job, RunOptions(only=("L-1",)), Stopwatch())
+    tasks = plan_job(job, only=("L-1",)).tasks
     state_file = folder / "state.json"
     options = WatchOptions(state_file, frames=1, present=True)
     watcher = Watcher(tasks[0], watched, options, lambda _: None, lambda: NOON_NS + int(clock["s"] * 1e9))

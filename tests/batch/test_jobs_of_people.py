@@ -12,6 +12,7 @@ import pytest
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import DesignError, JobError
+from aadm_workbench.inspection import as_designed
 from aadm_workbench.model import Verdict
 from batch.job.file import read_job
 from batch.main import main
@@ -130,7 +131,7 @@ def test_what_nobody_foresaw_in_a_model_is_a_bad_model(
     def read_design(*_: Any, **__: Any) -> Callable[[], None]:
         raise KeyError("unforeseen")
 
-    monkeypatch.setattr(run, "read_design", read_design)
+    monkeypatch.setattr(as_designed, "read_design", read_design)
     path = write_job(of_model("C-1", "foot.ply"), head=MODEL_HEAD)
     with pytest.raises(DesignError, match=r"model\.ifc cannot be evaluated.*KeyError"):
         finished(path)
@@ -143,7 +144,7 @@ def test_a_global_id_of_two_elements_is_a_finding(write_job: WriteJob, monkeypat
     design = inline_design("C-1", {"centres": CENTRES.tolist(), "sleeve_diameter": 36.0})
     design = replace(design, names=("C-1",), global_id="0" * 22, shared_ids=("column", "S2"))
     model = ModelDesign("model.ifc", "f" * 64, "IFC4", columns=(design,))
-    monkeypatch.setattr(run, "read_design", lambda *_, **__: model)
+    monkeypatch.setattr(as_designed, "read_design", lambda *_, **__: model)
     path = write_job(of_model("C-1", "foot.ply"), clouds=("foot.ply",), head=MODEL_HEAD)
     (column,) = finished(path).report.columns
     (found,) = (finding for finding in column.findings if finding.code == "duplicate_global_id")

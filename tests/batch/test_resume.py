@@ -12,10 +12,11 @@ from typing import Any
 import pytest
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.inspection import column
+from aadm_workbench.inspection.tasks import ColumnTask
 from batch.main import main
-from batch.runner import column_task, order
+from batch.runner import order
 from batch.runner.journal import Journal
-from batch.runner.task import ColumnTask
 
 from .conftest import WriteJob, column_text
 from .runner.test_run import raising
@@ -47,15 +48,15 @@ def counted(
 ) -> list[str]:
     """Columns as they are checked; at one of them something happens."""
     seen: list[str] = []
-    real = order.check_task
+    real = order.inspect_column
 
-    def check_task(task: ColumnTask) -> column_task.ColumnOutcome:
+    def inspect_column(task: ColumnTask) -> column.ColumnOutcome:
         if task.column.id == ends_at and error is not None:
             raise error
         seen.append(task.column.id)
         return real(task)
 
-    monkeypatch.setattr(order, "check_task", check_task)
+    monkeypatch.setattr(order, "inspect_column", inspect_column)
     return seen
 
 
@@ -150,12 +151,12 @@ def test_what_killed_the_check_itself_is_given_up_by_the_next(job: Path, reposit
 import os, sys
 from batch.runner import order
 from batch.main import main
-real = order.check_task
-def check_task(task):
+real = order.inspect_column
+def inspect_column(task):
     if task.column.id == "C-1":
         os.kill(os.getpid(), 9)
     return real(task)
-order.check_task = check_task
+order.inspect_column = inspect_column
 main(["check", {str(job)!r}, "--out", {str(job.parent / "out")!r}, "--only", "C-0", "C-1", "C-4", "--quiet"])
 """
     killed = subprocess.run([sys.executable, "-c", script], cwd=repository, check=False)
@@ -169,7 +170,7 @@ main(["check", {str(job)!r}, "--out", {str(job.parent / "out")!r}, "--only", "C-
 
 
 def test_an_unforeseen_error_is_never_kept(job: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(column_task, "check_column", raising(ValueError("singular")))
+    monkeypatch.setattr(column, "check_column", raising(ValueError("singular")))
     check(job, "out")
     seen = counted(monkeypatch)
     check(job, "out", "--resume")

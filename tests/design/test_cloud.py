@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import trimesh
 
-from aadm_workbench.as_designed import read_design
 from aadm_workbench.design.cloud import elements_of_cloud
 from aadm_workbench.errors import DesignError
+from aadm_workbench.inspection.as_designed import read_design
 from aadm_workbench.model import Array
 from aadm_workbench.scan.write import write_pcd
 from tests.design.drawn_mesh import bars, concrete, placed, worst_mm

@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from aadm_workbench.as_designed import published_route
 from aadm_workbench.design.published import POINTS_PER_MM2, SLICE_MM, published_points, sampled_surfaces
 from aadm_workbench.design.recognise.pattern import inline_design
+from aadm_workbench.inspection.as_designed import published_route
 from aadm_workbench.model import ColumnDesign
 from batch.main import main
 

@@ -9,11 +9,11 @@ from unittest import mock
 
 import numpy as np
 
-from aadm_workbench import check
 from aadm_workbench.assembly.mould.moulds import assess_moulds
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.check import CheckSettings, ColumnScans, check_column
 from aadm_workbench.design.recognise.pattern import inline_design
+from aadm_workbench.inspection import check
+from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
 from aadm_workbench.model import Array, AssemblyPoint, ColumnReport, Extraction, JobReport, Kind, Scan, Verdict
 from aadm_workbench.report.json import encode, report_document
 from aadm_workbench.twin.parts import ring

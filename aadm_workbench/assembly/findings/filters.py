@@ -6,10 +6,11 @@ from collections.abc import Iterator
 
 from aadm_workbench.assembly.findings.group import SeenGroup
 from aadm_workbench.assembly.findings.make import make_finding
+from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
 from aadm_workbench.model import Finding, codes_of
 
-_FILTERS = {SMOOTHED.code: "smoothed", GAPS_FILLED.code: "gaps_filled"}
+_FILTERS = {SMOOTHED.code: "smoothed", GAPS_FILLED.code: "gaps_filled", COPIED.code: "edges_fattened"}
 
 
 def filter_findings(group: SeenGroup) -> Iterator[Finding]:

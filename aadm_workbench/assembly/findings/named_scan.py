@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -31,10 +32,10 @@ class NamedScan:
     distance_mm: float = 0.0
 
 
-def fits(points: Sequence[AssemblyPoint], extraction: Extraction) -> bool:
-    """Whether an extraction lies on a design, mirrored or not."""
+def fits(points: Sequence[AssemblyPoint], extraction: Extraction, within_mm: float = math.inf) -> bool:
+    """Whether an extraction lies on a design, mirrored or not, and scatters about it by less than so much, rms."""
     match = match_extraction(points, extraction)
     needed = max(FEWEST, FITS_SHARE * len(points))
     if match.contradiction == "mirrored":
-        return True
-    return bool(match) and match.placements[0].found >= needed
+        return math.isinf(within_mm)
+    return bool(match) and match.placements[0].found >= needed and match.placements[0].rms_mm < within_mm

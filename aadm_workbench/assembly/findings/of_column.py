@@ -54,13 +54,22 @@ def with_findings(
     """
     groups = {kind: one.group for kind, one in seen.items()}
     scans = {kind: _named(one.scan, method, rng) for kind, one in seen.items()}
-    found = [*findings_of(design, list(groups.values())), *mistaken_findings(design, groups, scans, others)]
+    found = _without_turns(
+        [*findings_of(design, list(groups.values())), *mistaken_findings(design, groups, scans, others)]
+    )
     found += shared_id_findings(design)
     if Kind.REBAR in seen and method == "refined":
         found += odd_bar_findings(groups[Kind.REBAR], seen[Kind.REBAR].scan, found, rng)
     lost = {kind for kind, group in groups.items() if not group.match}
     said = [Reason("said.of", what=kind.plural, why=groups[kind].match.reason) for kind in lost if _told(found, kind)]
     return held_back(without_spoilt(report, found, checks), found, said)
+
+
+def _without_turns(found: Sequence[Finding]) -> list[Finding]:
+    """Some findings, without what they say of the turn of a scan that shows another column."""
+    foreign = {name for one in found if one.code == "other_column" for name in one.about}
+    turns = ("turn_contradicted", "turn_doubtful")
+    return [one for one in found if one.code not in turns or foreign.isdisjoint(one.about)]
 
 
 def _told(found: Sequence[Finding], kind: Kind) -> bool:

@@ -17,9 +17,9 @@ from aadm_workbench.model import (
     Verdict,
 )
 
-TAKES_BACK = ("scale_differs", "other_column")
+TAKES_BACK = ("scale_differs", "other_column", "swapped")
 """A part in a hundred moves a point at the corner of a column by millimetres, whoever is to blame; and some points of
-another column lie on this one by chance."""
+another column, or of the other group, lie on this one by chance."""
 
 
 def without_spoilt(report: ColumnReport, findings: Sequence[Finding], checks: Sequence[str]) -> ColumnReport:

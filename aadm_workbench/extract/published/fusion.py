@@ -157,7 +157,7 @@ def _extraction(
     kind: Kind, flat: Flattened, plane: Plane, vertical: Array, source: str, centres: Array, diameters_mm: Array
 ) -> Extraction:
     points = tuple(
-        AssemblyPoint("", kind, centre, vertical, float(diameter), why="Hough circle in the binary image")
+        AssemblyPoint("", kind, centre, vertical, float(diameter), why=Reason("extract.hough", picture="binary image"))
         for centre, diameter in zip(centres, diameters_mm, strict=True)
     )
     quality = {

@@ -140,7 +140,7 @@ def _extraction(kind: Kind, centres: Array, diameters_mm: Array, picture: str) -
     plane = plane_through(centres)
     vertical = -plane.normal if kind is Kind.SLEEVE else plane.normal
     points = tuple(
-        AssemblyPoint("", kind, centre, vertical, float(diameter), why=f"Hough circle in the {picture}")
+        AssemblyPoint("", kind, centre, vertical, float(diameter), why=Reason("extract.hough", picture=picture))
         for centre, diameter in zip(centres, diameters_mm, strict=True)
     )
     source = "plane through the centres"

@@ -130,7 +130,7 @@ def _sleeves_extraction(circles: list[RoundFit], centres: Array, plane: Plane, q
 
 
 def _edge_evidence(circle: RoundFit) -> str:
-    return f"circle through {int(circle.inliers.sum())} edge points"
+    return Reason("extract.circle_through", count=int(circle.inliers.sum()))
 
 
 def _floor(open3d: Any, scan: Scan, points: FloatArray, rng: np.random.Generator) -> Plane | None:
@@ -169,7 +169,7 @@ def _bars_extraction(
 
 
 def _bar_evidence(bar: MeasuredBar) -> str:
-    return "cylinder through sides and rim" if bar.leaning else "upright cylinder through the rim of the top"
+    return Reason("extract.cylinder" if bar.leaning else "extract.upright_cylinder")
 
 
 def _nothing(kind: Kind, reason: str) -> Extraction:

@@ -10,6 +10,16 @@ SENTENCES: dict[str, Sentence] = {
         "working distance, or focus it, and scan again",
         "图像失焦：表面边缘在数个像素内弯曲；请将相机移至工作距离或重新对焦后再扫描",
     ),
+    "extract.circle_through": Sentence("circle through {count:d} edge points", "过 {count:d} 个边缘点的圆"),
+    "extract.copied": Sentence(
+        "the camera copied depths over the edges of this scan: its surfaces are larger than what was measured",
+        "相机把深度复制到了该扫描的边缘之外：表面比实测的大",
+    ),
+    "extract.cylinder": Sentence("cylinder through sides and rim", "过侧面和边缘的圆柱"),
+    "extract.edges_and_sides": Sentence(
+        "{edges:d} edge and {sides:d} side points",
+        "{edges:d} 个边缘点和 {sides:d} 个侧面点",
+    ),
     "extract.few_key_points": Sentence(
         "only {count} {what:word} were found, three are needed",
         "只找到 {count} 个{what:word}，需要三个",
@@ -20,6 +30,7 @@ SENTENCES: dict[str, Sentence] = {
         "the camera filled in what it did not measure: surfaces lie where nothing is",
         "相机填补了未测得之处：出现并不存在的表面",
     ),
+    "extract.hough": Sentence("Hough circle in the {picture:word}", "{picture:word}中的霍夫圆"),
     "extract.image_needs": Sentence(
         "the image method needs an organised scan and the intrinsics of its camera",
         "image 方法需要有序扫描及其相机内参",
@@ -43,8 +54,8 @@ SENTENCES: dict[str, Sentence] = {
         "端面边缘点中没有预期大小的圆",
     ),
     "extract.no_circle.picture": Sentence(
-        "the {picture} shows no circle of the expected size",
-        "{picture}中没有预期大小的圆",
+        "the {picture:word} shows no circle of the expected size",
+        "{picture:word}中没有预期大小的圆",
     ),
     "extract.no_face": Sentence("no flat foot face was found in the scan", "扫描中未找到平整的柱底面"),
     "extract.no_hole": Sentence(
@@ -92,5 +103,10 @@ SENTENCES: dict[str, Sentence] = {
     "extract.top_unseen": Sentence(
         "its top could not be measured: too little of its outline is seen",
         "钢筋顶面轮廓可见部分太少，无法测量",
+    ),
+    "extract.upright_cylinder": Sentence("upright cylinder through the rim of the top", "过顶面边缘的竖直圆柱"),
+    "extract.walls_and_edges": Sentence(
+        "{walls:d} wall and {edges:d} edge points at {pitch_mm:.2f} mm",
+        "{walls:d} 个内壁点和 {edges:d} 个边缘点，间距 {pitch_mm:.2f} mm",
     ),
 }

@@ -54,6 +54,14 @@ SENTENCES: dict[str, Sentence] = {
         "{about:word}的 GlobalId 与模型中其他构件重复：无法确定是哪一个时不写入结果；请重新导出模型，使每个构件的 "
         "GlobalId 唯一",
     ),
+    "finding.edges_fattened": Sentence(
+        "in the scan of the {group:word} the pixels at edges and gaps repeat the depths of their neighbours: what "
+        "is near was carried over what lies behind it, or over what was not measured, and edges stand where "
+        "nothing is. Turn this off in the camera's software (hole filling with the nearest or the left neighbour, "
+        "dilation, edge padding) and scan again",
+        "{group:word}的扫描在边缘和空缺处重复相邻像素的深度：近处表面被延伸到其后方或未测得之处，边缘因此移位。"
+        "请在相机软件中关闭（以最近点或左邻点补洞、膨胀、边缘扩展，即 hole filling / dilation）后重新扫描",
+    ),
     "finding.exposed_length_differs.long": Sentence(
         "{about:word} sticks out {measured_mm:.0f} mm where {expected_mm:.0f} mm are expected ({of:word}): it may "
         "strike the end of its sleeve before the column is down",

@@ -73,17 +73,17 @@ SENTENCES: dict[str, Sentence] = {
         "its sleeves have no telling name and were recognised by their shape alone",
         "其套筒没有可辨认的名称，仅按形状识别",
     ),
-    "ifc.called": Sentence("{count} {type} called {name}", "{count} 个名为 {name} 的 {type}"),
+    "ifc.called": Sentence("{count:d} {type} called {name}", "{count:d} 个名为 {name} 的 {type}"),
     "ifc.called_each": Sentence(
-        "{count} {type} called {name}: each {why}",
-        "{count} 个名为 {name} 的 {type}：每个{why}",
+        "{count:d} {type} called {name}: each {why}",
+        "{count:d} 个名为 {name} 的 {type}：每个{why}",
     ),
     "ifc.chosen": Sentence("chosen by the selector", "由选择器选定"),
     "ifc.chosen_element": Sentence("chosen by the selector; {element}", "由选择器选定；{element}"),
     "ifc.closed": Sentence("is closed: a stirrup", "是封闭的：箍筋"),
     "ifc.column_is": Sentence("Column {called} {why}.", "柱 {called} {why}。"),
-    "ifc.counted": Sentence("{count} {what:word}", "{count} 个{what:word}"),
-    "ifc.counted.several": Sentence("{count} {what:word}s", "{count} 个{what:word}"),
+    "ifc.counted": Sentence("{count:d} {what:word}", "{count:d} 个{what:word}"),
+    "ifc.counted.several": Sentence("{count:d} {what:word}s", "{count:d} 个{what:word}"),
     "ifc.coupler": Sentence("{why}, a COUPLER by its PredefinedType", "{why}，按其 PredefinedType 为 COUPLER"),
     "ifc.cut": Sentence(
         "{path} is cut short: line {lines} is its last, without END-ISO-10303-21. Copy it again.",
@@ -102,7 +102,7 @@ SENTENCES: dict[str, Sentence] = {
         "drawn over the ribs, {drawn_mm:g} mm; the NominalDiameter of {written_mm:g} mm was taken",
         "按肋外径 {drawn_mm:g} mm 绘制；采用 NominalDiameter 的 {written_mm:g} mm",
     ),
-    "ifc.each": Sentence("{count} {type}: each {why}", "{count} 个 {type}：每个{why}"),
+    "ifc.each": Sentence("{count:d} {type}: each {why}", "{count:d} 个 {type}：每个{why}"),
     "ifc.encoding": Sentence(
         "the file is written in {encoding}, not as STEP wants it; it was read as {encoding}",
         "文件以 {encoding} 写成，不合 STEP 的规定；已按 {encoding} 读取",
@@ -156,12 +156,12 @@ SENTENCES: dict[str, Sentence] = {
         "没有识别出带灌浆套筒的柱；其竖直圆孔按原样列出（见 loose）",
     ),
     "ifc.looked_at": Sentence(
-        "{count} column was looked at ({called}); no grouting sleeve opens in a foot face.",
-        "查看了 {count} 根柱（{called}）；柱底面没有灌浆套筒开口。",
+        "{count:d} column was looked at ({called}); no grouting sleeve opens in a foot face.",
+        "查看了 {count:d} 根柱（{called}）；柱底面没有灌浆套筒开口。",
     ),
     "ifc.looked_at.several": Sentence(
-        "{count} columns were looked at ({called}); no grouting sleeve opens in a foot face.",
-        "查看了 {count} 根柱（{called}）；柱底面没有灌浆套筒开口。",
+        "{count:d} columns were looked at ({called}); no grouting sleeve opens in a foot face.",
+        "查看了 {count:d} 根柱（{called}）；柱底面没有灌浆套筒开口。",
     ),
     "ifc.lying": Sentence(
         "is drawn lying: which bars it will come down on is not in the model",
@@ -176,8 +176,8 @@ SENTENCES: dict[str, Sentence] = {
         "可能是柱的有：{shown:;}。请指明哪些是柱，例如 {selector}。",
     ),
     "ifc.more_attributes": Sentence(
-        "{count} more elements have attributes that contradict what is drawn",
-        "另有 {count} 个构件的属性与所绘不符",
+        "{count:d} more elements have attributes that contradict what is drawn",
+        "另有 {count:d} 个构件的属性与所绘不符",
     ),
     "ifc.more_holes": Sentence(
         "{count} more round holes in its foot (Ø {bores} mm) have no name of a sleeve and were not taken",
@@ -276,7 +276,7 @@ SENTENCES: dict[str, Sentence] = {
         "{option} '{query}' (in a job: {key} = \"{query}\" in [model])",
         "{option} '{query}'（在任务中：[model] 下 {key} = \"{query}\"）",
     ),
-    "ifc.several": Sentence("{count} {type} ({shown})", "{count} 个 {type}（{shown}）"),
+    "ifc.several": Sentence("{count:d} {type} ({shown})", "{count:d} 个 {type}（{shown}）"),
     "ifc.shared_id": Sentence(
         "1 GlobalId is given to several elements ({shown:;}): they were told apart as entities, but results "
         "cannot be written to the right one of them; export the model with a GlobalId for each element",
@@ -284,9 +284,9 @@ SENTENCES: dict[str, Sentence] = {
         "}）：已按实体区分，但结果无法写到正确的构件；请重新导出模型，使每个构件的 GlobalId 唯一",
     ),
     "ifc.shared_ids": Sentence(
-        "{count} GlobalIds are given to several elements ({shown:;}): they were told apart as entities, but "
+        "{count:d} GlobalIds are given to several elements ({shown:;}): they were told apart as entities, but "
         "results cannot be written to the right one of them; export the model with a GlobalId for each element",
-        "{count} 个 GlobalId 用于多个构件（{shown:;"
+        "{count:d} 个 GlobalId 用于多个构件（{shown:;"
         "}）：已按实体区分，但结果无法写到正确的构件；请重新导出模型，使每个构件的 GlobalId 唯一",
     ),
     "ifc.short": Sentence(
@@ -330,7 +330,7 @@ SENTENCES: dict[str, Sentence] = {
         "{path} holds {what} ({shown}): an .ifczip holds one. Unpack it and name the .ifc that is meant.",
         "{path} 含 {what}（{shown}）：.ifczip 应只含一个。请解压并指定所要的 .ifc。",
     ),
-    "ifc.zip_models": Sentence("{count} models", "{count} 个模型"),
+    "ifc.zip_models": Sentence("{count:d} models", "{count:d} 个模型"),
     "ifc.zip_no_model": Sentence("no .ifc in STEP format", "的内容中没有 STEP 格式的 .ifc"),
     "ifc.zip_nothing": Sentence("nothing", "空"),
     "ifc.zip_refused": Sentence(

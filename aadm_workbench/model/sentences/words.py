@@ -23,6 +23,7 @@ SENTENCES: dict[str, Sentence] = {
     "words.an E57 file": Sentence("an E57 file", "读取 E57 文件"),
     "words.as the others do": Sentence("as the others do", "按其余钢筋"),
     "words.bars": Sentence("bars", "钢筋"),
+    "words.binary image": Sentence("binary image", "二值图像"),
     "words.by design": Sentence("by design", "按设计"),
     "words.centimetres": Sentence("centimetres", "厘米"),
     "words.column": Sentence("column", "柱"),

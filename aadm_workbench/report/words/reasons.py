@@ -10,7 +10,6 @@ import re
 from collections.abc import Iterator
 from functools import cache, lru_cache
 from pkgutil import iter_modules
-from typing import NamedTuple
 
 import aadm_workbench.model.sentences
 from aadm_workbench.model import Reason
@@ -24,19 +23,8 @@ _SENTENCES = {"notes", "plan", "remedy", "said", "what", "why"}
 """Places that other sentences stand in; names and labels hold no sign that parts sentences."""
 _LONGEST_SENTENCE = 1000
 """Characters: ours have at most some hundred, and patterns take a time that grows with their square."""
+_MOST_PIECES = 8  # that one sentence consists of: a text of nothing but such signs would take for ever
 _KEPT = 4096  # sentences: those of some hundred columns, which repeat each other
-
-
-class _Known(NamedTuple):
-    """A sentence of the table: ``longest`` is the longest text between its places, and part of every filling.
-
-    ``literal`` is the length of all texts between its places.
-    """
-
-    code: str
-    english: str
-    longest: str
-    literal: int
 
 
 def in_both_languages(sentence: str) -> Phrase:
@@ -73,15 +61,15 @@ def _one(text: str) -> Reason | None:
 
 
 def _of_table(text: str) -> Reason | None:
-    for known in _table():
-        if known.longest in text and (found := _pattern(known.english).fullmatch(text)):
-            places = [place for place in places_of(known.english) if place.name]
-            return Reason(known.code, **{place.name: _value(found[place.name], place) for place in places})
+    for longest, code, english in _table():
+        if longest in text and (found := _pattern(english).fullmatch(text)):
+            places = [place for place in places_of(english) if place.name]
+            return Reason(code, **{place.name: _value(found[place.name], place) for place in places})
     return None
 
 
 def _value(text: str, place: Place) -> str | list[str]:
-    if place.form not in _VALUES:
+    if place.form not in _VALUES or (place.form == "word" and f"words.{text}" in sentences_of("words")):
         return text
     sign = {"and": " and ", ";": "; ", ".": ". "}.get(place.form)
     return [_recognised(part) for part in text.split(sign)] if sign else _recognised(text)
@@ -89,7 +77,7 @@ def _value(text: str, place: Place) -> str | list[str]:
 
 def _parts(pieces: list[str]) -> list[str]:
     """Pieces as sentences: a sentence may hold the sign that parts them, so the longest one is tried first."""
-    for count in range(len(pieces), 0, -1):
+    for count in range(min(len(pieces), _MOST_PIECES), 0, -1):
         found = _one("; ".join(pieces[:count]))
         if found is not None or count == 1:
             return [found or pieces[0], *_parts(pieces[count:])]
@@ -97,14 +85,20 @@ def _parts(pieces: list[str]) -> list[str]:
 
 
 @cache
-def _table() -> tuple[_Known, ...]:
-    """All sentences but those that only put others together; the longest first, for one may begin as another does."""
+def _table() -> tuple[tuple[str, str, str], ...]:
+    """All sentences but those that only put others together: the longest text between their places, code, English.
+
+    The longest sentence comes first, for one may begin as another does.
+    """
     rooms = [module.name for module in iter_modules(aadm_workbench.model.sentences.__path__)]
-    known = [
-        _known(code, sentence.en) for room in rooms if room != "words" for code, sentence in sentences_of(room).items()
-    ]
-    plain = [one for one in known if one.longest.strip(" ;:,–")]
-    return tuple(sorted(plain, key=lambda one: (-one.literal, one.code)))
+    found = [(code, told.en) for room in rooms if room != "words" for code, told in sentences_of(room).items()]
+    found.sort(key=lambda one: (-sum(map(len, _texts(one[1]))), one[0]))
+    known = [(max(_texts(english), key=len), code, english) for code, english in found]
+    return tuple(one for one in known if one[0].strip(" ;:,–"))
+
+
+def _texts(english: str) -> list[str]:
+    return [place.before for place in places_of(english)]
 
 
 def _filling(name: str, form: str) -> str:
@@ -116,11 +110,6 @@ def _filling(name: str, form: str) -> str:
         return r"[-+]?(?:\d[\d.]*(?:e[-+]?\d+)?|nan|inf)"
     decimals = rf"\.\d{{{digits[1]}}}" if digits[1] != "0" else ""
     return rf"[-+]?(?:\d+{decimals}|nan|inf){'%' if form.endswith('%') else ''}"
-
-
-def _known(code: str, english: str) -> _Known:
-    texts = [place.before for place in places_of(english)]
-    return _Known(code, english, max(texts, key=len), sum(map(len, texts)))
 
 
 @cache

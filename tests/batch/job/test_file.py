@@ -6,10 +6,9 @@ from pathlib import Path
 import pytest
 
 from aadm_workbench.errors import JobError
+from aadm_workbench.inspection.job import JobColumn, JobModel
 from aadm_workbench.model import Camera
-from batch.job.column_files import files_of
 from batch.job.file import read_job
-from batch.job.model import JobColumn, JobModel
 
 EVERYTHING = """\
 schema = 1
@@ -99,7 +98,7 @@ def test_every_key_is_understood(tmp_path: Path) -> None:
     assert (first.sleeves_up_deg, first.rebars_up_deg, first.near, first.design) == (90.0, 90.0, (-1, -1), None)
     assert (second.sleeves_up_deg, second.rebars_up_deg, second.near) == (180.0, 12.5, None)
     assert (first.axes, second.axes) == (None, "opengl")
-    assert files_of(second) == ("scans/C-302-foot.ply",)
+    assert second.files() == ("scans/C-302-foot.ply",)
     assert second.design is not None
     assert [point.label for point in second.design.rebars] == ["R1", "R2", "R3"]
     assert second.design.embedded_length_mm == 160.0

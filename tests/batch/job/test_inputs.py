@@ -7,13 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from aadm_workbench.check import CheckSettings
+from aadm_workbench.inspection.check import CheckSettings
+from aadm_workbench.inspection.job import JobColumn
+from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.model import Camera
-from batch.job.column_files import files_of
 from batch.job.file import read_job
 from batch.job.inputs import content_hash, read_for_shipping, task_key, unpack
-from batch.job.model import JobColumn
-from batch.runner.task import ColumnTask
 from tests.batch.conftest import WriteJob, column_text
 
 
@@ -27,7 +26,7 @@ def task(write_job: WriteJob) -> ColumnTask:
 
 def test_files_of_a_column() -> None:
     column = JobColumn("C-1", ("a", "b"), ("c",), ("h",), sleeves_image="i", rebars_image="a", near=(1, 1))
-    assert files_of(column) == ("a", "b", "c", "h", "i")
+    assert column.files() == ("a", "b", "c", "h", "i")
 
 
 def test_the_key_follows_every_input(task: ColumnTask) -> None:
@@ -64,7 +63,7 @@ def test_the_key_follows_every_input(task: ColumnTask) -> None:
 def test_the_key_does_not_follow_the_place(task: ColumnTask, tmp_path: Path) -> None:
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
-    for name in files_of(task.column):
+    for name in task.column.files():
         (elsewhere / name).write_bytes((task.folder / name).read_bytes())
     assert task_key(replace(task, folder=elsewhere), "p") == task_key(task, "p")
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from batch.runner.engine import MOST_DEATHS, Death, Ended, Here, Unwatched, work_through
+from batch.runner.engine import MOST_DEATHS, Death, Ended, Unwatched, work_through
 
 SEGFAULT = Death("killed by signal 11 (SIGSEGV)", "Fatal Python error: Segmentation fault")
 
@@ -53,9 +53,9 @@ def outcomes(pool: Any, tasks: str, heard: Any = None, doubtful: Sequence[int] =
 
 
 def test_one_after_the_other_in_this_process() -> None:
-    found = list(work_through(["a", "b"], Here(), str.upper, lambda task, reason: reason, Unwatched()))
+    found = list(work_through(["a", "b"], None, str.upper, lambda task, reason: reason, Unwatched()))
     assert found == [(0, "A"), (1, "B")]
-    assert list(work_through([], Here(), str.upper, lambda task, reason: reason, Unwatched())) == []
+    assert list(work_through([], None, str.upper, lambda task, reason: reason, Unwatched())) == []
 
 
 def test_a_task_that_kills_ends_after_three_and_harms_nobody() -> None:

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.inspection.column import ColumnOutcome
 from aadm_workbench.model import ColumnReport, Verdict
-from batch.runner.column_task import ColumnOutcome
 from batch.runner.journal import PREVIOUS_NAME, Journal
 from batch.runner.record import Record, read_record
 

@@ -4,9 +4,9 @@ import argparse
 
 import pytest
 
-from batch.runner.limits import memory_size, time_span
-from batch.shown import pace
-from batch.shown.pace import Pace, duration
+from batch.shown import progress
+from batch.shown.progress import Pace, duration
+from batch.switches import memory_size, time_span
 
 
 @pytest.mark.parametrize(
@@ -40,7 +40,7 @@ def test_no_times(text: str) -> None:
 
 def test_pace(monkeypatch: pytest.MonkeyPatch) -> None:
     now = 100.0
-    monkeypatch.setattr(pace, "monotonic", lambda: now)
+    monkeypatch.setattr(progress, "monotonic", lambda: now)
     steps = Pace(200)
     assert (steps.per_second(), steps.in_words()) == (None, "")
     for _ in range(60):

@@ -11,11 +11,11 @@ import pytest
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import DesignError, JobError, MissingDependencyError
+from aadm_workbench.inspection import as_designed, column
 from aadm_workbench.model import ColumnReport, Verdict
 from aadm_workbench.report.json import encode, report_document
 from aadm_workbench.report.read import checked_report
 from batch.job.file import read_job
-from batch.runner import column_task, run
 from batch.runner.pools import PoolOptions
 from batch.runner.record import Record
 from batch.runner.run import Follower, JobRun, RunOptions, run_job
@@ -127,7 +127,7 @@ def test_a_scan_that_is_missing_or_broken_costs_its_own_column(write_job: WriteJ
 def test_any_error_of_a_column_is_its_verdict(
     write_job: WriteJob, monkeypatch: pytest.MonkeyPatch, error: Exception, reason: str
 ) -> None:
-    monkeypatch.setattr(column_task, "check_column", raising(error))
+    monkeypatch.setattr(column, "check_column", raising(error))
     done = finished(write_job(column_text("C-1", "foot.ply"), column_text("C-2"), clouds=("foot.ply",)))
     first, second = done.report.columns
     assert (first.verdict, first.goes_on) == (Verdict.ERROR, Verdict.NOT_ASSESSED)
@@ -138,7 +138,7 @@ def test_any_error_of_a_column_is_its_verdict(
 
 
 def test_an_interrupt_is_no_verdict(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(column_task, "check_column", raising(KeyboardInterrupt()))
+    monkeypatch.setattr(column, "check_column", raising(KeyboardInterrupt()))
     path = write_job(column_text("C-1", "foot.ply"), clouds=("foot.ply",))
     with pytest.raises(KeyboardInterrupt):
         finished(path)
@@ -189,7 +189,7 @@ def test_columns_of_a_model(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch
         asked.append({"path": path, **selectors})
         return ModelDesign(str(path), "f" * 64, "IFC4", columns=(design, other))
 
-    monkeypatch.setattr(run, "read_design", read_design)
+    monkeypatch.setattr(as_designed, "read_design", read_design)
     head = MODEL_HEAD + 'columns = "IfcColumn"\n'
     bars = of_model("PCZ-1", "foot.ply").replace("sleeves", "rebars")
     path = write_job(

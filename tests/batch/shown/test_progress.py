@@ -7,12 +7,11 @@ from pathlib import Path
 import pytest
 
 from aadm_workbench.errors import JobError
+from aadm_workbench.inspection.column import ColumnOutcome
 from aadm_workbench.model import ColumnReport, Verdict
-from batch.runner.column_task import ColumnOutcome
 from batch.runner.engine import Death
 from batch.runner.record import Record
-from batch.shown.events import Events
-from batch.shown.follow import ShownCheck
+from batch.shown.follow import Events, ShownCheck
 
 
 def record(name: str, verdict: Verdict) -> Record:

@@ -20,8 +20,7 @@ from aadm_workbench.model import (
     Verdict,
 )
 from batch.shown.terminal import show
-from batch.shown.verdict_table import summary_line, verdict_table
-from batch.shown.worst_point import worst_comparison
+from batch.shown.verdict_table import summary_line, verdict_table, worst_comparison
 
 
 def point(label: str, deviation_mm: float | None, verdict: Verdict, reason: str = "") -> PointResult:

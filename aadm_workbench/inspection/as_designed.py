@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -14,7 +16,7 @@ from aadm_workbench.design.model_file import sha256_of
 from aadm_workbench.design.model_units import MM_PER_UNIT, check_units
 from aadm_workbench.design.published import PublishedPoint, published_points, sampled_surfaces
 from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
-from aadm_workbench.errors import DesignError, ScanError
+from aadm_workbench.errors import AadmError, DesignError, ScanError
 from aadm_workbench.model import Array, ColumnDesign, Reason
 
 _SEED = 2026  # any: the same design gives the same points
@@ -53,6 +55,27 @@ def read_design(
     if units == "mm":
         return read_model(path, columns=columns, sleeves=sleeves, rebars=rebars)
     return read_model(path, columns=columns, sleeves=sleeves, rebars=rebars, units=units)
+
+
+@contextmanager
+def unforeseen_in(model: str) -> Iterator[None]:
+    """A model that breaks its reader in a way that nobody foresaw is a bad model, not the end of the night.
+
+    Turns whatever else than an :class:`AadmError` comes out of reading a model into one that
+    names it.
+
+    Raises
+    ------
+    DesignError
+        With the error as its cause.
+    """
+    try:
+        yield
+    except (AadmError, MemoryError):
+        raise
+    except Exception as error:
+        said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+        raise DesignError(Reason("run.not_evaluated", model=model, error=said)) from error
 
 
 def read_cloud(path: Path, rules: Rules | None = None, *, units: str = "mm") -> ModelDesign:

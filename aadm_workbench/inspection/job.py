@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Literal
 
 from aadm_workbench.model import Camera, ColumnDesign, ControlPoint, Profile
+
+_NO_FILES = ("id", "axes")
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,16 @@ class JobColumn:
     near: tuple[int, int] | None = None
     design: ColumnDesign | None = None
     control_points: tuple[ControlPoint, ...] = ()
+
+    def files(self) -> tuple[str, ...]:
+        """The files that the column is checked from, as it names them: every other text of it is one."""
+        found: dict[str, None] = {}
+        for item in fields(self):
+            value = getattr(self, item.name)
+            if item.name not in _NO_FILES:
+                texts = value if isinstance(value, tuple) else (value,)
+                found.update((text, None) for text in texts if isinstance(text, str))
+        return tuple(found)
 
 
 @dataclass(frozen=True, eq=False)

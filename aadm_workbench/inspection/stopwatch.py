@@ -1,4 +1,4 @@
-"""How long the stages of the work took; the only clock of the batch."""
+"""How long the stages of the work took; the only clock of an inspection."""
 
 from __future__ import annotations
 

@@ -1,0 +1,206 @@
+"""What the columns of a job are checked from: the model is read once, then each has all that any process needs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from aadm_workbench.design.model_design import ModelDesign
+from aadm_workbench.errors import DesignError, JobError, did_you_mean
+from aadm_workbench.inspection.check import CheckSettings
+from aadm_workbench.inspection.job import Job, JobColumn
+from aadm_workbench.model import Array, Camera, ColumnDesign, Kind, Scan
+from aadm_workbench.scan.read import read_scan
+
+_STEP_MM = 1.0  # no two patterns that are built differ by less
+
+
+@dataclass(frozen=True, eq=False)
+class ColumnTask:
+    """All that is needed to check one column.
+
+    ``folder`` is where relative paths start; ``places`` says where files lie that are not found from there;
+    ``design`` None means that the job's model gives none, for the reason ``no_design``. ``others`` are the designs of
+    the job that are unlike this one.
+    """
+
+    column: JobColumn
+    folder: Path
+    design: ColumnDesign | None
+    settings: CheckSettings
+    units: str = "mm"
+    camera: Camera | None = None
+    depth_scale_mm: float | None = None
+    no_design: str = ""
+    places: Mapping[str, Path] = field(default_factory=dict)
+    others: tuple[ColumnDesign, ...] = ()
+
+    def path_of(self, name: str) -> Path:
+        """Where a file lies that the job names."""
+        return self.places.get(name, self.folder / name)
+
+    def read(self, name: str, *, path: Path | None = None, image: str | None = None) -> Scan:
+        """Read a file as the job declares the column's scans; ``path`` is where one lies that the job does not name.
+
+        Raises
+        ------
+        ScanError
+            Where it cannot be read.
+        """
+        return read_scan(
+            path or self.path_of(name),
+            units=self.units,
+            camera=self.camera,
+            depth_scale_mm=self.depth_scale_mm,
+            source=name,
+            image=None if image is None else self.path_of(image),
+            axes=self.column.axes,
+        )
+
+    def at(self, places: Mapping[str, Path]) -> ColumnTask:
+        """The same task where its files lie elsewhere."""
+        return replace(self, places=places)
+
+
+@dataclass(frozen=True, eq=False)
+class JobPlan:
+    """A job with its model, where it has one that can be read, its settings, and a task for each chosen column."""
+
+    job: Job
+    model: ModelDesign | None
+    settings: CheckSettings
+    tasks: tuple[ColumnTask, ...]
+
+
+def plan_job(job: Job, *, only: Sequence[str] = (), method: str = "refined") -> JobPlan:
+    """Read a job's model, and make a task for each of its columns, or for those that are named.
+
+    Raises
+    ------
+    JobError
+        Where a column is asked for that the job does not have, or two of its columns are one.
+    DesignError
+        Where the model cannot be read, and no column brings a design along.
+    """
+    columns = chosen_columns(job, only)
+    model, unreadable = None, ""
+    try:
+        model = model_of(job)
+    except DesignError as error:
+        # It costs only the columns that are looked up in it.
+        if not any(column.design is not None for column in columns):
+            raise
+        unreadable = error.reason
+    if model is not None:
+        _check_named_once(job, model)
+    settings = CheckSettings(job.profile, method, job.decision, job.checks, job.turns)
+    tasks = [_task(job, column, model, settings, unreadable) for column in columns]
+    return JobPlan(job, model, settings, tuple(_with_others(tasks)))
+
+
+def chosen_columns(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
+    """The columns of a job that are named, or all of them, in the job's order.
+
+    Raises
+    ------
+    JobError
+        Where the job has no such column.
+    """
+    ids = [column.id for column in job.columns]
+    for name in only:
+        if name not in ids:
+            raise JobError(f'{job.source} has no column "{name}" (--only); {did_you_mean(name, ids)}')
+    return tuple(column for column in job.columns if not only or column.id in only)
+
+
+def model_of(job: Job) -> ModelDesign | None:
+    """The job's model, called as the job calls it; None where it has none.
+
+    Raises
+    ------
+    DesignError
+        Where the model cannot be read.
+    """
+    if job.model is None:
+        return None
+    from aadm_workbench.inspection.as_designed import read_design, unforeseen_in
+
+    path = job.folder / job.model.path
+    rules = {"columns": job.model.columns, "sleeves": job.model.sleeves, "rebars": job.model.rebars}
+    with unforeseen_in(str(path)):
+        model = read_design(path, **rules, units=job.model.units)
+    return replace(model, source=job.model.path)
+
+
+def _check_named_once(job: Job, model: ModelDesign) -> None:
+    """Refuse a job that names one column of its model twice, by its id and by its GlobalId for instance.
+
+    Raises
+    ------
+    JobError
+        With the lines of both.
+    """
+    first: dict[int, str] = {}
+    for column in job.columns:
+        design = None if column.design is not None else _designed(model, column)
+        if not isinstance(design, ColumnDesign):
+            continue
+        other = first.setdefault(id(design), column.id)
+        if other != column.id:
+            raise JobError(
+                f'{job.source}, line {job.lines.get(column.id, 1)}: "{column.id}" and "{other}" (line '
+                f"{job.lines.get(other, 1)}) are one column of {model.source} ({design.id}); name it once"
+            )
+
+
+def _designed(model: ModelDesign, column: JobColumn) -> ColumnDesign | str:
+    """The design of a column that brings none along; or why the model gives none."""
+    try:
+        return model.column(column.id)
+    except DesignError as error:
+        return error.reason
+
+
+def _task(
+    job: Job, column: JobColumn, model: ModelDesign | None, settings: CheckSettings, unreadable: str
+) -> ColumnTask:
+    design, no_design = column.design, unreadable
+    if design is None and model is not None:
+        found = _designed(model, column)
+        design, no_design = (found, "") if isinstance(found, ColumnDesign) else (None, found)
+    # Workers have another working folder.
+    folder = job.folder.absolute()
+    return ColumnTask(column, folder, design, settings, job.units, job.camera, job.depth_scale_mm, no_design)
+
+
+def _with_others(tasks: Sequence[ColumnTask]) -> Sequence[ColumnTask]:
+    """The tasks, each with the designs of the job that are unlike its own."""
+    designs = [task.design for task in tasks if task.design is not None]
+    patterns = {design_shape(design): design for design in reversed(designs)}
+    if len(patterns) < 2:
+        return tasks
+    found = []
+    for task in tasks:
+        own = None if task.design is None else design_shape(task.design)
+        others = tuple(design for shape, design in sorted(patterns.items(), key=lambda item: item[0]) if shape != own)
+        found.append(replace(task, others=others))
+    return found
+
+
+def design_shape(design: ColumnDesign) -> tuple[tuple[int, ...], ...]:
+    """Sorted distances of the sleeves, and of the rebars, from their middle and from each other, in millimetres.
+
+    The same for a pattern that is turned, moved or mirrored, and for no other that is built.
+    """
+    return tuple(_distances(np.array([point.centre[:2] for point in design.points(kind)])) for kind in Kind)
+
+
+def _distances(places: Array) -> tuple[int, ...]:
+    if not len(places):
+        return ()
+    apart = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1))
+    lengths = np.concatenate([apart[np.triu_indices(len(places), 1)], np.hypot(*(places - places.mean(axis=0)).T)])
+    return (len(places), *np.sort(np.rint(lengths / _STEP_MM).astype(int)).tolist())
