@@ -6,8 +6,12 @@ What a scan cannot support (a plugged sleeve, a bar out of view) is no error: it
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass
+
+PRIVATE_ENVIRONMENT = "AADM_PRIVATE_ENVIRONMENT"
+"""Variable that is set in a process of FreeCAD's private environment, for which pip on the PATH does nothing."""
 
 
 class AadmError(Exception):
@@ -39,6 +43,10 @@ class ReportError(AadmError):
     """A report.json cannot be used: broken, of another schema, or not what the schema describes."""
 
 
+class NoEnvironmentError(AadmError):
+    """FreeCAD's private environment is not there, or is not whole; the workbench offers to install it."""
+
+
 class MissingDependencyError(AadmError):
     """A package that this command needs is not installed; the message holds the command that installs it."""
 
@@ -46,7 +54,9 @@ class MissingDependencyError(AadmError):
         install = install or package_called(package).install
         from aadm_workbench.model import Reason
 
-        super().__init__(Reason("errors.missing", needed_for=needed_for, package=package, install=install))
+        is_private = os.environ.get(PRIVATE_ENVIRONMENT) and install.startswith("pip ")
+        code = "errors.missing.private" if is_private else "errors.missing"
+        super().__init__(Reason(code, needed_for=needed_for, package=package, install=install))
         self.package = package
         self.install = install
 

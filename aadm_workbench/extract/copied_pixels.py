@@ -30,26 +30,29 @@ def copies_depths(scan: Scan) -> bool:
     if not scan.organised:
         return False
     depth = scan.points[..., 2]
-    rows, columns = depth[::_EVERY], depth[:, ::_EVERY].T
-    if not any((part[:, 1:] == part[:, :-1]).any() for part in (rows, columns)):
-        return False
-    counts = np.sum([_equal_pairs(part) for part in (rows, columns)], axis=0)
-    (at_edges, of_edges), (within, of_within) = counts[:2].tolist(), counts[2:].tolist()
-    if min(of_edges, of_within) < _FEWEST:
+    return any(_is_copied(part) for part in (depth[::_EVERY], depth[:, ::_EVERY].T))
+
+
+def _is_copied(depth: FloatArray) -> bool:
+    """Whether neighbours in rows (n, m) are: software that copies from the left leaves columns as they were."""
+    at_edges, of_edges, within, of_within = _equal_pairs(depth)
+    if at_edges == 0 or min(of_edges, of_within) < _FEWEST:
         return False
     excess = at_edges / of_edges - within / of_within
     share = (at_edges + within) / (of_edges + of_within)
     u = float(np.sqrt(share * (1.0 - share) * (1.0 / of_edges + 1.0 / of_within)))
-    return bool(excess > max(_LEAST_EXCESS, _SIGMAS * u))
+    return excess > max(_LEAST_EXCESS, _SIGMAS * u)
 
 
 def _equal_pairs(depth: FloatArray) -> tuple[int, int, int, int]:
     """Equal pairs of neighbours in rows (n, m) and all pairs: near edges, then away from them."""
     apart = np.abs(depth[:, 1:] - depth[:, :-1])
+    equal = apart == 0.0
+    if not equal.any():
+        return 0, 0, 0, 0
     edge = ~(apart <= _STEP_MM)
     flat, near = apart < _FLAT_MM, _within(edge, _NEAR_PIXELS)
     edges, inner = flat & near, flat & ~_within(edge, _INNER_PIXELS)
-    equal = apart == 0.0
     return int((edges & equal).sum()), int(edges.sum()), int((inner & equal).sum()), int(inner.sum())
 
 

@@ -89,10 +89,9 @@ class Patches:
         own = PlanPoints.of(self.x, self.y, chosen)
         if self.eye is None:
             return own
-        eye, level = self.eye.astype(np.float32)[own.owner], np.float32(0.0)
-        if level_mm is not None:
-            level = level_mm.astype(np.float32)[own.owner]
-        share = (eye[:, 2] - level) / np.maximum(eye[:, 2] - self.height.ravel()[chosen], np.float32(1e-6))
+        eye = self.eye.astype(np.float32)[own.owner]
+        level = np.zeros(len(self.x), np.float32) if level_mm is None else level_mm.astype(np.float32)
+        share = (eye[:, 2] - level[own.owner]) / np.maximum(eye[:, 2] - self.height.ravel()[chosen], np.float32(1e-6))
         x, y = (eye[:, axis] + (part - eye[:, axis]) * share for axis, part in enumerate((own.x, own.y)))
         return PlanPoints(x, y, own.owner, own.features)
 

@@ -69,6 +69,7 @@ class _Bars:
     tops: Tops
     fit: PooledFit
     points: tuple[AssemblyPoint, ...]
+    complete: bool
 
 
 def extract_rebars(
@@ -168,7 +169,7 @@ def _measured(
     if leaning is not tops:
         tops, fit = leaning, _fit(leaning, radius_mm, priors)
     fit = _shifted(fit, tops, lines, bend)
-    return _Bars(tops, fit, _points(tops, fit, priors.lean, level))
+    return _Bars(tops, fit, _points(tops, fit, priors.lean, level), signs.complete)
 
 
 def _lines(patches: Patches, planes: TopPlanes, tops: Tops) -> SightLines | None:
@@ -236,7 +237,9 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
         "wall_residual_mm": fit.wall_mm,
         "wall_points": int(fit.wall_count.sum()),
     }
-    return Extraction(Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality)
+    return Extraction(
+        Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality, complete=bars.complete
+    )
 
 
 def _believed_leans(fit: PooledFit, prior: float) -> tuple[Array, Array]:

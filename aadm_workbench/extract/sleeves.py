@@ -157,7 +157,9 @@ def _measured(mouths: Mouths, patches: Patches, layer: FootFace, diameter_mm: fl
         "wall_residual_mm": fit.wall_mm,
         "wall_points": int(fit.wall_count.sum()),
     }
-    return Extraction(Kind.SLEEVE, "refined", points, face, -face.normal, "foot face", quality=quality)
+    return Extraction(
+        Kind.SLEEVE, "refined", points, face, -face.normal, "foot face", quality=quality, complete=signs.complete
+    )
 
 
 def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm: float) -> PooledFit | None:

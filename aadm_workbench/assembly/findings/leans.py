@@ -20,8 +20,14 @@ from aadm_workbench.model import Array, Finding, Kind
 LEAST_DEG = 0.8
 """Floors, and feet, are square to their columns to half of that; a single bar or sleeve leans by 0.3° by right."""
 
-_FEWEST = 4  # of fewer a median is no sign of what all share
+# of fewer a median is no sign of what all share; where sleeves and bars say the same, three of each are one of six
+_FEWEST, _FEWEST_OF_BOTH = 4, 3
 _SIGMAS = 6.0  # beyond what noise, tried twelve times, ever does
+_SIGMAS_OF_BOTH, _SIGMAS_OF_EACH, _SIGMAS_APART = (
+    5.0,
+    1.5,
+    3.0,
+)  # two scans that err alike by chance are rarer than one that errs
 _SHARED_DEG = {Kind.SLEEVE: 0.15, Kind.REBAR: 0.3}  # what all leans of one scan may be off together
 _ALIKE = 0.35  # of the larger: so much two scans of one camera may differ in
 
@@ -32,29 +38,47 @@ class _Shear:
 
     value: Array
     u: float
+    points: int
+
+    @property
+    def length(self) -> float:
+        """Radians, for small ones."""
+        return float(np.hypot(*self.value))
 
     @property
     def degrees(self) -> float:
-        return math.degrees(math.atan(float(np.hypot(*self.value))))
+        return math.degrees(math.atan(self.length))
 
     @property
     def counts(self) -> bool:
-        return self.degrees > LEAST_DEG and float(np.hypot(*self.value)) > _SIGMAS * self.u
+        return self.points >= _FEWEST and self.degrees > LEAST_DEG and self.length > _SIGMAS * self.u
 
 
 def lean_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
     """One finding for a lean that both groups share, towards one side of the image; else one for each that leans."""
-    found = {group.kind: (group, shear) for group in groups if (shear := _shear(group)) is not None and shear.counts}
+    found = {group.kind: (group, shear) for group in groups if (shear := _shear(group)) is not None}
     if len(found) == 2:
-        (_, sleeves), (_, bars) = (found[kind] for kind in Kind)
-        largest = max(float(np.hypot(*sleeves.value)), float(np.hypot(*bars.value)))
-        if float(np.hypot(*(sleeves.value - bars.value))) < _ALIKE * largest:
+        sleeves, bars = (found[kind][1] for kind in Kind)
+        if _are_one(sleeves, bars):
             values = {"sleeves_deg": sleeves.degrees, "rebars_deg": bars.degrees}
             yield make_finding("common_lean.camera", ["sleeves", "rebars"], **values)
             return
-    for group, shear in found.values():
+    for group, shear in (one for one in found.values() if one[1].counts):
         name = group.kind.plural
         yield make_finding(f"common_lean.{group.kind.value}", [name], lean_deg=shear.degrees)
+
+
+def _are_one(one: _Shear, other: _Shear) -> bool:
+    """Whether two scans are sheared alike, and by more than chance: few points of each tell it together."""
+    apart, u_apart = float(np.hypot(*(one.value - other.value))), math.hypot(one.u, other.u)
+    if apart > max(_ALIKE * max(one.length, other.length), _SIGMAS_APART * u_apart):
+        return False
+    if one.counts and other.counts:
+        return True
+    weight = np.array([one.u, other.u]) ** -2
+    both = _Shear(weight @ [one.value, other.value] / weight.sum(), float(weight.sum() ** -0.5), 0)
+    each = min(one.length / one.u, other.length / other.u)
+    return both.degrees > LEAST_DEG and both.length > _SIGMAS_OF_BOTH * both.u and each > _SIGMAS_OF_EACH
 
 
 def _shear(group: SeenGroup) -> _Shear | None:
@@ -62,7 +86,12 @@ def _shear(group: SeenGroup) -> _Shear | None:
     extraction = group.extraction
     vertical = extraction.vertical
     known = [point for point in extraction.points if point.axis_covariance is not None and point.seen_length_mm]
-    if len(known) < _FEWEST or vertical is None or extraction.vertical_from == "bar axes" or abs(vertical[2]) < 0.5:
+    if (
+        len(known) < _FEWEST_OF_BOTH
+        or vertical is None
+        or extraction.vertical_from == "bar axes"
+        or abs(vertical[2]) < 0.5
+    ):
         return None
     axes = np.array([point.axis * np.sign(point.axis @ vertical) for point in known])
     leans = (axes / (axes @ vertical)[:, None] - vertical)[:, :2]
@@ -70,4 +99,4 @@ def _shear(group: SeenGroup) -> _Shear | None:
     middle = np.median(leans, axis=0)
     scatter = 1.4826 * float(np.median(np.abs(leans - middle)))
     u = 1.2533 * math.hypot(scatter, math.sqrt(float(np.median(own)))) / math.sqrt(len(known))
-    return _Shear(middle / vertical[2], math.hypot(u, math.radians(_SHARED_DEG[group.kind]) / 2.0))
+    return _Shear(middle / vertical[2], math.hypot(u, math.radians(_SHARED_DEG[group.kind]) / 2.0), len(known))

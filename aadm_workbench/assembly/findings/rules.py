@@ -19,8 +19,8 @@ def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Find
     found: list[Finding] = [finding for group in groups for finding in turn_findings(group)]
     found += scale_findings(groups)
     found += lean_findings(groups)
+    found += filter_findings(groups)
     for group in groups:
-        found += filter_findings(group)
         found += diameter_findings(group)
         found += exposed_length_findings(group, design.exposed_length_mm)
     return tuple(found)

@@ -17,9 +17,13 @@ from aadm_workbench.model import (
     Verdict,
 )
 
-TAKES_BACK = ("scale_differs", "other_column", "swapped")
+TAKES_BACK = ("scale_differs", "other_column", "swapped", "gaps_filled")
 """A part in a hundred moves a point at the corner of a column by millimetres, whoever is to blame; and some points of
-another column, or of the other group, lie on this one by chance."""
+another column, or of the other group, lie on this one by chance; how far filled edges were moved nobody knows."""
+
+OPENS_TRIAL = "common_lean"
+"""Of all sleeves and all bars alike: places within a plane are as they were; leans, and with them the room in the
+sleeves, are not."""
 
 
 def without_spoilt(report: ColumnReport, findings: Sequence[Finding], checks: Sequence[str]) -> ColumnReport:
@@ -31,13 +35,14 @@ def without_spoilt(report: ColumnReport, findings: Sequence[Finding], checks: Se
         What the verdict of the column counts: ``sleeves``, ``rebars``, ``trial``.
     """
     reason = {name: one.text for one in findings if one.code in TAKES_BACK for name in one.about}
-    if not reason:
+    sheared = [one.text for one in findings if one.code == OPENS_TRIAL and len(one.about) > 1]
+    if not reason and not sheared:
         return report
     sleeves, rebars = (
         _voided(group, reason[name]) if group is not None and name in reason else group
         for name, group in (("sleeves", report.sleeves), ("rebars", report.rebars))
     )
-    trial = None if report.trial_assembly is None else _open(report.trial_assembly, next(iter(reason.values())))
+    trial = None if report.trial_assembly is None else _open(report.trial_assembly, [*reason.values(), *sheared][0])
     counted = [group if name in checks else None for name, group in (("sleeves", sleeves), ("rebars", rebars))]
     verdict, goes_on, reasons = sum_up(counted[0], counted[1], trial if "trial" in checks else None)
     return replace(

@@ -88,6 +88,14 @@ SENTENCES: dict[str, Sentence] = {
         "{path} 没有三角形：请将模型导出为带面的网格。",
     ),
     "design.no_vertices": Sentence("it has faces of vertices that are not there", "有面的顶点不存在"),
+    "design.none_held": Sentence(
+        "{label} holds no design: sample the design of its column again",
+        "{label} 中没有设计：请重新提取其柱的设计",
+    ),
+    "design.not_handed": Sentence(
+        "holds no designs as the workbench hands them over ({why})",
+        "其中的设计不是工作台交付的形式（{why}）",
+    ),
     "design.of_format": Sentence("models of the format {suffix}", "{suffix} 格式的模型"),
     "design.other_unit": Sentence(
         "{declared} and holds no column with grouting sleeves; in {other} it holds one with {count} sleeves of "
@@ -151,6 +159,7 @@ SENTENCES: dict[str, Sentence] = {
         "模型的单位为 {units}；应为 {known} 之一",
     ),
     "design.unopened": Sentence("{path} cannot be opened: {why}.", "{path} 无法打开：{why}。"),
+    "design.unread": Sentence("cannot be read ({why})", "无法读取（{why}）"),
     "design.unsupported": Sentence(
         "{path}: {called} are not supported. Supported: {supported}. Export the model as IFC, or describe the "
         "column in the job, in [columns.design].",
