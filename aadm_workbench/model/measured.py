@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from aadm_workbench.model.arrays import Array, FloatArray
+from aadm_workbench.model.arrays import Array, Figures, FloatArray
 from aadm_workbench.model.verdicts import Kind
 
 
@@ -202,6 +201,6 @@ class Extraction:
     vertical: Array | None
     vertical_from: str = ""
     exposed_length_mm: tuple[float | None, ...] = ()
-    quality: dict[str, Any] = field(default_factory=dict)
+    quality: Figures = field(default_factory=dict)
     reason: str = ""
     complete: bool = False

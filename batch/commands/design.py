@@ -10,8 +10,9 @@ import argparse
 import re
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..exit_codes import ALL_PASS, UNDECIDED
 from ..switches import add_switches
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from aadm_workbench.design.model_design import ModelDesign, NotTaken
-    from aadm_workbench.model import AssemblyPoint, ColumnDesign
+    from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
 EXAMPLE = """\
 examples:
@@ -104,85 +105,83 @@ def _print_json(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: boo
     from ..shown.published_table import published_entries
     from ..shown.terminal import show_json
 
-    document: dict[str, Any] = {
+    document = {
         "model": {"source": model.source, "sha256": model.sha256, "schema": model.schema},
-        "columns": [_column_entry(column, why=why) for column in columns],
+        "columns": [
+            {
+                "id": column.id,
+                "global_id": column.global_id,
+                "piece_mark": column.piece_mark,
+                "storey": column.storey,
+                "grid": column.grid,
+                "names": column.names,
+                "size_mm": column.size_mm,
+                "T_model_column": column.T_model_column,
+                "sleeves": [one.told() for one in _entries(column.sleeves, column.T_model_column, why=why)],
+                "rebars": [one.told() for one in _entries(column.rebars, column.T_model_column, why=why)],
+                "warnings": column.warnings,
+            }
+            for column in columns
+        ],
         "loose": {
-            "sleeves": [_point_entry(point, None, why=why) for point in model.loose_sleeves],
-            "rebars": [_point_entry(point, None, why=why) for point in model.loose_rebars],
+            "sleeves": [one.told() for one in _entries(model.loose_sleeves, None, why=why)],
+            "rebars": [one.told() for one in _entries(model.loose_rebars, None, why=why)],
         },
-        "warnings": list(model.warnings),
+        "warnings": model.warnings,
+        **({} if columns else {"hint": model.hint}),
+        **({"not_taken": [_left_out(left) for left in model.not_taken]} if why else {}),
+        **({"published": published_entries(columns)} if published else {}),
     }
-    if not columns:
-        document["hint"] = model.hint
-    if why:
-        document["not_taken"] = [_left_out_entry(left) for left in model.not_taken]
-    if published:
-        document["published"] = published_entries(columns)
     show_json(encode(document))
 
 
-def _left_out_entry(left: NotTaken) -> dict[str, Any]:
+def _left_out(left: NotTaken) -> dict[str, str | float | Array | None]:
     """An element that was left out; ``centre_mm`` is the upper end of a bar, the mouth of a sleeve."""
-    return {
-        "what": left.what,
-        "class": left.ifc_class,
-        "global_id": left.global_id,
-        "name": left.name,
-        "centre_mm": left.point,
-        "diameter_mm": left.diameter_mm,
-        "length_mm": left.length_mm,
-        "reason": left.reason,
-    }
+    names = ("what", "ifc_class", "global_id", "name", "point", "diameter_mm", "length_mm", "reason")
+    called = {"ifc_class": "class", "point": "centre_mm"}
+    return {called.get(name, name): getattr(left, name) for name in names}
 
 
-def _column_entry(column: ColumnDesign, *, why: bool) -> dict[str, Any]:
-    T = column.T_model_column
-    return {
-        "id": column.id,
-        "global_id": column.global_id,
-        "piece_mark": column.piece_mark,
-        "storey": column.storey,
-        "grid": column.grid,
-        "names": list(column.names),
-        "size_mm": column.size_mm,
-        "T_model_column": T,
-        "sleeves": [_point_entry(point, T, why=why) for point in column.sleeves],
-        "rebars": [_point_entry(point, T, why=why) for point in column.rebars],
-        "warnings": list(column.warnings),
-    }
-
-
-def _point_entry(point: AssemblyPoint, T_model_column: Any, *, why: bool) -> dict[str, Any]:
+@dataclass(frozen=True, eq=False)
+class _Entry:
     """A point in the frame of the model."""
-    centre, axis = point.centre, point.axis
-    if T_model_column is not None:
-        centre = T_model_column[:3, :3] @ centre + T_model_column[:3, 3]
-        axis = T_model_column[:3, :3] @ axis
-    entry = {
-        "label": point.label,
-        "global_id": point.global_id,
-        "centre_mm": centre,
-        "axis": axis,
-        "diameter_mm": point.diameter_mm,
-        "length_mm": point.length_mm,
-    }
-    if point.object_name is not None:
-        entry["object"] = point.object_name
-    return {**entry, "why": point.why} if why else entry
+
+    label: str
+    global_id: str | None
+    centre_mm: Array
+    axis: Array
+    diameter_mm: float
+    length_mm: float | None
+    object: str | None
+    why: str | None
+
+    def told(self) -> dict[str, str | float | Array | None]:
+        """What ``--json`` says of it; nothing of an object that there is not, or that nobody asked for."""
+        return {name: value for name, value in vars(self).items() if value is not None or name not in ("object", "why")}
+
+
+def _entries(points: Sequence[AssemblyPoint], T_model_column: Array | None, *, why: bool) -> list[_Entry]:
+    """Points in the frame of the model."""
+    found = []
+    for point in points:
+        centre, axis = point.centre, point.axis
+        if T_model_column is not None:
+            centre = T_model_column[:3, :3] @ centre + T_model_column[:3, 3]
+            axis = T_model_column[:3, :3] @ axis
+        named = (point.label, point.global_id, centre, axis, point.diameter_mm, point.length_mm, point.object_name)
+        found.append(_Entry(*named, point.why if why else None))
+    return found
 
 
 def _tables(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: bool, loose: bool) -> Iterator[Table | str]:
     for column in columns:
         yield _heading(column)
-        yield _point_table(
-            [_point_entry(p, column.T_model_column, why=True) for p in column.sleeves + column.rebars], why
-        )
+        yield _point_table(_entries(column.sleeves + column.rebars, column.T_model_column, why=why), why)
         yield ""
     left_over = model.loose_sleeves + model.loose_rebars if loose else ()
     if left_over:
         yield f"Loose: {len(model.loose_sleeves)} sleeves and {len(model.loose_rebars)} rebars belong to no column"
-        yield _point_table([_point_entry(point, None, why=True) for point in left_over], why)
+        yield _point_table(_entries(left_over, None, why=why), why)
         yield ""
     if why and model.not_taken:
         yield "Left out"
@@ -198,16 +197,16 @@ def _heading(column: ColumnDesign) -> str:
     return f"{column.id}: {', '.join(place)}" if place else column.id
 
 
-def _point_table(entries: Sequence[dict[str, Any]], why: bool) -> Table | str:
+def _point_table(entries: Sequence[_Entry], why: bool) -> Table | str:
     numbers = ("x mm", "y mm", "z mm", "Diameter", "Length")
     rows = [
         [
-            entry["label"] or "-",
-            *(f"{value:.2f}" for value in entry["centre_mm"]),
-            f"{entry['diameter_mm']:g}",
-            "" if entry["length_mm"] is None else f"{entry['length_mm']:g}",
-            entry["global_id"] or "",
-            *([entry["why"]] if why else []),
+            entry.label or "-",
+            *(f"{value:.2f}" for value in entry.centre_mm),
+            f"{entry.diameter_mm:g}",
+            "" if entry.length_mm is None else f"{entry.length_mm:g}",
+            entry.global_id or "",
+            *([entry.why or ""] if why else []),
         ]
         for entry in entries
     ]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,7 +12,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from aadm_workbench.design.published import PublishedPoint
-    from aadm_workbench.model import ColumnDesign
+    from aadm_workbench.model import Array, ColumnDesign
 
 
 def published_tables(columns: Sequence[ColumnDesign]) -> Iterator[Table | str]:
@@ -38,28 +39,39 @@ def published_tables(columns: Sequence[ColumnDesign]) -> Iterator[Table | str]:
         yield ""
 
 
-def published_entries(columns: Sequence[ColumnDesign]) -> list[dict[str, Any]]:
+@dataclass(frozen=True, eq=False)
+class PublishedEntry:
+    """A point as ``--json`` tells it, in the frame of the model."""
+
+    label: str
+    centre_mm: Array | None
+    edge_points: int
+    difference_mm: float | None
+
+
+@dataclass(frozen=True, eq=False)
+class PublishedColumn:
+    """The points of a column."""
+
+    id: str
+    points: list[PublishedEntry]
+
+
+def published_entries(columns: Sequence[ColumnDesign]) -> list[PublishedColumn]:
     """The same for ``--json``."""
     from aadm_workbench.inspection.as_designed import published_route
 
-    return [
-        {
-            "id": column.id,
-            "points": [
-                {
-                    "label": point.label,
-                    "centre_mm": _in_model(point, column),
-                    "edge_points": point.edge_points,
-                    "difference_mm": point.difference_mm,
-                }
-                for point in published_route(column)
-            ],
-        }
-        for column in columns
-    ]
+    found = []
+    for column in columns:
+        points = [
+            PublishedEntry(point.label, _in_model(point, column), point.edge_points, point.difference_mm)
+            for point in published_route(column)
+        ]
+        found.append(PublishedColumn(column.id, points))
+    return found
 
 
-def _in_model(point: PublishedPoint, column: ColumnDesign) -> Any:
+def _in_model(point: PublishedPoint, column: ColumnDesign) -> Array | None:
     T = column.T_model_column
     if point.centre is None or T is None:
         return point.centre

@@ -17,6 +17,14 @@ SENTENCES: dict[str, Sentence] = {
         "describes cameras that differ, and none is called depth; keep the depth camera's only",
         "描述了多台不同的相机，且没有一台叫 depth；请只保留深度相机",
     ),
+    "scan.capture_there": Sentence(
+        "holds files already; name another folder for this capture",
+        "其中已有文件；请为该采集指定另一个文件夹",
+    ),
+    "scan.capture_unwritten": Sentence(
+        "the capture cannot be written ({why}); check that the folder around it is writable, and has room",
+        "无法写入采集（{why}）；请检查其上级文件夹是否可写、是否有空间",
+    ),
     "scan.centre": Sentence(
         "has its centre (cx, cy) = ({cx:.1f}, {cy:.1f}) outside of its {width} x {height} pixels: the size "
         "belongs to another camera or another resolution",
