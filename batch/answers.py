@@ -6,15 +6,18 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from aadm_workbench.errors import DesignError
+
+if TYPE_CHECKING:
+    from aadm_workbench.model import Json
 
 _SHOWN = 6  # reasons in a message; more say no more
 _DIGITS = 4  # of a point that is drawn, mm
 
 
-def columns(question: Mapping[str, Any]) -> dict[str, Any]:
+def columns(question: Mapping[str, Any]) -> dict[str, Json]:
     """Columns with their assembly points.
 
     Parameters
@@ -77,7 +80,7 @@ def _check_one(model: Any, label: str) -> None:
         raise DesignError(f"{label} holds {len(model.columns)} columns: {called}. Select one of them.")
 
 
-def scan(question: Mapping[str, Any]) -> dict[str, Any]:
+def scan(question: Mapping[str, Any]) -> dict[str, Json]:
     """A scan for the eye.
 
     Parameters
@@ -121,5 +124,5 @@ def scan(question: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-ANSWERS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {"columns": columns, "scan": scan}
+ANSWERS: dict[str, Callable[[Mapping[str, Any]], dict[str, Json]]] = {"columns": columns, "scan": scan}
 """By what is asked."""
