@@ -26,6 +26,7 @@ from aadm_workbench.model import (
     Scan,
     Verdict,
 )
+from aadm_workbench.model.reason import renamed
 
 Points = tuple[AssemblyPoint | None, ...] | None
 
@@ -62,7 +63,7 @@ def measure_frames(
             with watch.stage("read"):
                 scan = task.read(name)
         except AadmError as error:
-            reason = str(error).replace(str(task.path_of(name)), name)
+            reason = renamed(error.reason, str(task.path_of(name)), name)
             measured.append(unread(name, reason, task.settings.method))
             continue
         with watch.stage("hoisting"):

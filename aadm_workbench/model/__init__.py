@@ -54,6 +54,11 @@ from aadm_workbench.model.measured import (
     Plane,
     Scan,
 )
+from aadm_workbench.model.reason import (
+    Reason,
+    codes_of,
+    in_one,
+)
 from aadm_workbench.model.repairs import (
     RepairAction,
     RepairReport,
@@ -151,6 +156,7 @@ __all__ = [
     "PointResult",
     "PoseWindow",
     "Profile",
+    "Reason",
     "RepairAction",
     "RepairReport",
     "RepairStep",
@@ -169,5 +175,7 @@ __all__ = [
     "Vector2",
     "Vector3",
     "Verdict",
+    "codes_of",
+    "in_one",
     "worst",
 ]

@@ -101,4 +101,4 @@ def _design(column: JobTable, name: str) -> ColumnDesign | None:
     try:
         return inline_design(name, dict(table.values))
     except DesignError as error:
-        raise table.wrong(None, str(error)) from error
+        raise table.wrong(None, error.reason) from error
