@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from aadm_workbench.model import PointResult, SpacingResult, Verdict
+from aadm_workbench.model import PointResult, Reason, SpacingResult, Verdict
 
-AMBIGUOUS_POINT = "the verdict depends on how the column is turned, which the scan does not show"
+AMBIGUOUS_POINT = Reason("assembly.turn_decides")
 
 
 def agreed(verdicts: Iterable[Verdict]) -> Verdict:
@@ -35,9 +35,9 @@ def agree_on_spacing(candidates: Sequence[Sequence[SpacingResult]]) -> tuple[Spa
 
 
 def _undecided_point(point: PointResult) -> PointResult:
-    return replace(point, verdict=Verdict.INCONCLUSIVE, reason=f"{point.label}: {AMBIGUOUS_POINT}")
+    return replace(point, verdict=Verdict.INCONCLUSIVE, reason=Reason("said.of", what=point.label, why=AMBIGUOUS_POINT))
 
 
 def _undecided_spacing(spacing: SpacingResult) -> SpacingResult:
-    reason = f"{spacing.between[0]}–{spacing.between[1]}: {AMBIGUOUS_POINT}"
+    reason = Reason("said.between", first=spacing.between[0], second=spacing.between[1], why=AMBIGUOUS_POINT)
     return replace(spacing, verdict=Verdict.INCONCLUSIVE, reason=reason)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from aadm_workbench.assembly.rules import not_assessed
-from aadm_workbench.model import GroupReport, Profile, RuleResult, TrialReport, Verdict, worst
+from aadm_workbench.model import GroupReport, Profile, Reason, RuleResult, TrialReport, Verdict, worst
 
 _OF_THE_ERECTED_COLUMN = ("column_axis", "elevation", "verticality")
 
@@ -28,7 +28,7 @@ def sum_up(
 def rules_of_the_erected_column(profile: Profile) -> tuple[RuleResult, ...]:
     """The rules of a profile that no scan before hoisting can answer, as not assessed."""
     return tuple(
-        not_assessed(rule, "it is measured on the erected column")
+        not_assessed(rule, Reason("assembly.erected"))
         for rule in profile.rules
         if rule.limits in _OF_THE_ERECTED_COLUMN
     )

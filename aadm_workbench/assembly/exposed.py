@@ -8,7 +8,7 @@ from aadm_workbench.assembly.decision import decide_signed
 from aadm_workbench.assembly.place import PlacedPoint
 from aadm_workbench.assembly.spacing import describe_limits
 from aadm_workbench.assembly.tolerances import describe_clause
-from aadm_workbench.model import AssemblyPoint, Rule, RuleResult, Verdict, worst
+from aadm_workbench.model import AssemblyPoint, Reason, Rule, RuleResult, Verdict, in_one, worst
 
 
 def inspect_exposed_length(
@@ -23,7 +23,7 @@ def inspect_exposed_length(
     """
     clause, counted = describe_clause(rule), not rule.advisory
     if design_exposed_mm is None:
-        reason = "the design gives no exposed length"
+        reason = Reason("assembly.no_exposed_length")
         return RuleResult(rule.name, clause, rule.source, Verdict.NOT_ASSESSED, counted, reason)
     verdicts, reasons, deviations = [], [], []
     for target, point in zip(design, placed, strict=True):
@@ -35,12 +35,18 @@ def inspect_exposed_length(
         deviations.append(deviation_mm)
         if verdict is Verdict.FAIL:
             reasons.append(
-                f"{target.label} sticks out {point.exposed_length_mm:.1f} mm, {deviation_mm:+.1f} mm from design, "
-                f"limit {describe_limits(rule)} mm ({clause})"
+                Reason(
+                    "assembly.sticks_out",
+                    label=target.label,
+                    exposed_mm=point.exposed_length_mm,
+                    deviation_mm=deviation_mm,
+                    limits=describe_limits(rule),
+                    clause=clause,
+                )
             )
     if not verdicts:
-        reason = "the scan does not show the floor"
+        reason = Reason("assembly.no_floor")
         return RuleResult(rule.name, clause, rule.source, Verdict.NOT_ASSESSED, counted, reason)
     return RuleResult(
-        rule.name, clause, rule.source, worst(verdicts), counted, "; ".join(reasons), max(deviations, key=abs)
+        rule.name, clause, rule.source, worst(verdicts), counted, in_one(reasons), max(deviations, key=abs)
     )

@@ -14,14 +14,12 @@ from aadm_workbench.model import (
     Array,
     ControlPoint,
     GroupReport,
+    Reason,
     Scan,
     Vector3,
 )
 
-AXES_NOT_TOLD = (
-    "the file does not tell how its axes run: the top of the picture was taken for -y of the file; "
-    'write axes = "opengl" where it is +y'
-)
+AXES_NOT_TOLD = Reason("assembly.axes_not_told")
 """Note of a cloud in any frame, for which the job declares what is at the top."""
 
 
@@ -48,7 +46,9 @@ def axes_not_told(views: Sequence[Scan], up_deg: float | None) -> tuple[str, ...
     """A note on each scan whose top a job declares, and whose axes nobody does."""
     if up_deg is None:
         return ()
-    return tuple(f"{view.source}: {AXES_NOT_TOLD}" for view in views if view.axes == AXES_UNKNOWN)
+    return tuple(
+        Reason("said.of_file", file=view.source, why=AXES_NOT_TOLD) for view in views if view.axes == AXES_UNKNOWN
+    )
 
 
 def _absolute(absolute: AbsolutePosition, R: Array) -> AbsolutePosition:

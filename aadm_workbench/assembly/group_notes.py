@@ -5,22 +5,19 @@ from __future__ import annotations
 import numpy as np
 
 from aadm_workbench.assembly.tolerances import rules_for
-from aadm_workbench.model import Extraction, Kind, Profile, Scan
+from aadm_workbench.model import Extraction, Kind, Profile, Reason, Scan
 
 LARGEST_U_TO_LIMIT = 0.409
 """1/sqrt(-2 ln 0.05): with a larger u per axis no radial deviation is within the limit at 95 % (Rice law)."""
 
-NO_CAMERA = (
-    "the cloud does not tell where its camera stood, so its edges are less certain; "
-    "with [camera] and the camera's own depth map or cloud they are better"
-)
+NO_CAMERA = Reason("assembly.no_camera")
 """Note of a scan whose viewpoint nobody knows."""
 
 
 def of_the_files(views: tuple[Scan, ...]) -> tuple[str, ...]:
     """What was noticed while the scans were read."""
     return tuple(
-        f"{view.source}: {note}"
+        Reason("said.of_file", file=view.source, why=note)
         for view in views
         for note in (*view.notes, *(() if view.viewpoint is not None else (NO_CAMERA,)))
     )
@@ -40,6 +37,4 @@ def unsupported(u_mm: float | None, profile: Profile, kind: Kind) -> tuple[str, 
     limits = [rule.upper for rule in rules_for(profile, f"{kind.value}_position")]
     if u_mm is None or not limits or u_mm < LARGEST_U_TO_LIMIT * min(limits):
         return ()
-    return (
-        f"this scan cannot support a decision on {min(limits):g} mm: its centres have u = {u_mm:.2f} mm, rescan closer",
-    )
+    return (Reason("assembly.unsupported", limit_mm=min(limits), u_mm=u_mm),)

@@ -15,9 +15,13 @@ from aadm_workbench.model import (
     Extraction,
     GroupReport,
     PointResult,
+    Reason,
     Scan,
     Verdict,
+    codes_of,
 )
+
+_UNEXPLAINED = {"assembly.not_measured", "assembly.missing", "assembly.unspaced", "extract.not_found"}
 
 
 def missing_places(points: tuple[AssemblyPoint, ...], match: Match) -> dict[int, Array]:
@@ -47,12 +51,12 @@ def with_reasons(report: GroupReport, reasons: Mapping[int, str]) -> GroupReport
     if not reasons:
         return report
     points = tuple(_explained(point, reasons.get(k)) for k, point in enumerate(report.points))
-    said = tuple(f"{report.points[k].label} not measured: {text}" for k, text in reasons.items())
-    kept = tuple(text for text in report.reasons if "not measured" not in text and "not found" not in text)
+    said = tuple(Reason("assembly.not_measured", label=report.points[k].label, why=text) for k, text in reasons.items())
+    kept = tuple(text for text in report.reasons if not _UNEXPLAINED & codes_of(text))
     return replace(report, points=points, reasons=(*kept, *said))
 
 
 def _explained(point: PointResult, reason: str | None) -> PointResult:
     if reason is None or point.verdict is not Verdict.NOT_MEASURED:
         return point
-    return replace(point, reason=f"{point.label}: {reason}")
+    return replace(point, reason=Reason("said.of", what=point.label, why=reason))

@@ -20,8 +20,9 @@ from aadm_workbench.assembly.decision import (
     standard_uncertainty,
 )
 from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
-from aadm_workbench.assembly.tolerances import describe_clause
-from aadm_workbench.model import Array, AssemblyPoint, PointResult, Rule, Vector2, Vector3, Verdict
+from aadm_workbench.assembly.tolerances import describe_limit
+from aadm_workbench.extract.missing import NOT_FOUND
+from aadm_workbench.model import Array, AssemblyPoint, PointResult, Reason, Rule, Vector2, Vector3, Verdict
 
 
 def inspect_positions(
@@ -31,7 +32,7 @@ def inspect_positions(
     *,
     decision: DecisionRule,
     scale_error: float = 0.0,
-    missing: str = "not found in the scan",
+    missing: str = NOT_FOUND,
 ) -> tuple[PointResult, ...]:
     """Offset of every measured centre from its design point, and the verdict on it.
 
@@ -114,7 +115,7 @@ def _unmeasured(target: AssemblyPoint, rule: Rule | None, missing: str) -> Point
         u_mm=None,
         limit_mm=None if rule is None else rule.upper,
         verdict=Verdict.NOT_MEASURED,
-        reason=f"{target.label}: {missing}",
+        reason=Reason("said.of", what=target.label, why=missing),
     )
 
 
@@ -186,13 +187,8 @@ def _rows(covariance: Array | None) -> tuple[Vector2, Vector2] | None:
 def _reason(label: str, deviation_mm: float, u_mm: float | None, rule: Rule | None, verdict: Verdict) -> str:
     if rule is None or verdict not in (Verdict.FAIL, Verdict.INCONCLUSIVE):
         return ""
-    limit = f"limit {rule.upper:g} mm ({describe_clause(rule)})"
-    if verdict is Verdict.FAIL:
-        return f"{label} is {deviation_mm:.2f} mm from design, {limit}"
-    return (
-        f"{label} is {deviation_mm:.2f} mm from design, {limit}: "
-        f"too close to it for an uncertainty of {u_mm or 0.0:.2f} mm, rescan closer"
-    )
+    text = Reason("assembly.from_design", label=label, deviation_mm=deviation_mm, limit=describe_limit(rule))
+    return text if verdict is Verdict.FAIL else Reason("assembly.close_rescan", what=text, u_mm=u_mm or 0.0)
 
 
 def as_vector(values: Array) -> Vector3:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from aadm_workbench.assembly.tolerances import describe_clause, rules_for
-from aadm_workbench.model import PointResult, Profile, Rule, RuleResult, SpacingResult, Verdict, worst
+from aadm_workbench.model import PointResult, Profile, Rule, RuleResult, SpacingResult, Verdict, in_one, worst
 
 
 def applicable_rules(profile: Profile, quantity: str) -> tuple[tuple[Rule, ...], tuple[Rule, ...]]:
@@ -33,7 +33,7 @@ def _worst_of(verdicts: Sequence[Verdict], reasons: Sequence[str]) -> tuple[Verd
     """The worst verdict, and the reasons of all that are not a pass, the worst first."""
     order = (Verdict.FAIL, Verdict.NOT_MEASURED, Verdict.INCONCLUSIVE)
     ordered = [reason for kind in order for verdict, reason in zip(verdicts, reasons, strict=True) if verdict is kind]
-    return worst(verdicts), "; ".join(reason for reason in ordered if reason)
+    return worst(verdicts), in_one(reason for reason in ordered if reason)
 
 
 def rule_result(rule: Rule, verdict: Verdict, reason: str, worst_mm: float | None = None) -> RuleResult:

@@ -11,7 +11,7 @@ from aadm_workbench.assembly.decision import Decision, DecisionRule, decide_sign
 from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
 from aadm_workbench.assembly.tolerances import describe_clause
 from aadm_workbench.design.recognise.pattern import adjacent
-from aadm_workbench.model import Array, AssemblyPoint, Rule, SpacingResult, Verdict
+from aadm_workbench.model import Array, AssemblyPoint, Reason, Rule, SpacingResult, Verdict
 
 
 def inspect_spacing(
@@ -46,8 +46,8 @@ def _spacing(
     limit_mm = None if rule is None else (rule.lower, rule.upper)
     first, second = placed[pair[0]], placed[pair[1]]
     if first is None or second is None:
-        missing = " and ".join(label for label, point in zip(between, (first, second), strict=True) if point is None)
-        reason = f"{between[0]}–{between[1]}: {missing} was not measured"
+        missing = [label for label, point in zip(between, (first, second), strict=True) if point is None]
+        reason = Reason("assembly.unspaced", first=between[0], second=between[1], missing=missing)
         return SpacingResult(between, design_mm, None, None, None, limit_mm, Verdict.NOT_MEASURED, reason)
     span = (second.point.centre - first.point.centre)[:2]
     measured_mm = float(np.linalg.norm(span))
@@ -84,13 +84,15 @@ def _reason(
 ) -> str:
     if rule is None or verdict not in (Verdict.FAIL, Verdict.INCONCLUSIVE):
         return ""
-    text = (
-        f"{between[0]}–{between[1]} are spaced {deviation_mm:+.2f} mm from design, "
-        f"limit {describe_limits(rule)} mm ({describe_clause(rule)})"
+    text = Reason(
+        "assembly.spaced",
+        first=between[0],
+        second=between[1],
+        deviation_mm=deviation_mm,
+        limits=describe_limits(rule),
+        clause=describe_clause(rule),
     )
-    if verdict is Verdict.FAIL:
-        return text
-    return f"{text}: too close to it for an uncertainty of {u_mm or 0.0:.2f} mm, rescan closer"
+    return text if verdict is Verdict.FAIL else Reason("assembly.close_rescan", what=text, u_mm=u_mm or 0.0)
 
 
 def describe_limits(rule: Rule) -> str:
@@ -99,4 +101,5 @@ def describe_limits(rule: Rule) -> str:
         return f"{rule.upper:+g}"
     if rule.lower == -rule.upper:
         return f"±{rule.upper:g}"
-    return f"{rule.lower:+g} to {rule.upper:+g}".replace("+0 ", "0 ")
+    code = "assembly.from_zero" if rule.lower == 0.0 else "assembly.from_to"
+    return Reason(code, lower=rule.lower, upper=rule.upper)

@@ -27,7 +27,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from aadm_workbench.errors import JobError
-from aadm_workbench.model import Profile, Rule
+from aadm_workbench.model import Profile, Reason, Rule
 
 QUANTITIES = {
     "sleeve_position": "radial",
@@ -44,6 +44,9 @@ QUANTITIES = {
     "section_size": "signed",
     "pattern_in_section": "per_axis",
     "face_flatness": "signed",
+    "bearing_length": "signed",
+    "flushness": "signed",
+    "inclination": "signed",
 }
 """What a rule can limit, and how its deviation is taken unless the rule says otherwise."""
 
@@ -145,7 +148,14 @@ def rules_for(profile: Profile, quantity: str) -> tuple[Rule, ...]:
 
 def describe_clause(rule: Rule) -> str:
     """The clause as messages print it, with the mark of a limit that nobody has verified."""
-    return rule.clause if rule.source == "verified" else f"{rule.clause}, unverified"
+    return rule.clause if rule.source == "verified" else Reason("assembly.unverified", clause=rule.clause)
+
+
+def describe_limit(rule: Rule | None) -> Reason:
+    """The upper limit of a rule as messages print it, with its clause."""
+    if rule is None:
+        return Reason("assembly.no_limit")
+    return Reason("assembly.limit", upper=rule.upper, clause=describe_clause(rule))
 
 
 def _folder() -> Path:

@@ -13,6 +13,7 @@ from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.model_file import sha256_of
 from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
 from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Reason
 
 _MODULE = "aadm_workbench.document.sample.export"
 
@@ -42,6 +43,6 @@ def read_with_kernel(path: Path, check: Callable[[Path], None], rules: Rules, *,
         elements = from_json(answer["elements"])
         problems = tuple(dict.fromkeys(str(problem) for problem in answer["problems"]))
     except (LookupError, TypeError, ValueError) as error:
-        raise DesignError(f"{path}: what FreeCAD answered about it makes no sense ({error}).") from error
+        raise DesignError(Reason("design.kernel", path=path, why=error)) from error
     found = recognise(elements, Origin(str(path), sha256, schema, problems), rules)
     return replace(found, seconds=perf_counter() - began)

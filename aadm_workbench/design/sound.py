@@ -8,7 +8,7 @@ import numpy as np
 
 from aadm_workbench.design.recognise.paths import joined
 from aadm_workbench.design.recognise.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 FARTHEST_MM = 1e12
 """Twenty times around the earth: coordinates beyond are no places, and their squares still fit a float."""
@@ -50,7 +50,7 @@ def _swept(disk: SweptDisk) -> SweptDisk:
         _check_places(leg.points)
     legs = tuple(joined(disk.legs))
     if not legs:
-        raise UnsoundError("it is swept along a line without length")
+        raise UnsoundError(Reason("sound.no_line"))
     _check_size(disk.radius_mm, "radius")
     return replace(disk, legs=legs)
 
@@ -58,9 +58,9 @@ def _swept(disk: SweptDisk) -> SweptDisk:
 def _prism(prism: Prism) -> Prism:
     _check_places(prism.sweep, *(loop.points for loop in (prism.outer, *prism.holes)))
     if float(np.linalg.norm(prism.sweep)) < _NO_LENGTH_MM:
-        raise UnsoundError("its extrusion has no depth")
+        raise UnsoundError(Reason("sound.no_depth"))
     if not _has_extent(prism.outer):
-        raise UnsoundError("its profile has no area")
+        raise UnsoundError(Reason("sound.no_area"))
     return replace(prism, holes=tuple(hole for hole in prism.holes if _has_extent(hole)))
 
 
@@ -75,7 +75,7 @@ def _has_extent(loop: Loop) -> bool:
 def _turned(turned: Turned) -> Turned:
     _check_places(turned.origin, turned.axis, turned.outline_rz)
     if np.ptp(turned.outline_rz[:, 1]) < _NO_LENGTH_MM or turned.outline_rz[:, 0].max() < _NO_LENGTH_MM:
-        raise UnsoundError("what it turns has no area")
+        raise UnsoundError(Reason("sound.turned_no_area"))
     return turned
 
 
@@ -85,23 +85,23 @@ def _mesh(mesh: Mesh) -> Mesh:
     for face in mesh.faces:
         for loop in face:
             if len(loop) and (loop.min() < 0 or loop.max() >= len(mesh.vertices)):
-                raise UnsoundError("a face of it names a corner that is not in its list of points")
+                raise UnsoundError(Reason("sound.no_corner"))
     faces = tuple(
         (face[0], *(hole for hole in face[1:] if len(hole) >= _FEWEST_CORNERS))
         for face in mesh.faces
         if face and len(face[0]) >= _FEWEST_CORNERS
     )
     if not faces:
-        raise UnsoundError("it has no faces")
+        raise UnsoundError(Reason("sound.no_faces"))
     return replace(mesh, faces=faces)
 
 
 def _check_places(*places: Array) -> None:
     for points in places:
         if not (np.abs(points) < FARTHEST_MM).all():
-            raise UnsoundError("it lies beyond all maps")
+            raise UnsoundError(Reason("sound.far"))
 
 
 def _check_size(size_mm: float, what: str) -> None:
     if not _NO_LENGTH_MM < size_mm < FARTHEST_MM:
-        raise UnsoundError(f"its {what} is {size_mm:g} mm")
+        raise UnsoundError(Reason("sound.size", what=what, size_mm=size_mm))

@@ -11,7 +11,7 @@ from aadm_workbench.design.elements import Element, Solid
 from aadm_workbench.design.recognise.bar_courses import Course
 from aadm_workbench.design.recognise.tubes import Tube
 from aadm_workbench.design.sound import FARTHEST_MM
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _NO_LENGTH_MM = 1e-6  # a thousandth of what designs are read to
 _SHOWN = 6  # elements in a warning
@@ -26,12 +26,12 @@ def sound_elements(elements: Iterable[Element]) -> tuple[list[Element], list[str
         placed = _is_frame(element.T_model_element)
         if len(solids) < len(element.solids) or not placed:
             called = element.Name or element.GlobalId
-            what = "its placement makes no sense" if not placed else "a body of it has no extent, or lies nowhere"
-            lines.append(f"{element.is_a() or 'object'} {called!r} was left out, wholly or in part: {what}")
+            what = Reason("sound.placement") if not placed else Reason("sound.body")
+            lines.append(Reason("sound.left_out", type=element.is_a() or "object", called=repr(called), why=what))
         if solids and placed:
             kept.append(replace(element, solids=solids))
     more = len(lines) - _SHOWN
-    return kept, [*lines[:_SHOWN], f"{more} more elements were left out"] if more > 0 else lines
+    return kept, [*lines[:_SHOWN], Reason("sound.more", count=more)] if more > 0 else lines
 
 
 def _is_sound(solid: Solid) -> bool:

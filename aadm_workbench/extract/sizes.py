@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.extract.method import extract
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Scan
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Scan, in_one
 
 _SAME_SIZE = 0.04  # relative: diameters this near to each other are one size; bars come in steps of a tenth
 _ONE_PLACE = 0.5  # of the smaller diameter: two finds this near to each other are one thing
@@ -62,7 +62,7 @@ def extract_sizes(
         return found[0]
     most = max(found, key=lambda one: len(one.points))
     if not most.points:
-        return replace(most, reason="; ".join(dict.fromkeys(one.reason for one in found)))
+        return replace(most, reason=in_one(one.reason for one in found))
     finds = [find for one, size in zip(found, sizes_mm, strict=True) for find in _finds(one, size)]
     kept = _one_for_each_place(finds)
     exposed = tuple(find[1] for find in kept) if any(one.exposed_length_mm for one in found) else ()

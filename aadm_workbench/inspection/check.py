@@ -41,6 +41,7 @@ from aadm_workbench.model import (
     GroupReport,
     Kind,
     Profile,
+    Reason,
     RepairReport,
     Scan,
     TrialReport,
@@ -192,12 +193,13 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
         found = [_matched(points, *one, settings, rng) for one in zip(views, seen, ups, strict=True)]
         extraction, match = found[0]
         if control is not None and not match:
-            control = NoFit("the points in the first scan of the rebars, that of the control points, were not matched")
+            control = NoFit(Reason("survey.control_unmatched"))
         notes: tuple[str, ...] = ()
         if len(views) > 1:
             extraction, notes = merge_views([one for one, _ in found], [one for _, one in found])
             match = match_extraction(points, extraction, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
-            reasons = dict.fromkeys(missing_places(points, match), f"in none of the {len(views)} views")
+            unseen: str = Reason("assembly.in_no_view", views=len(views))
+            reasons = dict.fromkeys(missing_places(points, match), unseen)
         else:
             reasons = reasons_of_missing(scan, extraction, missing_places(points, match), diameter_mm, rng)
     scale_error = _scale_error(scan)

@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from aadm_workbench import __version__
 from aadm_workbench.assembly.findings.same_scan import with_same_scans
 from aadm_workbench.inspection.tasks import JobPlan
-from aadm_workbench.model import ColumnReport, JobReport, MouldDrift, Profile
+from aadm_workbench.model import ColumnReport, JobReport, MouldDrift, Profile, StackSettings
 
 _NUMERICAL_PACKAGES = ("numpy", "scipy", "opencv-python-headless", "ifcopenshell")
 
@@ -46,6 +46,7 @@ def job_entry(plan: JobPlan) -> dict[str, str]:
         "method": settings.method,
         "decision": settings.decision,
         "seed": str(settings.seed),
+        **({} if plan.job.stack == StackSettings() else {"stack": plan.job.stack.text}),
     }
 
 

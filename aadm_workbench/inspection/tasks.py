@@ -93,7 +93,7 @@ def plan_job(job: Job, *, only: Sequence[str] = (), method: str = "refined") -> 
         # It costs only the columns that are looked up in it.
         if not any(column.design is not None for column in columns):
             raise
-        unreadable = str(error)
+        unreadable = error.reason
     if model is not None:
         _check_named_once(job, model)
     settings = CheckSettings(job.profile, method, job.decision, job.checks, job.turns)
@@ -161,7 +161,7 @@ def _designed(model: ModelDesign, column: JobColumn) -> ColumnDesign | str:
     try:
         return model.column(column.id)
     except DesignError as error:
-        return str(error)
+        return error.reason
 
 
 def _task(

@@ -54,6 +54,11 @@ from aadm_workbench.model.measured import (
     Plane,
     Scan,
 )
+from aadm_workbench.model.reason import (
+    Reason,
+    codes_of,
+    in_one,
+)
 from aadm_workbench.model.repairs import (
     RepairAction,
     RepairReport,
@@ -64,6 +69,7 @@ from aadm_workbench.model.reports import (
     JobReport,
 )
 from aadm_workbench.model.results import (
+    AimedPose,
     BestPair,
     BestPose,
     Candidate,
@@ -91,6 +97,9 @@ from aadm_workbench.model.shipment import (
     ShipmentProblem,
     ShipmentReport,
 )
+from aadm_workbench.model.stack import (
+    StackSettings,
+)
 from aadm_workbench.model.verdicts import (
     SUMMED,
     WORST_FIRST,
@@ -107,6 +116,7 @@ __all__ = [
     "WORST_FIRST",
     "AbsolutePoint",
     "AbsolutePosition",
+    "AimedPose",
     "Array",
     "AssemblyPoint",
     "Assignment",
@@ -146,6 +156,7 @@ __all__ = [
     "PointResult",
     "PoseWindow",
     "Profile",
+    "Reason",
     "RepairAction",
     "RepairReport",
     "RepairStep",
@@ -157,11 +168,14 @@ __all__ = [
     "ShipmentReport",
     "SleeveDrift",
     "SpacingResult",
+    "StackSettings",
     "TrialPose",
     "TrialReport",
     "TurnResult",
     "Vector2",
     "Vector3",
     "Verdict",
+    "codes_of",
+    "in_one",
     "worst",
 ]

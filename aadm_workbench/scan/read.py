@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aadm_workbench.errors import CameraError, ScanError
-from aadm_workbench.model import CAMERA_AXES, OPENGL_AXES, Array, Camera, FloatArray, Scan
+from aadm_workbench.model import CAMERA_AXES, OPENGL_AXES, Array, Camera, FloatArray, Reason, Scan
 from aadm_workbench.scan.axes import AXES, TAKEN_FOR_OPENGL, axes_of, turned
 from aadm_workbench.scan.camera import seen_by
 from aadm_workbench.scan.capture import find_capture
@@ -136,7 +136,7 @@ def _read_capture(path: Path, name: str, declared: Declared, image: Path | None)
     except CameraError as error:
         if capture.declared.camera is not None or not capture.notes:
             raise
-        raise CameraError(f"{error}; {'; '.join(capture.notes)}") from error
+        raise CameraError(Reason("said.with_notes", why=error, notes=capture.notes)) from error
     return replace(scan, source=name, sha256=capture.sha256(scan.sha256), notes=(*capture.notes, *scan.notes))
 
 
@@ -145,7 +145,7 @@ def _read_file(path: Path, name: str, declared: Declared, image: Path | None) ->
     reader = _READERS.get(path.suffix.lower())
     if reader is None:
         known = " ".join(supported_formats())
-        raise ScanError(f"{path}: files of type {path.suffix or '(none)'} are not read; export one of {known}")
+        raise ScanError(Reason("scan.format", path=path, suffix=path.suffix or "(none)", known=known))
     file = load(path, name)
     cloud = reader(file, declared)
     axes = _axes(file, cloud, declared)
@@ -192,16 +192,16 @@ def _unit_note(cloud: Cloud, declared: Declared) -> tuple[str, ...]:
     """Return a note where a file gives its unit itself, and it is not the one that the job declares."""
     if not cloud.unit_from or math.isclose(cloud.mm_per_unit, declared.mm_per_unit):
         return ()
-    return (f"the unit of the file was taken, {cloud.mm_per_unit:.7g} mm: {cloud.unit_from}",)
+    return (Reason("scan.unit_of_file", mm_per_unit=cloud.mm_per_unit, why=cloud.unit_from),)
 
 
 def _declared(units: str, camera: Camera | None, depth_scale_mm: float | None, axes: str | None) -> Declared:
     if units not in MM_PER_UNIT:
-        raise ScanError(f"the unit of scans is {units!r}; it must be one of {', '.join(map(repr, MM_PER_UNIT))}")
+        raise ScanError(Reason("scan.units", units=repr(units), known=map(repr, MM_PER_UNIT)))
     if depth_scale_mm is not None and not (math.isfinite(depth_scale_mm) and depth_scale_mm > 0):
-        raise CameraError(f"depth_scale_mm is {depth_scale_mm}; it must be greater than 0, such as 0.02")
+        raise CameraError(Reason("scan.depth_scale", depth_scale_mm=depth_scale_mm))
     if axes is not None and axes not in AXES:
-        raise ScanError(f"the axes of scans are {axes!r}; they must be one of {', '.join(map(repr, AXES))}")
+        raise ScanError(Reason("scan.axes", axes=repr(axes), known=map(repr, AXES)))
     return Declared(MM_PER_UNIT[units], camera, depth_scale_mm, axes)
 
 
@@ -210,7 +210,7 @@ def _measured(file: ScanFile, cloud: Cloud, camera: Camera | None, axes: str) ->
     missing = without_return(cloud.points)
     dropped = int(np.count_nonzero(missing))
     if dropped == missing.size:
-        raise file.wrong(f"none of its {missing.size} points is a measurement; scan again, or export the right frame")
+        raise file.wrong(Reason("scan.nothing_measured", count=missing.size))
     # A declared camera fixes the frame to its own, in which the files of all cameras hold their points.
     T_scan_file = None if camera is not None else cloud.T_scan_file
     if dropped and (camera is not None or cloud.points.ndim == 3):
@@ -252,7 +252,12 @@ def _grey_picture(path: Path, points: FloatArray, camera: Camera | None) -> npt.
     size = (camera.height, camera.width) if camera is not None else points.shape[:2] if points.ndim == 3 else grey.shape
     if grey.shape != size:
         raise file.wrong(
-            f"is {grey.shape[1]} x {grey.shape[0]} pixels, its scan {size[1]} x {size[0]}; name the picture of the "
-            "depth camera, or leave it out"
+            Reason(
+                "scan.grey_size",
+                width=grey.shape[1],
+                height=grey.shape[0],
+                scan_width=size[1],
+                scan_height=size[0],
+            )
         )
     return grey

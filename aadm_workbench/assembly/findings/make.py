@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from aadm_workbench.model import Finding
-from aadm_workbench.model.finding_sentences import FINDING_SENTENCES
+from aadm_workbench.model import Finding, Reason
 
 
 def make_finding(name: str, about: Sequence[str], **values: Any) -> Finding:
@@ -15,11 +14,11 @@ def make_finding(name: str, about: Sequence[str], **values: Any) -> Finding:
     Parameters
     ----------
     name
-        A key of :data:`~aadm_workbench.model.finding_sentences.FINDING_SENTENCES`.
+        The code of its sentence in :mod:`aadm_workbench.model.sentences.finding`, without the first part.
     about
         Labels of points, or ``sleeves``, ``rebars``, ``column``.
     values
         What the sentence says; numbers as they are, the sentence rounds them.
     """
-    text = FINDING_SENTENCES[name].en.format(about=", ".join(about), **values)
+    text = Reason(f"finding.{name}", about=about, **values)
     return Finding(name.partition(".")[0], tuple(about), values, text, holds_back=True)

@@ -17,7 +17,7 @@ from aadm_workbench.assembly.findings.shared_ids import shared_id_findings
 from aadm_workbench.assembly.findings.void import without_spoilt
 from aadm_workbench.assembly.section.findings import section_findings
 from aadm_workbench.extract.sizes import extract_sizes
-from aadm_workbench.model import ColumnDesign, ColumnReport, Extraction, Finding, Kind, Scan
+from aadm_workbench.model import ColumnDesign, ColumnReport, Extraction, Finding, Kind, Reason, Scan
 
 _SAMPLE = 10_000  # points: a look, not a measurement
 
@@ -62,7 +62,7 @@ def with_findings(
     if Kind.REBAR in seen and method == "refined":
         found += odd_bar_findings(groups[Kind.REBAR], seen[Kind.REBAR].scan, found, rng)
     lost = {kind for kind, group in groups.items() if not group.match}
-    said = [f"{kind.plural}: {groups[kind].match.reason}" for kind in lost if _told(found, kind)]
+    said = [Reason("said.of", what=kind.plural, why=groups[kind].match.reason) for kind in lost if _told(found, kind)]
     return held_back(without_spoilt(report, found, checks), found, said)
 
 

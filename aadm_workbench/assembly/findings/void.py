@@ -11,6 +11,7 @@ from aadm_workbench.model import (
     Finding,
     GroupReport,
     PointResult,
+    Reason,
     SpacingResult,
     TrialReport,
     Verdict,
@@ -93,7 +94,7 @@ def _unmeasured(point: PointResult, reason: str) -> PointResult:
         cov_mm2=None,
         probability=None,
         verdict=Verdict.NOT_MEASURED,
-        reason=f"{point.label}: {reason}",
+        reason=Reason("said.of", what=point.label, why=reason),
     )
 
 

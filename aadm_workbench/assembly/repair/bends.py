@@ -30,6 +30,7 @@ from aadm_workbench.model import (
     BoolArray,
     ColumnDesign,
     Profile,
+    Reason,
     RepairAction,
     RepairReport,
     TrialReport,
@@ -77,7 +78,7 @@ def advise_repair(
         plan, exact = found
     report = _tried_again(_report(case, plan, exact), case, plan, decision, generator)
     advice = advice_on_steps(report, trial) if plan.bends else ADVICE_TO_RESCAN
-    notes = (f"not measured, and not in this advice: {', '.join(trial.missing)}",) if trial.missing else ()
+    notes = (Reason("assembly.not_in_advice", labels=trial.missing),) if trial.missing else ()
     return replace(report, advice=advice, notes=(*report.notes, *notes))
 
 

@@ -18,7 +18,8 @@ from aadm_workbench.assembly.rules import counted_verdict, not_assessed, rule_re
 from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.extract.section.face_heights import FaceHeights
 from aadm_workbench.extract.section.outline import SIDES, SeenEdge
-from aadm_workbench.model import Array, ColumnDesign, Profile, Rule, RuleResult, Verdict, worst
+from aadm_workbench.model import Array, ColumnDesign, Profile, Reason, Rule, RuleResult, Verdict, worst
+from aadm_workbench.model.reason import in_one
 from aadm_workbench.model.section import (
     EdgeChip,
     FaceMap,
@@ -61,7 +62,7 @@ class _Line:
 
 def inspect_section(
     design: ColumnDesign,
-    seen: Mapping[str, SeenEdge | str],
+    seen: Mapping[str, SeenEdge | Reason],
     heights: FaceHeights | None,
     profile: Profile,
     *,
@@ -80,7 +81,7 @@ def inspect_section(
     if design.size_mm is None or design.section_middle_mm is None:
         return None
     middle, half = np.array(design.section_middle_mm), np.array(design.size_mm) / 2.0
-    lines = {side: _Line.of(edge) for side, edge in seen.items() if not isinstance(edge, str)}
+    lines = {side: _Line.of(edge) for side, edge in seen.items() if not isinstance(edge, Reason)}
     lengths = [_length(name, low, high, lines, seen, design, profile, decision) for name, low, high in _AXES]
     pattern = _pattern(lines, middle, profile, fit_u_mm, decision)
     flat = _flatness(heights, profile, decision)
@@ -105,7 +106,7 @@ def _both(lines: Mapping[str, _Line], first: str, second: str) -> bool:
 
 def _edge(
     side: str,
-    seen: Mapping[str, SeenEdge | str],
+    seen: Mapping[str, SeenEdge | Reason],
     lines: Mapping[str, _Line],
     middle: Array,
     half: Array,
@@ -114,7 +115,7 @@ def _edge(
     axis, sign = "xy".index(side[1]), 1.0 if side[0] == "+" else -1.0
     design_mm = float(half[axis] + sign * middle[axis])
     found = seen[side]
-    if isinstance(found, str):
+    if isinstance(found, Reason):
         return SectionEdge(side, design_mm, reason=found)
     line = lines[side]
     measured_mm, variance = line.offset_at(float(middle @ line.along))
@@ -138,7 +139,7 @@ def _length(
     low: str,
     high: str,
     lines: Mapping[str, _Line],
-    seen: Mapping[str, SeenEdge | str],
+    seen: Mapping[str, SeenEdge | Reason],
     design: ColumnDesign,
     profile: Profile,
     decision: DecisionRule,
@@ -148,7 +149,12 @@ def _length(
     assert design.section_middle_mm is not None
     design_mm = design.size_mm["xy".index(name)]
     if not _both(lines, low, high):
-        said = "; ".join(f"edge {side}: {seen[side]}" for side in (low, high) if isinstance(seen[side], str))
+        unseen = [
+            Reason("assembly.section_edge", side=side, why=seen[side])
+            for side in (low, high)
+            if isinstance(seen[side], Reason)
+        ]
+        said = in_one(unseen)
         return SectionLength(name, design_mm, verdict=_unmeasured(profile, "section_size"), reason=said)
     middle = np.array(design.section_middle_mm)
     parts = [lines[side].offset_at(float(middle @ lines[side].along)) for side in (low, high)]
@@ -163,13 +169,13 @@ def _judged(found: SectionLength, rule: Rule | None, decision: DecisionRule) -> 
     if rule is None or found.deviation_mm is None:
         return found
     decided = decide_signed(found.deviation_mm, found.u_mm, rule.lower, rule.upper, decision)
-    reason = "" if decided.verdict is Verdict.PASS else f"{found.name}: {found.deviation_mm:+.1f} mm from design"
+    off = Reason("assembly.section_off", part=found.name, off_mm=found.deviation_mm)
     return replace(
         found,
         limit_mm=(rule.lower, rule.upper),
         verdict=decided.verdict,
         probability=decided.probability,
-        reason=reason,
+        reason="" if decided.verdict is Verdict.PASS else off,
     )
 
 
@@ -179,7 +185,7 @@ def _pattern(
     """Where the sleeves sit in the section: minus where the section lies about them."""
     missing = [name for name, low, high in _AXES if not _both(lines, low, high)]
     if missing:
-        reason = f"both edges across {' and '.join(missing)} have to be seen"
+        reason = Reason("assembly.section_both", axes=missing)
         return PatternPlace(verdict=_unmeasured(profile, "pattern_in_section"), reason=reason)
     offset, u = np.zeros(2), np.zeros(2)
     for axis, (_, low, high) in enumerate(_AXES):
@@ -205,7 +211,7 @@ def _pattern(
         for value, error in zip(offset, u, strict=True)
     ]
     verdict = worst(one.verdict for one in decided)
-    said = f"the sleeves sit {offset[0]:+.1f}, {offset[1]:+.1f} mm from their place in the section"
+    said = Reason("assembly.section_pattern", dx_mm=float(offset[0]), dy_mm=float(offset[1]))
     return replace(
         found,
         limit_mm=rule.upper,
@@ -258,7 +264,7 @@ def _corner(
 
 def _flatness(heights: FaceHeights | None, profile: Profile, decision: DecisionRule) -> SectionLength:
     if heights is None:
-        reason = "a face that is roughened has no flatness"
+        reason = Reason("assembly.section_rough")
         return SectionLength("flatness", 0.0, verdict=Verdict.NOT_ASSESSED, reason=reason)
     found = SectionLength("flatness", 0.0, heights.range_mm, heights.range_mm, heights.u_mm)
     return _judged(found, _rule(profile, "face_flatness"), decision)
@@ -287,7 +293,7 @@ def _rules(
     results = []
     for rule in rules_for(profile, "section_size"):
         off = [one.deviation_mm for one in lengths if one.deviation_mm is not None]
-        said = "; ".join(one.reason for one in lengths if one.reason)
+        said = in_one([one.reason for one in lengths if one.reason])
         results.append(rule_result(rule, worst(one.verdict for one in lengths), said, max(off, key=abs, default=None)))
     for rule in rules_for(profile, "pattern_in_section"):
         worst_mm = None if pattern.offset_mm is None else max(pattern.offset_mm, key=abs)

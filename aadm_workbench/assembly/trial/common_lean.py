@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.assembly.pairs import Pair
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _FEWEST = 4
 """With fewer axes, that they agree says little."""
@@ -46,11 +46,13 @@ class CommonLean:
     def in_words(self, length_mm: float) -> str:
         """``all bars lean alike by 0.8°``, with what it may mean."""
         found = [
-            f"all {name} lean alike by {math.degrees(math.atan2(float(np.hypot(*shift)), length_mm)):.1f}°"
+            Reason(
+                "assembly.lean_alike", name=name, lean_deg=math.degrees(math.atan2(float(np.hypot(*shift)), length_mm))
+            )
             for name, shift in (("bars", self.bars), ("sleeves", self.sleeves))
             if shift.any()
         ]
-        return f"{' and '.join(found)}: they may do so, or the vertical of their scan is off by as much"
+        return Reason("assembly.common_lean", found=found)
 
 
 def common_lean(pairs: Sequence[Pair], length_mm: float) -> CommonLean:

@@ -12,8 +12,8 @@ from aadm_workbench.assembly.decision import Decision, DecisionRule, decide_radi
 from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.pose.best_pose import BestFit
 from aadm_workbench.assembly.pose.upright import planar_transform, turn
-from aadm_workbench.assembly.tolerances import describe_clause
-from aadm_workbench.model import Array, BestPair, BestPose, PairResult, Rule, TrialPose, Verdict, worst
+from aadm_workbench.assembly.tolerances import describe_limit
+from aadm_workbench.model import Array, BestPair, BestPose, PairResult, Reason, Rule, TrialPose, Verdict, in_one, worst
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,10 +155,7 @@ def _close(pair: Pair, found: PairResult, verdict: Verdict) -> str:
     """The reason where the distance is decided and the room is not."""
     if verdict is not Verdict.INCONCLUSIVE or found.clearance_mm is None:
         return ""
-    return (
-        f"{pair.rebar} has {found.clearance_mm:.2f} mm of room left in {pair.sleeve} over the ribs: "
-        "too little for its uncertainty"
-    )
+    return Reason("assembly.little_room", rebar=pair.rebar, room_mm=found.clearance_mm, sleeve=pair.sleeve)
 
 
 def _reason(
@@ -171,12 +168,12 @@ def _reason(
 ) -> str:
     texts = []
     if rule is not None and verdict in (Verdict.FAIL, Verdict.INCONCLUSIVE):
-        limit = f"limit {rule.upper:g} mm ({describe_clause(rule)})"
-        texts.append(f"{pair.rebar} is {distance_mm:.2f} mm from the centre of {pair.sleeve}, {limit}")
-        if verdict is Verdict.INCONCLUSIVE:
-            texts[-1] += f": too close to it for an uncertainty of {u_mm or 0.0:.2f} mm"
-    if clearance_mm is not None and clearance_mm < 0.0:
+        limit = describe_limit(rule)
         texts.append(
-            f"{pair.rebar} collides with {pair.sleeve}: {-clearance_mm:.2f} mm of room are missing over the ribs"
+            Reason("assembly.from_centre", rebar=pair.rebar, distance_mm=distance_mm, sleeve=pair.sleeve, limit=limit)
         )
-    return "; ".join(texts)
+        if verdict is Verdict.INCONCLUSIVE:
+            texts = [Reason("assembly.close", what=texts[0], u_mm=u_mm or 0.0)]
+    if clearance_mm is not None and clearance_mm < 0.0:
+        texts.append(Reason("assembly.collides", rebar=pair.rebar, sleeve=pair.sleeve, missing_mm=-clearance_mm))
+    return in_one(texts)

@@ -17,7 +17,7 @@ from aadm_workbench.design.ifc.words import NOT_REBAR, REBAR, SLEEVE
 from aadm_workbench.design.model_design import NotTaken
 from aadm_workbench.design.recognise.bar_courses import Course
 from aadm_workbench.design.recognise.paths import Leg, Straight
-from aadm_workbench.model import Array, AssemblyPoint, Kind
+from aadm_workbench.model import Array, AssemblyPoint, Kind, Reason, in_one
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -69,7 +69,7 @@ class BarEnd:
             axis=self.axis,
             diameter_mm=self.diameter_mm,
             global_id=self.global_id,
-            why=f"{self.why}; {why}",
+            why=in_one([self.why, why]),
             length_mm=self.length_mm,
         )
 
@@ -119,7 +119,8 @@ def _ends_of(
     ends: list[BarEnd] = []
     left: list[NotTaken] = []
     refused = None if selector else _refused_by_kind(opened, element)
-    bars, drawn = _bars_of(opened, element, shapes)
+    bars, is_axis = _bars_of(opened, element, shapes)
+    evidence = Reason("ifc.axis_of", what=evidence) if is_axis else evidence
     if not bars:
         left.append(_without_bars(element, shapes, refused))
     lengths_mm = [bar.length_mm for bar in bars]
@@ -127,7 +128,7 @@ def _ends_of(
         sizes = contradictions.compare_bar(element, bar.diameter_mm, lengths_mm)
         reason = refused or _not_a_bar(bar)
         tops = [] if reason else upright_ends(list(bar.legs))
-        ends += [_end(opened, element, f"{evidence}{drawn}", bar, sizes, top) for top in tops]
+        ends += [_end(opened, element, evidence, bar, sizes, top) for top in tops]
         if not tops:
             left.append(_left_out(element, bar, sizes[0], reason or geometric_reason(list(bar.legs))))
     return ends, left
@@ -139,16 +140,16 @@ def _undrawn(element: Any, reason: str) -> NotTaken:
 
 def _not_a_bar(bar: Course) -> str | None:
     if bar.hollow:
-        return "is hollow: a pipe or a sleeve"
+        return Reason("ifc.hollow")
     if bar.diameter_mm > _THICKEST_MM:
-        return f"is {bar.diameter_mm:g} mm thick: no reinforcing bar"
+        return Reason("ifc.thickness", diameter_mm=bar.diameter_mm)
     return None
 
 
 def _candidates(opened: OpenedIfc, selector: str | None) -> Iterable[tuple[Any, str]]:
     if selector:
         chosen = ifc_names.select(opened.file, opened.source, "rebars", selector)
-        yield from ((element, "chosen by the selector") for element in chosen)
+        yield from ((element, Reason("ifc.chosen")) for element in chosen)
         return
     yield from ((element, "IfcReinforcingBar") for element in opened.file.by_type("IfcReinforcingBar"))
     seen: set[int] = set()
@@ -164,32 +165,31 @@ def _candidates(opened: OpenedIfc, selector: str | None) -> Iterable[tuple[Any, 
 def _refused_by_kind(opened: OpenedIfc, element: Any) -> str | None:
     kind = opened.naming.predefined_type(element)
     if kind in _NOT_CONNECTING:
-        return f"is a {kind} by its PredefinedType"
+        return Reason("ifc.bar_kind", kind=kind)
     named = opened.naming.find(NOT_REBAR, element)
     if named and not opened.naming.find(REBAR, element):
-        return f"is called {named!r}: a stirrup, tie or spiral"
+        return Reason("ifc.bar_called", named=repr(named))
     return None
 
 
-def _bars_of(opened: OpenedIfc, element: Any, shapes: Shapes) -> tuple[Sequence[Course], str]:
-    """Bars of one element, from its body, else from its axis; and what is to be said about how it is drawn."""
+def _bars_of(opened: OpenedIfc, element: Any, shapes: Shapes) -> tuple[Sequence[Course], bool]:
+    """Bars of one element, from its body, else from its axis alone; and whether it was the latter."""
     bars = shapes.bars_of_product(element)
     if bars:
-        return bars, ""
+        return bars, False
     lines = shapes.axes_of_product(element)
     diameter_mm = written_diameter_mm(opened, element) if lines else None
     if diameter_mm is None:
-        return (), ""
-    return [Course(legs, diameter_mm) for legs in lines], ", drawn as its axis alone"
+        return (), False
+    return [Course(legs, diameter_mm) for legs in lines], True
 
 
 def _without_bars(element: Any, shapes: Shapes, refused: str | None) -> NotTaken:
+    reason = shapes.undrawn(element)
     if shapes.axes_of_product(element):
-        reason = "is drawn as its axis alone, and neither it nor its type says its diameter"
+        reason = Reason("ifc.axis_alone")
     elif shapes.of_product(element):
-        reason = "is drawn as a body without two round ends: no straight bar"
-    else:
-        reason = shapes.undrawn(element)
+        reason = Reason("ifc.no_round_ends")
     return _undrawn(element, refused or reason)
 
 
@@ -209,13 +209,13 @@ def geometric_reason(legs: list[Leg]) -> str:
     """Why a bar of this course has no upright end that a column could come down on."""
     length_mm = sum(leg.length_mm for leg in legs)
     if length_mm < _SHORTEST_MM:
-        return f"is {length_mm:.2f} mm long: a fragment"
+        return Reason("ifc.fragment", length_mm=length_mm)
     if np.linalg.norm(legs[0].start - legs[-1].end) < 1.0:
-        return "is closed: a stirrup"
+        return Reason("ifc.closed")
     if len(legs) == 1 and isinstance(legs[0], Straight):
         lean = np.degrees(np.arccos(min(1.0, abs(float(legs[0].direction @ UP)))))
-        return f"leans {lean:.1f}° from the vertical"
-    return f"has no straight upright end of {_SHORTEST_MM:.0f} mm: a stirrup, spiral or bent bar"
+        return Reason("ifc.leans", lean_deg=lean)
+    return Reason("ifc.no_end", least_mm=_SHORTEST_MM)
 
 
 def _end(
@@ -238,7 +238,7 @@ def _end(
         length_mm=bar.length_mm,
         over_ribs_mm=sizes[1],
         wholes=frozenset(whole.id() for whole in ifc_names.wholes(element)),
-        why="; ".join([f'{evidence} "{said}"' if said else evidence, *sizes[2]]),
+        why=in_one([Reason("ifc.evidence", evidence=evidence, said=said) if said else evidence, *sizes[2]]),
     )
 
 

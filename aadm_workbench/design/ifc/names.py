@@ -11,6 +11,7 @@ from typing import Any
 from aadm_workbench.design.ifc.entity import optional
 from aadm_workbench.design.ifc.words import COLUMN, NOT_COLUMN, NOT_REBAR, NOT_SLEEVE, REBAR, SLEEVE, find
 from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Reason
 
 __all__ = ["COLUMN", "NOT_COLUMN", "NOT_REBAR", "NOT_SLEEVE", "REBAR", "SLEEVE"]
 
@@ -224,12 +225,12 @@ def select(file: Any, source: str, key: str, query: str) -> list[Any]:
         found = filter_elements(file, _unanchored(query))
     except LarkError as error:
         reason = str(error).strip().splitlines()[0]
-        raise DesignError(f'The selector {key} = "{query}" is not understood: {reason}') from error
+        raise DesignError(Reason("design.selector_unread", key=key, query=query, why=reason)) from error
     elements: list[Any] = sorted(
         (element for element in found if element.is_a("IfcElement")), key=lambda element: element.id()
     )
     if not elements:
-        raise DesignError(f'The selector {key} = "{query}" finds no element in {source}, which holds {holdings(file)}.')
+        raise DesignError(Reason("design.selector_empty", key=key, query=query, source=source, holdings=holdings(file)))
     return elements
 
 
@@ -247,4 +248,5 @@ def holdings(file: Any) -> str:
     for element in file.by_type("IfcElement"):
         count[element.is_a()] = count.get(element.is_a(), 0) + 1
     ranked = sorted(count.items(), key=lambda item: (-item[1], item[0]))
-    return ", ".join(f"{number} {ifc_class}" for ifc_class, number in ranked) or "no elements at all"
+    parts = [f"{number} {ifc_class}" for ifc_class, number in ranked]
+    return Reason("said.list", parts=parts) if parts else Reason("design.no_elements")

@@ -45,6 +45,16 @@ NOT_COLUMN = re.compile(
     r"柱帽|柱脚|柱腳|构造柱|構造柱|柱头|柱頭|柱牛腿|capital|base[ _-]?plate|column[ _-]?base", re.IGNORECASE
 )
 
+BEAM = re.compile(
+    r"梁|\bPCL|\bYZL|\bW?KL-?\d+|(?<![a-z])beams?(?![a-z])|girder|\bTräger|\bUnterzug|\bRiegel|\bpoutre|\bligger",
+    re.IGNORECASE,
+)
+NOT_BEAM = re.compile(
+    r"梁[筋箍侧側底]|过梁|過梁|圈梁|地梁|梯梁|梁垫|梁墊|牛腿"
+    r"|lintel|ground[ _-]?beam|stair|bearing[ _-]?pad|corbel|Sturz",
+    re.IGNORECASE,
+)
+
 
 @lru_cache(maxsize=65536)
 def find(pattern: re.Pattern[str], text: str) -> str | None:

@@ -12,13 +12,13 @@ from aadm_workbench.design.recognise.element_kind import described, generic, is_
 from aadm_workbench.design.recognise.paths import Straight
 from aadm_workbench.design.recognise.selectors import select
 from aadm_workbench.design.recognise.tubes import Tube
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 DIAMETER_MM = (8.0, 60.0)
 """Of what may be a bar by its shape alone; connecting rebars have 12 to 40 mm."""
 
 _SLENDEREST_RATIO = 4.0  # length over diameter: shorter ones are bolts and dowels' heads
-_ROUND_NO_LENGTH = "has no straight round part"
+_ROUND_NO_LENGTH = Reason("ifc.no_round")
 
 
 def named_bars(elements: Sequence[Element], source: str, rule: str | None) -> FoundBars:
@@ -28,7 +28,7 @@ def named_bars(elements: Sequence[Element], source: str, rule: str | None) -> Fo
     chosen = [e for e in elements if is_rebar(e)] if rule is None else select(elements, source, "rebars", rule)
     for element in chosen:
         refused = not_connecting(element) if rule is None else None
-        evidence = described(element) if rule is None else f"chosen by the selector; {described(element)}"
+        evidence = described(element) if rule is None else Reason("ifc.chosen_element", element=described(element))
         bars = bars_of(element)
         for bar in bars:
             tops = [] if refused else upright_ends(list(bar.legs))
@@ -51,7 +51,7 @@ def drawn_bars(elements: Iterable[Element]) -> list[BarEnd]:
                 DIAMETER_MM[0] <= bar.diameter_mm <= DIAMETER_MM[1]
                 and bar.length_mm > _SLENDEREST_RATIO * bar.diameter_mm
             ):
-                why = f"{described(element)}, a bar by its shape"
+                why = Reason("ifc.bar_by_shape", element=described(element))
                 found += [_end(element, bar, top, why) for top in upright_ends(list(bar.legs))]
     return found
 

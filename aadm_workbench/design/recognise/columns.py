@@ -24,7 +24,7 @@ from aadm_workbench.design.recognise.own_frame import own_frame
 from aadm_workbench.design.recognise.selectors import called_by, select
 from aadm_workbench.design.recognise.sleeves import named_sleeves, own_holes, round_holes, unnamed_sleeves
 from aadm_workbench.design.sound_elements import sound_elements
-from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Reason
 
 _NEAR_MM = 100.0  # beside a foot: bars that are bent off, and no neighbour's
 _WIDEST_PLAN_RATIO = 4.0
@@ -218,7 +218,7 @@ def _on(
 
 
 def _bare(feet: Sequence[tuple[ColumnBody, FoundFoot]]) -> list[NotTaken]:
-    reason = "has no grouting sleeves in its foot face"
+    reason = Reason("ifc.no_sleeves")
     return [
         NotTaken(
             "column",

@@ -6,6 +6,7 @@ import re
 
 from aadm_workbench.design.elements import Element
 from aadm_workbench.design.ifc.words import COLUMN, NOT_COLUMN, NOT_REBAR, NOT_SLEEVE, REBAR, SLEEVE, find
+from aadm_workbench.model import Reason
 
 _GENERIC = frozenset(
     {"", "IfcBuildingElementProxy", "IfcBuildingElementPart", "IfcMember", "IfcElementAssembly", "IfcDiscreteAccessory"}
@@ -48,10 +49,10 @@ def is_rebar(element: Element) -> bool:
 def not_connecting(element: Element) -> str | None:
     """Why a reinforcing bar is none that a column stands on; None where it may be one."""
     if element.predefined_type in _NOT_CONNECTING:
-        return f"is a {element.predefined_type} by its PredefinedType"
+        return Reason("ifc.bar_kind", kind=element.predefined_type)
     word = find(NOT_REBAR, words(element))
     if word and not find(REBAR, words(element)):
-        return f"is called {word!r}: a stirrup, tie or spiral"
+        return Reason("ifc.bar_called", named=repr(word))
     return None
 
 
@@ -102,7 +103,7 @@ def is_opening(element: Element) -> bool:
 def described(element: Element) -> str:
     """Class and names in one text, for the reason why a point was taken."""
     said = words(element)
-    return f'{element.is_a()} "{said}"' if said else str(element.is_a())
+    return Reason("ifc.evidence", evidence=element.is_a(), said=said) if said else str(element.is_a())
 
 
 def spoken(name: str) -> bool:

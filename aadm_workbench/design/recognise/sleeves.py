@@ -20,7 +20,7 @@ from aadm_workbench.design.recognise.element_kind import (
 )
 from aadm_workbench.design.recognise.selectors import select
 from aadm_workbench.design.recognise.tubes import Tube
-from aadm_workbench.model import AssemblyPoint, Kind
+from aadm_workbench.model import AssemblyPoint, Kind, Reason
 
 _SHORTEST_TUBE_MM = 1.0  # a chamfer is shorter
 _UPRIGHT_COS = float(np.cos(np.radians(5.0)))  # 5 degrees: sleeves stand along their column
@@ -30,14 +30,14 @@ def named_sleeves(elements: Sequence[Element], source: str, rule: str | None) ->
     """Candidates by the rule, else by class and name; what a name excludes is listed apart."""
     if rule is not None:
         chosen = select(elements, source, "sleeves", rule)
-        return [c for e in chosen for c in _candidates(e, Evidence.SELECTOR, "chosen by the selector")], []
+        return [c for e in chosen for c in _candidates(e, Evidence.SELECTOR, Reason("ifc.chosen"))], []
     found: list[Candidate] = []
     left: list[NotTaken] = []
     for element in elements:
         word = sleeve_word(element)
         excluded = word and not_a_sleeve(element)
         if excluded:
-            reason = f"is called {excluded!r}: no grouting sleeve"
+            reason = Reason("ifc.no_sleeve", excluded=repr(excluded))
             left.append(NotTaken("sleeve", str(element.is_a()), element.GlobalId, element.Name, reason))
         elif word:
             evidence = Evidence.CLASS if word == "COUPLER" else Evidence.NAME
@@ -51,14 +51,14 @@ def unnamed_sleeves(elements: Sequence[Element]) -> list[Candidate]:
     return [
         candidate
         for element in may_be
-        for candidate in _candidates(element, Evidence.GEOMETRY, f"{element.is_a()} without a telling name")
+        for candidate in _candidates(element, Evidence.GEOMETRY, Reason("ifc.no_name", type=element.is_a()))
         if not candidate.tube.is_hole or is_opening(element)
     ]
 
 
 def own_holes(element: Element) -> list[Candidate]:
     """Round holes in a column's own body."""
-    why = f"a round hole in {described(element)}"
+    why = Reason("ifc.hole_in", element=described(element))
     return [Candidate(element, tube, Evidence.GEOMETRY, why) for tube in element.tubes if _is_hole(tube)]
 
 
@@ -73,7 +73,7 @@ def round_holes(elements: Sequence[Element]) -> tuple[tuple[AssemblyPoint, ...],
             axis = (tube.end - tube.start) / tube.length_mm
             if float(axis @ UP) < _UPRIGHT_COS:
                 continue
-            why = f"a round hole in {described(element)}; nothing says that it is a grouting sleeve"
+            why = Reason("ifc.hole_unsaid", element=described(element))
             bore_mm = tube.bore_mm[0] or 0.0
             found.append(
                 AssemblyPoint(
@@ -88,7 +88,7 @@ def round_holes(elements: Sequence[Element]) -> tuple[tuple[AssemblyPoint, ...],
                 )
             )
     found.sort(key=lambda point: tuple(np.round(point.centre, 3)))
-    note = "no column with grouting sleeves was recognised; its upright round holes are listed as they are, as loose"
+    note = Reason("ifc.listed_loose")
     return tuple(found), [note] if found else []
 
 

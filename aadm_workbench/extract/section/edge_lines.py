@@ -23,7 +23,7 @@ from aadm_workbench.extract.section.strips import (
     ends_of_strips,
     line_through,
 )
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _FIRST_REACH_MM = 30.0  # sections are cast to within 5 mm, and patterns stand within 10 mm of their place in them
 _REACH_MM, _REACH_PITCHES = 6.0, 8.0  # to both sides of an edge that is known by and by
@@ -62,7 +62,7 @@ class EdgeLine:
     chips: tuple[Chip, ...]
 
 
-def edge_line(samples: FaceSamples, start: Array, end: Array, mouths: KnownMouths, band_mm: float) -> EdgeLine | str:
+def edge_line(samples: FaceSamples, start: Array, end: Array, mouths: KnownMouths, band_mm: float) -> EdgeLine | Reason:
     """The edge near the line from ``start`` to ``end`` (2,) mm, the face to its left; or why it is not measured.
 
     Parameters
@@ -75,7 +75,7 @@ def edge_line(samples: FaceSamples, start: Array, end: Array, mouths: KnownMouth
     band_mm = _WIDE_MM if _looks_past(samples, (start + end) / 2.0, normal) else band_mm
     guess = _Guess(along, normal, float((start + end) @ along) / 2.0, float((start + end) @ normal) / 2.0, 0.0)
     found = _found_edge(samples, guess, mouths, float(np.hypot(*(end - start))) / 2.0 - _CORNER_MM, band_mm)
-    if isinstance(found, str):
+    if isinstance(found, Reason):
         return found
     line, why = found.line, _doubt(found.line, guess, samples, float(np.hypot(*(end - start))))
     if why:
@@ -111,18 +111,18 @@ class _FoundEdge:
 
 def _found_edge(
     samples: FaceSamples, line: _Guess, mouths: KnownMouths, half_mm: float, band_mm: float
-) -> _FoundEdge | str:
+) -> _FoundEdge | Reason:
     """The line on which the face ends: looked for in wide strips, then in narrow ones about what these give."""
     fine_mm = max(_REACH_MM, _REACH_PITCHES * samples.pitch_mm)
-    found: _FoundEdge | str = OUT_OF_PICTURE
+    found: _FoundEdge | Reason = OUT_OF_PICTURE
     for reach_mm, pitches in ((_FIRST_REACH_MM, 3.0), (fine_mm, 1.0), (fine_mm, 1.0)):
         step = pitches * samples.pitch_mm
         s, d, height = _across(samples, line, mouths, half_mm, reach_mm, step)
         strips = ends_of_strips(s, d, np.abs(height) < band_mm, half_mm, reach_mm, step)
-        if isinstance(strips, str):
+        if isinstance(strips, Reason):
             return strips
         fit = line_through(strips, step)
-        if isinstance(fit, str):
+        if isinstance(fit, Reason):
             return fit
         line = replace(line, offset_mm=line.offset_mm + fit.offset, turn=line.turn + fit.turn)
         off = d - fit.offset - fit.turn * s
@@ -133,13 +133,13 @@ def _found_edge(
     return found
 
 
-def _doubt(line: _Guess, guess: _Guess, samples: FaceSamples, length_mm: float) -> str:
-    """What speaks against a line being the edge of the foot; empty where nothing does."""
+def _doubt(line: _Guess, guess: _Guess, samples: FaceSamples, length_mm: float) -> Reason | None:
+    """What speaks against a line being the edge of the foot; None where nothing does."""
     if abs(line.turn) * length_mm > _MOST_ASKEW_MM:
-        return "what ends the face here runs askew to the section: something hides a part of it"
+        return Reason("extract.section_askew")
     if samples.eye is None and abs(line.offset_mm - guess.offset_mm) > _MOST_OFF_MM:
-        return "a cloud without its camera does not tell an edge of the foot from the border of the picture"
-    return ""
+        return Reason("extract.section_border")
+    return None
 
 
 @dataclass(frozen=True, eq=False)

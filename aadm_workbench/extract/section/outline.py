@@ -13,7 +13,7 @@ from aadm_workbench.extract.section.edge_lines import EdgeLine, edge_line
 from aadm_workbench.extract.section.face_samples import face_samples, from_face, outline_on_face
 from aadm_workbench.extract.section.rims import KnownMouths
 from aadm_workbench.extract.section.strips import Chip
-from aadm_workbench.model import Array, Extraction, Plane, Scan
+from aadm_workbench.model import Array, Extraction, Plane, Reason, Scan
 
 SIDES = ("-y", "+x", "+y", "-x")
 """Edges in order, counter-clockwise seen from above; the column's own directions."""
@@ -42,7 +42,7 @@ class SeenEdge:
 
 def section_edges(
     scan: Scan, extraction: Extraction, T_scan_column: Array, outline: Array, rng: np.random.Generator
-) -> dict[str, SeenEdge | str]:
+) -> dict[str, SeenEdge | Reason]:
     """Edges of the face by their sides, or why one is not measured.
 
     Parameters
@@ -54,20 +54,20 @@ def section_edges(
     """
     face = extraction.plane
     if face is None:
-        return dict.fromkeys(SIDES, "no face was found")
+        return dict.fromkeys(SIDES, Reason("extract.section_no_face"))
     band_mm = max(FACE_BAND_MM, _BAND_NOISES * face.residual_mm)
     corners = outline_on_face(outline, T_scan_column, face)
     samples = face_samples(scan, thinned(scan, _SAMPLE, rng), face, band_mm, corners)
     if samples is None:
-        return dict.fromkeys(SIDES, "too few points lie on the face")
+        return dict.fromkeys(SIDES, Reason("extract.section_thin"))
     mouths = _mouths(extraction)
     # Seen from outside, as the face's axes are, the corners run clockwise: the face lies to the left of the way back.
-    found: dict[str, SeenEdge | str] = {}
+    found: dict[str, SeenEdge | Reason] = {}
     for number, side in enumerate(SIDES):
         ends = corners[number], corners[(number + 1) % 4]
         start, end = ends if _area(corners) > 0.0 else ends[::-1]
         line = edge_line(samples, start, end, mouths, band_mm)
-        found[side] = line if isinstance(line, str) else _in_column(line, side, face, T_scan_column)
+        found[side] = line if isinstance(line, Reason) else _in_column(line, side, face, T_scan_column)
     return found
 
 

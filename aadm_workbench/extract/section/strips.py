@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from aadm_workbench.model import Array, BoolArray, IntArray
+from aadm_workbench.model import Array, BoolArray, IntArray, Reason
 
 _STRIP_PITCHES = 6.0  # along the edge: some fifty places tell where a strip ends, and a chip of 5 mm fills one
 _FEWEST_STRIPS = 8  # of fewer a line has no scatter
@@ -26,7 +26,7 @@ _ROUGHEST_MM = 1.5  # of strips: an edge that is broken all along is none
 _LEAST_SCATTER_PITCHES = 0.05  # strips are never better than that
 _NEIGHBOURS = 1.5  # neighbouring strips share their errors: standard errors are so much larger
 _CHIP_MM, _CHIP_SIGMAS = 1.5, 5.0  # from which depth on a gap in an edge is a chip and no scatter
-OUT_OF_PICTURE = "too little of this edge is in the picture"
+OUT_OF_PICTURE = Reason("extract.section_out")
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +53,7 @@ class Strips:
     width_mm: float
 
 
-def ends_of_strips(s: Array, d: Array, on: BoolArray, half_mm: float, reach_mm: float, step: float) -> Strips | str:
+def ends_of_strips(s: Array, d: Array, on: BoolArray, half_mm: float, reach_mm: float, step: float) -> Strips | Reason:
     """Where the face ends in strips of places (n,) along (s) and across (d) an edge; or why nobody can tell."""
     count = max(int(2.0 * half_mm / (_STRIP_PITCHES * step)), _FEWEST_STRIPS)
     strip = np.clip(((s + half_mm) / (2.0 * half_mm) * count).astype(np.int64), 0, count - 1)
@@ -69,7 +69,7 @@ def ends_of_strips(s: Array, d: Array, on: BoolArray, half_mm: float, reach_mm: 
     found = float(np.median(share[usable]))
     flush = float(np.median((on_without / np.maximum(asked_without, 1))[usable]))
     if flush > _FLUSH_MAX * found:
-        return "something lies flush with the face beyond this edge"
+        return Reason("extract.section_flush")
     farthest = np.full(count, -reach_mm)
     np.maximum.at(farthest, strip, d)
     end = _likeliest_ends(strip, d, on, count, found, flush)
@@ -115,7 +115,7 @@ class StripLine:
     residual: Array
 
 
-def line_through(strips: Strips, pitch_mm: float) -> StripLine | str:
+def line_through(strips: Strips, pitch_mm: float) -> StripLine | Reason:
     """A line through the ends of strips, by Tukey's weights: chips and what sticks to an edge do not move it."""
     design = np.column_stack([np.ones_like(strips.along), strips.along])
     residual = strips.end - design @ _outermost(strips, pitch_mm)
@@ -127,7 +127,7 @@ def line_through(strips: Strips, pitch_mm: float) -> StripLine | str:
         found = np.linalg.solve(normal, design.T @ (weight * strips.end))
         residual = strips.end - design @ found
     if np.mean(residual > -_TUKEY * scatter) < _SEEN_MIN or scatter > _ROUGHEST_MM:
-        return "this edge is not straight, or something hides a part of it"
+        return Reason("extract.section_hidden")
     covariance = (_NEIGHBOURS * scatter) ** 2 * np.linalg.inv(normal)
     return StripLine(float(found[0]), float(found[1]), covariance, scatter, residual)
 

@@ -15,7 +15,7 @@ from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.extract.section.face_heights import FaceHeights
 from aadm_workbench.extract.section.outline import SIDES, SeenEdge
 from aadm_workbench.extract.section.strips import Chip
-from aadm_workbench.model import Verdict
+from aadm_workbench.model import Reason, Verdict
 from aadm_workbench.model.section import SectionReport
 
 DESIGN = inline_design(
@@ -30,9 +30,9 @@ DESIGN = inline_design(
 CN = load_profile("cn")
 
 
-def seen_from(corners: list[tuple[float, float]], u_mm: float = 0.05) -> dict[str, SeenEdge | str]:
+def seen_from(corners: list[tuple[float, float]], u_mm: float = 0.05) -> dict[str, SeenEdge | Reason]:
     """Edges between corners from (−x, −y) counter-clockwise, each told at its own middle."""
-    edges: dict[str, SeenEdge | str] = {}
+    edges: dict[str, SeenEdge | Reason] = {}
     for side, a, b in zip(SIDES, corners, corners[1:] + corners[:1], strict=True):
         middle = (a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0
         out, along = {
@@ -120,7 +120,7 @@ def test_what_all_edges_share_widens_the_size_and_leaves_the_place() -> None:
 
 
 def test_one_edge_unseen_leaves_that_side_unmeasured_and_says_which() -> None:
-    edges = seen_from(SQUARE) | {"+y": "too little of this edge is in the picture"}
+    edges = seen_from(SQUARE) | {"+y": Reason("extract.section_out")}
     found = inspect_section(DESIGN, edges, None, CN, fit_u_mm=0.03, decision="guarded")
     assert found is not None
     assert found.lengths[0].verdict is Verdict.PASS

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.extract.section.outline import SIDES, SeenEdge, section_edges
-from aadm_workbench.model import Array, Scan
+from aadm_workbench.model import Array, Reason, Scan
 from tests.extract.section.ideal_face import IdealFace, T_scan_column, scanned
 
 DESIGN = np.array([[-200.0, -150.0], [200.0, -150.0], [200.0, 150.0], [-200.0, 150.0]])
@@ -31,12 +31,12 @@ def distance_outwards(corners: Array, side: str) -> float:
     return at if side[0] == "+" else -at
 
 
-def edges_of(face: IdealFace, scan_and_points: tuple, T: Array | None = None) -> dict[str, SeenEdge | str]:
+def edges_of(face: IdealFace, scan_and_points: tuple, T: Array | None = None) -> dict[str, SeenEdge | Reason]:
     scan, extraction = scan_and_points
     return section_edges(scan, extraction, T_scan_column() if T is None else T, DESIGN, np.random.default_rng(0))
 
 
-def errors(face: IdealFace, edges: dict[str, SeenEdge | str]) -> dict[str, float]:
+def errors(face: IdealFace, edges: dict[str, SeenEdge | Reason]) -> dict[str, float]:
     found = {}
     for side, edge in edges.items():
         assert isinstance(edge, SeenEdge), f"{side}: {edge}"

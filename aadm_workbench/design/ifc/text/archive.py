@@ -8,6 +8,7 @@ from pathlib import Path, PurePosixPath
 from aadm_workbench.bounded import ArchiveBounds, BoundsError, entry_bytes, opened_archive
 from aadm_workbench.design.model_file import LARGEST_MODEL_BYTES
 from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Reason
 
 IFCZIP_BOUNDS = ArchiveBounds(
     "zip archive of a model", entries=10_000, entry_bytes=LARGEST_MODEL_BYTES, all_bytes=LARGEST_MODEL_BYTES
@@ -29,10 +30,10 @@ def model_in_archive(path: Path) -> bytes:
         with opened_archive(path, IFCZIP_BOUNDS) as archive:
             return entry_bytes(archive, _model_of(path, archive))
     except BoundsError as error:
-        message = f"{path} {error}: it was not opened. Pack it again, or name the .ifc itself."
+        message = Reason("ifc.zip_refused", path=path, why=error)
         raise DesignError(message) from error
     except OSError as error:
-        raise DesignError(f"{path} cannot be opened: {error.strerror}.") from error
+        raise DesignError(Reason("design.unopened", path=path, why=error.strerror)) from error
 
 
 def _model_of(path: Path, archive: zipfile.ZipFile) -> zipfile.ZipInfo:
@@ -40,8 +41,6 @@ def _model_of(path: Path, archive: zipfile.ZipFile) -> zipfile.ZipInfo:
     models = [part for part in parts if PurePosixPath(part.filename.replace("\\", "/")).suffix.lower() == ".ifc"]
     if len(models) == 1:
         return models[0]
-    shown = ", ".join(part.filename for part in (models or parts)[:_SHOWN]) or "nothing"
-    what = f"{len(models)} models" if models else "no .ifc in STEP format"
-    raise DesignError(
-        f"{path} holds {what} ({shown}): an .ifczip holds one. Unpack it and name the .ifc that is meant."
-    )
+    shown = [part.filename for part in (models or parts)[:_SHOWN]] or Reason("ifc.zip_nothing")
+    what = Reason("ifc.zip_models" if models else "ifc.zip_no_model", count=len(models))
+    raise DesignError(Reason("ifc.zip_holds", path=path, what=what, shown=shown))
