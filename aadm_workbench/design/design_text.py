@@ -23,6 +23,9 @@ def write_design(design: ColumnDesign) -> str:
     written: dict[str, Any] = {key: getattr(design, key) for key in _PLAIN}
     written |= {
         "size_mm": design.size_mm,
+        "section_middle_mm": design.section_middle_mm,
+        "exposed_length_mm": design.exposed_length_mm,
+        "shared_ids": design.shared_ids,
         "names": design.names,
         "warnings": design.warnings,
         "T_model_column": None if design.T_model_column is None else np.asarray(design.T_model_column).tolist(),
@@ -43,10 +46,14 @@ def read_design(text: str, label: str) -> ColumnDesign:
     try:
         written = json.loads(text)
         placed = written["T_model_column"]
-        size_mm = written["size_mm"]
+        # Documents of earlier versions hold neither of the last three.
+        exposed_mm = written.get("exposed_length_mm")
         return ColumnDesign(
             **{key: written[key] for key in _PLAIN},
-            size_mm=None if size_mm is None else (float(size_mm[0]), float(size_mm[1])),
+            size_mm=_two(written["size_mm"]),
+            section_middle_mm=_two(written.get("section_middle_mm")),
+            exposed_length_mm=None if exposed_mm is None else float(exposed_mm),
+            shared_ids=tuple(written.get("shared_ids", ())),
             names=tuple(written["names"]),
             warnings=tuple(written["warnings"]),
             T_model_column=None if placed is None else np.array(placed, dtype=np.float64),
@@ -55,6 +62,10 @@ def read_design(text: str, label: str) -> ColumnDesign:
         )
     except (ValueError, KeyError, TypeError, IndexError) as error:
         raise DesignError(Reason("design.none_held", label=label)) from error
+
+
+def _two(lengths_mm: Any) -> tuple[float, float] | None:
+    return None if lengths_mm is None else (float(lengths_mm[0]), float(lengths_mm[1]))
 
 
 def write_model(origin: Mapping[str, Any], columns: Mapping[str, ColumnDesign]) -> str:
