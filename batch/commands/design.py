@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from aadm_workbench.design.model_design import ModelDesign, NotTaken
+    from aadm_workbench.design.published import PublishedPoint
     from aadm_workbench.model import AssemblyPoint, ColumnDesign
 
 EXAMPLE = """\
@@ -63,7 +64,6 @@ def run(options: argparse.Namespace) -> int:
     """Print a model's design; without any column the exit code is 11."""
     from aadm_workbench.inspection.as_designed import read_design, unforeseen_in
 
-    from ..shown.published_table import published_tables
     from ..shown.terminal import say, show
 
     wanted: str | None = options.column
@@ -101,7 +101,6 @@ def _warnings(model: ModelDesign, columns: Sequence[ColumnDesign]) -> Iterator[s
 def _print_json(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: bool, published: bool) -> None:
     from aadm_workbench.report.json import encode
 
-    from ..shown.published_table import published_entries
     from ..shown.terminal import show_json
 
     document: dict[str, Any] = {
@@ -239,3 +238,62 @@ def _table(headings: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequ
         return blank + line[place] if headings[place] in numbers else line[place] + blank
 
     return "\n".join("  ".join(padded(line, place) for place in range(len(headings))).rstrip() for line in lines)
+
+
+def published_tables(columns: Sequence[ColumnDesign]) -> Iterator[Table | str]:
+    """One table for each column, in the model's frame, with the distance in the plane from the exact centres."""
+    from rich.text import Text
+
+    from aadm_workbench.inspection.as_designed import published_route
+
+    from ..shown.terminal import new_table
+
+    numbers = ("x mm", "y mm", "z mm", "Edge points", "Difference mm")
+    for column in columns:
+        points = published_route(column)
+        table = new_table("Point", *numbers, numbers=numbers)
+        for point in points:
+            centre = _in_model(point, column)
+            difference_mm = point.difference_mm
+            found = ["", "", ""] if centre is None else [f"{value:.2f}" for value in centre]
+            away = "no points" if difference_mm is None else f"{difference_mm:.3f}"
+            table.add_row(*(Text(text) for text in (point.label, *found, str(point.edge_points), away)))
+        yield f"{column.id} by the published route: model, cloud, pass-through filter, mean of edge points"
+        yield table
+        yield f"Difference to the exact centres: {_summary(points)}"
+        yield ""
+
+
+def published_entries(columns: Sequence[ColumnDesign]) -> list[dict[str, Any]]:
+    """The same for ``--json``."""
+    from aadm_workbench.inspection.as_designed import published_route
+
+    return [
+        {
+            "id": column.id,
+            "points": [
+                {
+                    "label": point.label,
+                    "centre_mm": _in_model(point, column),
+                    "edge_points": point.edge_points,
+                    "difference_mm": point.difference_mm,
+                }
+                for point in published_route(column)
+            ],
+        }
+        for column in columns
+    ]
+
+
+def _in_model(point: PublishedPoint, column: ColumnDesign) -> Any:
+    T = column.T_model_column
+    if point.centre is None or T is None:
+        return point.centre
+    return T[:3, :3] @ point.centre + T[:3, 3]
+
+
+def _summary(points: Sequence[PublishedPoint]) -> str:
+    away_mm = [point.difference_mm for point in points if point.difference_mm is not None]
+    if not away_mm:
+        return "no points"
+    return f"{sum(away_mm) / len(away_mm):.3f} mm on average, {max(away_mm):.3f} mm at most, over {len(away_mm)} points"

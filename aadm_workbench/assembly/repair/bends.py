@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from aadm_workbench.assembly.decision import DecisionRule
+from aadm_workbench.assembly.decision import PASS_PROBABILITY, DecisionRule
 from aadm_workbench.assembly.pose.best_pose import fit_best_pose
 from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.pose.pose_probability import existence_of_a_pose
@@ -22,7 +22,6 @@ from aadm_workbench.assembly.repair.case import RepairCase, guarded_case, repair
 from aadm_workbench.assembly.repair.plan import RepairPlan, after_repair, choose_plan
 from aadm_workbench.assembly.repair.search import of_bars_that_stay, smallest_sets, within_reach
 from aadm_workbench.assembly.repair.steps import repair_steps, still_beyond
-from aadm_workbench.assembly.repair.words import ADVICE_TO_RESCAN, NOTHING_FOUND, advice_on_steps
 from aadm_workbench.assembly.tolerances import describe_clause
 from aadm_workbench.assembly.trial.pose import evaluate_best_pose
 from aadm_workbench.model import (
@@ -32,6 +31,7 @@ from aadm_workbench.model import (
     Profile,
     RepairAction,
     RepairReport,
+    RepairStep,
     TrialReport,
     Verdict,
 )
@@ -40,6 +40,14 @@ SAMPLES = 1000
 """As of the trial itself (existence.py)."""
 
 _GRAVEST_FIRST = tuple(reversed(RepairAction))
+
+DISPOSAL_PLAN = "a disposal plan (特殊处理方案) agreed with the designer is needed"
+NOTHING_FOUND = f"no set of bars was found whose bending would let the column in: {DISPOSAL_PLAN}"
+
+ADVICE_TO_RESCAN = "rescan closer: at the measured values the column goes in, no bar has to be bent"
+
+_MOST_NAMED = 3  # more of them make no line
+_RELEASE = "subject to the engineer's release"
 
 
 def advise_repair(
@@ -149,3 +157,42 @@ def _tried_again(
         probability=None if existence is None else existence.probability,
         still_fails=still_beyond(case, pairs),
     )
+
+
+def advice_on_steps(report: RepairReport, trial: TrialReport) -> str:
+    """What to do about each pair, and what the trial comes to once it is done."""
+    if report.action is RepairAction.DISPOSAL_PLAN:
+        why = [step.reason for step in report.steps if step.action is RepairAction.DISPOSAL_PLAN]
+        more = f"; and {len(why) - _MOST_NAMED} more" if len(why) > _MOST_NAMED else ""
+        return f"{_RELEASE}: no bend can be advised; {DISPOSAL_PLAN}: {'; '.join(why[:_MOST_NAMED])}{more}"
+    parts = [_of_step(step) for step in report.steps]
+    first = "rescan closer; if that confirms it, " if trial.verdict is Verdict.INCONCLUSIVE else ""
+    bars = "" if report.exact else " (the best that was found; fewer bars might do)"
+    return f"{_RELEASE}: {first}{'; '.join(parts)}{bars}{_outcome(report)}{_still(report)}"
+
+
+def _of_step(step: RepairStep) -> str:
+    if step.action is RepairAction.REJECT_SLEEVE:
+        return f"reject the position of {step.sleeve}: {step.reason}"
+    dx, dy = step.bend_mm or (0.0, 0.0)
+    text = f"bend {step.rebar} by ({dx:+.1f}, {dy:+.1f}) mm"
+    if step.upright:
+        text += " and set it upright"
+    return text + (f"; {step.reason}" if step.reason else "")
+
+
+def _outcome(report: RepairReport) -> str:
+    if report.after is None:
+        return ""
+    then = f". Then the largest distance is {report.after.max_mm:.2f} mm"
+    if report.probability is not None and report.probability < PASS_PROBABILITY:
+        then += f", and the trial may stay inconclusive (a pose exists with {100.0 * report.probability:.0f} %)"
+    return then
+
+
+def _still(report: RepairReport) -> str:
+    """What fails even then: the position of bars that the trial does not ask for."""
+    if not report.still_fails:
+        return ""
+    one = len(report.still_fails) == 1
+    return f". Still beyond {'its' if one else 'their'} own limit of position then: {', '.join(report.still_fails)}"

@@ -10,7 +10,7 @@ from typing import Any
 
 from aadm_workbench.design.ifc.names import properties, text_of
 from aadm_workbench.design.ifc.text.file import OpenedIfc
-from aadm_workbench.design.recognise.bar_sizes import nominal_of_over_ribs
+from aadm_workbench.design.recognise.pattern import nominal_of_over_ribs
 
 _LENGTHS_MM = {"feet": 304.8, "inches": 25.4, "metres": 1000.0, "centimetres": 10.0, "millimetres": 1.0}
 _AREAS_MM2 = {"cm²": 100.0, "m²": 1e6, "mm²": 1.0, "square inches": 645.16, "square feet": 92903.04}
