@@ -8,7 +8,6 @@ frames share what a camera does to lengths and walls, so combining them removes 
 uncertainty that a single frame's noise makes up shrinks with the number of frames, the rest stays.
 """
 
-
 from __future__ import annotations
 
 import math

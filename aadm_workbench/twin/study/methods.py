@@ -7,7 +7,6 @@ divide by: no thinning, no repeatable draw, no way back to 3-D, and the filter a
 plane under bars is that of the floor: this is a time and no result.
 """
 
-
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
