@@ -6,8 +6,12 @@ What a scan cannot support (a plugged sleeve, a bar out of view) is no error: it
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 from dataclasses import dataclass
+
+PRIVATE_ENVIRONMENT = "AADM_PRIVATE_ENVIRONMENT"
+"""Variable that is set in a process of FreeCAD's private environment, for which pip on the PATH does nothing."""
 
 
 class AadmError(Exception):
@@ -34,14 +38,22 @@ class ReportError(AadmError):
     """A report.json cannot be used: broken, of another schema, or not what the schema describes."""
 
 
+class NoEnvironmentError(AadmError):
+    """FreeCAD's private environment is not there, or is not whole; the workbench offers to install it."""
+
+
 class MissingDependencyError(AadmError):
     """A package that this command needs is not installed; the message holds the command that installs it."""
 
     def __init__(self, package: str, needed_for: str, install: str = "") -> None:
         install = install or package_called(package).install
-        super().__init__(
-            f"{needed_for} needs the package {package}, which is not installed. Install it with: {install}"
-        )
+        remedy = f"Install it with: {install}"
+        if os.environ.get(PRIVATE_ENVIRONMENT) and install.startswith("pip "):
+            remedy = (
+                "FreeCAD's private environment lacks it: repair that in About AADM and doctor, or name in the settings "
+                f"an aadm of your own that has it ({install})"
+            )
+        super().__init__(f"{needed_for} needs the package {package}, which is not installed. {remedy}")
         self.package = package
         self.install = install
 

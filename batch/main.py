@@ -44,6 +44,7 @@ COMMANDS = MappingProxyType(
         "writeback": "write the results of a check into the IFC model",
         "profiles": "list tolerance profiles and their rules",
         "doctor": "say what is installed and what is missing",
+        "ask": "answer a question of the FreeCAD workbench",
     }
 )
 """By the name of their module: what each does."""

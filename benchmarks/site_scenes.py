@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -20,7 +21,16 @@ from aadm_workbench.twin.scenes import Setting, random_bars, random_foot, random
 from aadm_workbench.twin.site import left_by_site
 from aadm_workbench.twin.slips import NO_SLIP, Slip, seen_with, told_scan
 
-SIZES_MM = ((14.0, 30.0), (16.0, 32.0), (18.0, 26.0), (20.0, 36.0), (22.0, 38.0), (25.0, 42.0), (28.0, 46.0))
+SIZES_MM = (
+    (14.0, 30.0),
+    (16.0, 32.0),
+    (18.0, 26.0),
+    (20.0, 36.0),
+    (22.0, 38.0),
+    (25.0, 42.0),
+    (28.0, 46.0),
+    (32.0, 50.0),
+)
 """Bars and the bores of sleeves that are made for them."""
 
 _SPREAD_MM, _SEEN_DEPTH_MM, _MARGIN_MM = 0.5, 130.0, 34.0
@@ -69,13 +79,17 @@ class Column:
 
 
 def random_pattern(rng: np.random.Generator, *, keyed: bool) -> Pattern:
-    """4 to 16 places on a ring, a quarter of the rings without one or two of them; keyed ones always so."""
+    """3 to 16 places on a ring, or in one row or two; a quarter of the rings lack one; keyed ones always do."""
     bar_mm, sleeve_mm = SIZES_MM[rng.integers(len(SIZES_MM))]
     per_side = int(rng.integers(3 if keyed else 2, 6))
     step_mm = min(float(rng.uniform(2.0, 2.8)) * sleeve_mm, 2 * _LARGEST_HALF_MM / (per_side - 1))
     wide = step_mm * (per_side - 1) / 2
-    places = ring(wide, wide * float(rng.choice([1.0, rng.uniform(0.8, 1.0)])), per_side)
-    if per_side > 2 and (keyed or rng.random() < 0.25):
+    rows = 0 if keyed or per_side < 3 else int(rng.choice([0, 0, 0, 0, 1, 2]))
+    if rows:
+        places = np.array([(x, y * step_mm) for x in np.linspace(-wide, wide, per_side) for y in range(rows)])
+    else:
+        places = ring(wide, wide * float(rng.choice([1.0, rng.uniform(0.8, 1.0)])), per_side)
+    if not rows and per_side > 2 and (keyed or rng.random() < 0.25):
         places = np.delete(places, int(rng.integers(1, len(places))), axis=0)
     places = places - places.mean(axis=0)
     half = float(np.abs(places).max())
@@ -111,8 +125,8 @@ def random_camera(rng: np.random.Generator) -> CameraNoise:
 
 def built_column(scenario: Scenario, number: int) -> Column:
     """The column of a number; the same scenario and number give the same one, filters and slips the same scene."""
-    words = (*scenario.site, *(name for name in ("keyed", "other", "bars_of") if getattr(scenario, name)))
-    rendered = _render(scenario, np.random.default_rng([zlib.crc32("-".join(words).encode()), number]))
+    scene = Scenario(scenario.site, keyed=scenario.keyed, other=scenario.other, bars_of=scenario.bars_of)
+    rendered = _rendered(scene, number)
     rng = np.random.default_rng([1, number])
     filters, slip = scenario.filters(rng), scenario.slip(rng)
     seen = [
@@ -121,6 +135,12 @@ def built_column(scenario: Scenario, number: int) -> Column:
     ]
     sleeves, rebars = seen[::-1] if slip.swapped else seen
     return replace(rendered, sleeves=sleeves, rebars=rebars, slip=slip)
+
+
+@lru_cache(maxsize=20)  # filters and slips change what was rendered: a kind's scenes serve the next kind
+def _rendered(scenario: Scenario, number: int) -> Column:
+    words = (*scenario.site, *(name for name in ("keyed", "other", "bars_of") if getattr(scenario, name)))
+    return _render(scenario, np.random.default_rng([zlib.crc32("-".join(words).encode()), number]))
 
 
 def _render(scenario: Scenario, rng: np.random.Generator) -> Column:

@@ -71,8 +71,10 @@ TROUBLES: dict[str, Trouble] = {
         Scenario(filters=lambda rng: Filters(gaps=int(rng.integers(6, 25)))), ("gaps_filled",), ("hole filling",)
     ),
     "smoothing": _filter(("smoothed",), ("smoothing",), gaussian=3.0),
-    "median": _filter((), (), median=7),
-    "fattened": _filter(("edges_fattened", "diameter_differs"), (), fatten=3),
+    "median": Trouble(
+        Scenario(filters=lambda rng: Filters(median=int(rng.choice([3, 5, 7])))), ("smoothed",), ("median",)
+    ),
+    "fattened": _filter(("edges_fattened",), ("dilation",), fatten=3),
     "rings": _filter((), (), rings=2),
     "focal-2-percent": _slip("focal-2-percent", _SCALE, ("focal length",), void=True),
     "focal-half": _slip("focal-half", _SCALE, ("focal length",), void=True),

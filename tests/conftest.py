@@ -11,6 +11,8 @@ from typing import Any
 
 import pytest
 
+from aadm_workbench.design.freecad_program import PROGRAM_VARIABLE
+
 ROOT = Path(__file__).resolve().parents[1]
 
 # Spares the start page, which dies where root runs FreeCAD 0.20, and the time that it and the splash screen take.
@@ -47,6 +49,19 @@ def start():
     FreeCADGui.getMainWindow().close()
 QtCore.QTimer.singleShot(0, start)
 """
+
+
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """Leave out what is marked, where that was asked for."""
+    if os.environ.get("AADM_SKIP_FREECAD") == "1" and item.get_closest_marker("freecad"):
+        pytest.skip("it runs FreeCAD, and AADM_SKIP_FREECAD=1")
+
+
+@pytest.fixture(autouse=True)
+def no_freecad_without_the_mark(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A test that lacks the mark finds no FreeCAD: so AADM_SKIP_FREECAD=1 leaves out all that need one."""
+    if not request.node.get_closest_marker("freecad"):
+        monkeypatch.setenv(PROGRAM_VARIABLE, "a-test-that-runs-freecad-needs-the-mark")
 
 
 @pytest.fixture(scope="session")
@@ -86,6 +101,11 @@ def x_display() -> Iterator[str]:
     process.wait(timeout=10)
 
 
+def without_aadm(path: str) -> str:
+    """A PATH without the folders that hold an ``aadm``, which the workbench would use."""
+    return os.pathsep.join(entry for entry in path.split(os.pathsep) if not (Path(entry) / "aadm").exists())
+
+
 @dataclass(frozen=True)
 class FreeCADRunner:
     """Runs Python text in the real FreeCAD, with the addon where the Addon Manager would put it.
@@ -96,6 +116,8 @@ class FreeCADRunner:
     program: Path
     folder: Path
     display: str = ""
+    environments: Path | None = None
+    """Folder of private environments; without one FreeCAD finds none, and no ``aadm`` either."""
 
     def run(self, body: str, *, python_path: str = "", timeout_s: float = 120.0) -> dict[str, Any]:
         """What the text put into ``result``; an exception inside FreeCAD fails the test."""
@@ -110,10 +132,12 @@ class FreeCADRunner:
         ending = IN_WINDOW if self.display else WITHOUT_SCREEN
         script.write_text(WRAPPER.format(folder=str(self.folder)) + ending, encoding="utf-8")
         environment = os.environ | {
+            "AADM_ENVIRONMENTS": str(self.environments or home / "no environments"),
             "DISPLAY": self.display,
             "FREECAD_USER_HOME": str(home),
             "HOME": str(home),
             "LIBGL_ALWAYS_SOFTWARE": "1",
+            "PATH": without_aadm(os.environ["PATH"]),
             "PYTHONPATH": python_path,
             "QT_QPA_PLATFORM": "xcb" if self.display else "offscreen",
         }

@@ -11,7 +11,8 @@ chroots=${AADM_CHROOTS:-"$root/build/freecad"}
 documents="$chroots/documents"
 mirror=${AADM_MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' | head -n 1)}
 packages="ca-certificates fonts-noto-cjk freecad libegl1 libgl1-mesa-dri python3-pip python3-pytest xvfb"
-wheels="numpy scipy opencv-python-headless ifcopenshell jsonschema python-neo-lzf rich"
+# What the tests themselves need, beside FreeCAD; what FreeCAD's checks run with is made by the workbench's own button.
+wheels="numpy scipy opencv-python-headless ifcopenshell jsonschema psutil python-neo-lzf rich"
 [ "$#" -gt 0 ] || set -- trixie sid
 [ "$(id -u)" = 0 ] || { echo "this needs root, for chroot" >&2; exit 2; }
 mkdir -p "$documents"
@@ -24,7 +25,7 @@ inside() {
     place=$1
     shift
     env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
-        PIP_CERT=/etc/ssl/certs/ca-certificates.crt AADM_FREECAD_PACKAGES=/opt/packages AADM_DOCUMENTS=/opt/documents \
+        PIP_CERT=/etc/ssl/certs/ca-certificates.crt AADM_ENVIRONMENTS=/opt/environments AADM_DOCUMENTS=/opt/documents \
         PYTHONPATH=/opt/aadm:/opt/packages chroot "$place" "$@"
 }
 

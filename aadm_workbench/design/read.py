@@ -28,7 +28,7 @@ def read_model(
     Parameters
     ----------
     path
-        The model: .ifc, .ifczip, .FCStd, .step, .brep, .stl, .obj, .ply.
+        The model: .ifc, .ifczip, .FCStd, .step, .brep, .stl, .obj, .ply; .json is what the workbench hands over.
     columns, sleeves, rebars
         Optional selectors in the syntax of ``ifcopenshell.util.selector``.
     units
@@ -53,6 +53,10 @@ def read_model(
         from aadm_workbench.design.step import read_step
 
         return read_step(path, rules)
+    if suffix.lower() == ".json":
+        from aadm_workbench.design.design_text import read_designs
+
+        return read_designs(Path(path))
     if suffix.lower() in MESHES:
         from aadm_workbench.design.mesh import read_mesh
 

@@ -26,13 +26,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from aadm_workbench.document.checking import keep, prepare, run
+from aadm_workbench.document.checking import check_work, keep
 from aadm_workbench.document.column import column_design, columns_in, make_column, set_design
+from aadm_workbench.document.private_process import run
 from aadm_workbench.document.report.annotate import show_report, write_fcstd
 from aadm_workbench.document.report.file import load_report
 from aadm_workbench.document.report.of_document import report_of
 from aadm_workbench.document.result import found_of
-from aadm_workbench.document.scan_reading import read_for, take_scan
+from aadm_workbench.document.sampling import columns_work, file_work, take_columns
+from aadm_workbench.document.scan_reading import AskedScan, take_scan
 from aadm_workbench.model import Camera
 
 __all__ = [
@@ -50,22 +52,28 @@ __all__ = [
 ]
 
 
-def sample(document: Any, objects: Any = None) -> list[Any]:
+def sample(document: Any, objects: Any = None, *, file: str | Path | None = None) -> list[Any]:
     """Find columns with their sleeves and rebars in a document's model, and make a column object of each.
 
     Parameters
     ----------
     objects
         Only these columns of the model; all of them by default.
+    file
+        Take the columns of this IFC file instead.
 
     Raises
     ------
     DesignError
-        Where there is none; says what was looked at.
+        Where an object has no body.
+    AadmError
+        Where there is no column; says what was looked at.
+    NoEnvironmentError
+        Where the private environment is not installed.
     """
-    from aadm_workbench.document.sampling import sample_columns
-
-    return sample_columns(document, objects)
+    if file is not None:
+        return take_columns(document, run(file_work(Path(file))), file=Path(file))
+    return take_columns(document, run(columns_work(document, objects)), objects=objects)
 
 
 def describe(document: Any, name: str, design: Mapping[str, Any]) -> Any:
@@ -115,8 +123,9 @@ def add_scan(
     AadmError
         Where the file is no scan of this column.
     """
-    read = read_for(kind, file, units=units, camera=camera, depth_scale_mm=depth_scale_mm)
-    return take_scan(column, read, up=up, most_points=most_points)
+    known = str(Path(camera).resolve()) if isinstance(camera, str | Path) else camera
+    asked = AskedScan(kind, Path(file), units, known, depth_scale_mm, most_points)
+    return take_scan(column, asked, run(asked.work()), up=up)
 
 
 def check(column: Any) -> Any:
@@ -127,7 +136,7 @@ def check(column: Any) -> Any:
     AadmError
         Where it cannot be checked; the message says what to do.
     """
-    return keep(column, run(prepare(column)))
+    return keep(column, run(check_work(column)))
 
 
 def show(document: Any, report: str | Path | Mapping[str, Any]) -> list[Any]:

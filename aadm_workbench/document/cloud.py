@@ -1,4 +1,4 @@
-"""Clouds for the eye: thinned, and coloured by how far each point lies from the design."""
+"""Clouds for the eye: coloured by how far each point lies from the design."""
 
 from __future__ import annotations
 
@@ -6,15 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, FloatArray, Kind
-
-
-def thinned(points: FloatArray, most: int) -> tuple[Array, int]:
-    """Every n-th measured point, at most ``most`` (m, 3) float64, and how many points were measured."""
-    flat = points.reshape(-1, 3)
-    measured = flat[np.isfinite(flat).all(axis=1)]
-    step = max(1, -(-len(measured) // max(most, 1)))
-    return measured[::step].astype(np.float64), len(measured)
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Kind
 
 
 def distance_from_design(points: Array, design: ColumnDesign, kind: Kind) -> Array:
@@ -32,9 +24,12 @@ def distance_from_design(points: Array, design: ColumnDesign, kind: Kind) -> Arr
 def _from_bars(points: Array, bars: Sequence[AssemblyPoint]) -> Array:
     centres = np.array([bar.centre for bar in bars])
     radii_mm = np.array([bar.diameter_mm for bar in bars]) / 2.0
-    from scipy.spatial import cKDTree
-
-    radial_mm, nearest = cKDTree(centres[:, :2]).query(points[:, :2])
+    # A bar after the other: FreeCAD need not bring scipy, and a table of all distances takes too much memory.
+    radial_mm, nearest = np.full(len(points), np.inf), np.zeros(len(points), dtype=np.int64)
+    for number, centre in enumerate(centres):
+        distance_mm = np.hypot(*(points[:, :2] - centre[:2]).T)
+        nearer = distance_mm < radial_mm
+        radial_mm[nearer], nearest[nearer] = distance_mm[nearer], number
     outside_mm = radial_mm - radii_mm[nearest]
     above_mm = points[:, 2] - centres[nearest, 2]
     over_the_rim = (outside_mm > 0) & (above_mm > 0)

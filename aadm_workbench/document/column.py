@@ -11,7 +11,7 @@ from typing import Any
 import FreeCAD
 import numpy as np
 
-from aadm_workbench.document.display.design_text import read_design, write_design
+from aadm_workbench.design.design_text import read_design, write_design
 from aadm_workbench.document.groups import put_into_group
 from aadm_workbench.document.places import global_placement, move_to, placement_of, transform_of
 from aadm_workbench.document.properties import HIDDEN, READ_ONLY, Property, apply_properties
@@ -72,6 +72,20 @@ PROPERTIES = (
         _IDENTITY,
         QT_TRANSLATE_NOOP("App::Property", "Connecting rebars of the design"),
         mode=READ_ONLY,
+    ),
+    Property(
+        "App::PropertyString",
+        "ModelFile",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "File that the design was taken from"),
+        mode=READ_ONLY,
+    ),
+    Property(
+        "App::PropertyString",
+        "ModelSha256",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "Hash of that file when it was read"),
+        mode=HIDDEN,
     ),
     Property(
         "App::PropertyString", "Design", _IDENTITY, QT_TRANSLATE_NOOP("App::Property", "Design points"), mode=HIDDEN

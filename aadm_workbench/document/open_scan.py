@@ -14,6 +14,8 @@ import FreeCAD
 from aadm_workbench.document.asking import SCAN_PANELS
 from aadm_workbench.document.column import columns_in
 from aadm_workbench.document.display.messages import complain, tell
+from aadm_workbench.document.private_process import run
+from aadm_workbench.document.scan_reading import AskedScan, guessed_kind, take_scan
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError, ScanError
 
@@ -38,13 +40,12 @@ def insert(file: str, docname: str) -> Any:
     if SCAN_PANELS:
         SCAN_PANELS[0](document, [Path(file)])
         return document
-    from aadm_workbench.document.scan_reading import guessed_kind, read_for, take_scan
-
     try:
         column = _column_of(document)
-        read = read_for(guessed_kind(file), file)
+        asked = AskedScan(guessed_kind(file), Path(file))
+        read = run(asked.work())
         with undo_step(document, translate("AADM_Import", "Import scan")):
-            take_scan(column, read)
+            take_scan(column, asked, read)
     except AadmError as error:
         complain(str(error))
     else:

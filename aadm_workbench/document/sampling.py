@@ -1,20 +1,22 @@
-"""Column objects from the model in a document, or from its IFC file."""
+"""Column objects from the model in a document, or from its IFC file; recognised by the private process."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from aadm_workbench.design.design_text import read_design
 from aadm_workbench.document.column import columns_in, make_column, set_design
-from aadm_workbench.document.packages import naming_packages
+from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.report.annotate import objects_by_global_id
-from aadm_workbench.errors import DesignError
+from aadm_workbench.document.sample.columns import sampled_shapes
 from aadm_workbench.model import ColumnDesign
 
 
-def sample_columns(document: Any, objects: Sequence[Any] | None = None) -> list[Any]:
-    """Make a column object for each column of the model in a document; one that is there gets its design anew.
+def columns_work(document: Any, objects: Sequence[Any] | None = None) -> Work:
+    """What the private process is asked about the shapes of a document; they are sampled here, by FreeCAD.
 
     Parameters
     ----------
@@ -24,48 +26,48 @@ def sample_columns(document: Any, objects: Sequence[Any] | None = None) -> list[
     Raises
     ------
     DesignError
-        Where there is none; says what was looked at.
+        Where an object has no body.
     """
-    with naming_packages():
-        from aadm_workbench.document.sample.columns import sample_column, sample_document
-
-        if objects is not None:
-            # All are read before the first is made: a document is not left half done.
-            designs = [(sample_column(obj), obj) for obj in objects]
-        else:
-            model = sample_document(document)
-            if not model.columns:
-                raise DesignError(_nothing_found(model))
-            designs = [(design, None) for design in model.columns]
-    return [_taken(document, design, obj) for design, obj in designs]
+    return _asked(sampled_shapes(document, objects))
 
 
-def sample_ifc(document: Any, path: Path) -> list[Any]:
-    """Make a column object for each column of an IFC file, linked to the object that carries its GlobalId.
+def file_work(path: Path) -> Work:
+    """What the private process is asked about the columns of a model's file."""
+    return _asked({"path": str(path.resolve())})
 
-    Raises
-    ------
-    DesignError
-        Where the file is no model, or has no columns with sleeves.
-    MissingDependencyError
-        Without ifcopenshell.
+
+def take_columns(
+    document: Any, answer: Mapping[str, Any], *, objects: Sequence[Any] | None = None, file: Path | None = None
+) -> list[Any]:
+    """Make a column object for each column of an answer; one that is there gets its design anew.
+
+    Parameters
+    ----------
+    objects
+        The objects of the model that the columns are, in the answer's order; looked for by default.
+    file
+        The file that they were taken from; that of the document by default.
     """
-    with naming_packages():
-        from aadm_workbench.design.read import read_model
-
-        model = read_model(path)
-    if not model.columns:
-        raise DesignError(_nothing_found(model))
-    return [_taken(document, design) for design in model.columns]
+    origin = (str(file.resolve()) if file is not None else document.FileName, answer["sha256"])
+    models = list(objects or [None] * len(answer["columns"]))
+    designs = [read_design(json.dumps(entry), str(entry.get("id"))) for entry in answer["columns"]]
+    return [_taken(document, design, model, origin) for design, model in zip(designs, models, strict=True)]
 
 
-def _taken(document: Any, design: ColumnDesign, model: Any = None) -> Any:
+def _asked(question: Mapping[str, Any]) -> Work:
+    text = json.dumps({"about": "columns", **question})
+    return Work(("ask", "question.json", "answer.json"), {"question.json": text}, "answer.json")
+
+
+def _taken(document: Any, design: ColumnDesign, model: Any, origin: tuple[str, str]) -> Any:
     known = {column.GlobalId or column.ColumnId: column for column in columns_in(document)}
     column = known.get(design.global_id or design.id)
-    if column is not None:
+    if column is None:
+        column = make_column(document, design, model or _object_of(document, design))
+    else:
         set_design(column, design)
-        return column
-    return make_column(document, design, model or _object_of(document, design))
+    column.ModelFile, column.ModelSha256 = origin
+    return column
 
 
 def _object_of(document: Any, design: ColumnDesign) -> Any:
@@ -75,9 +77,3 @@ def _object_of(document: Any, design: ColumnDesign) -> Any:
         return found
     by_name = {obj.Name: obj for obj in document.Objects} | {obj.Label: obj for obj in document.Objects}
     return next((by_name[name] for name in (*design.names, design.id) if name in by_name), None)
-
-
-def _nothing_found(model: Any) -> str:
-    reasons = list(dict.fromkeys(f"{one.name}: {one.reason}" for one in model.not_taken))[:4]
-    said = f" ({'; '.join(reasons)})" if reasons else ""
-    return f"{model.source} has no column with grouting sleeves in its foot{said}"

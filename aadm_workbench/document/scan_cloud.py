@@ -8,20 +8,18 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import FreeCAD
 import numpy as np
 
-from aadm_workbench.document.cloud import thinned
 from aadm_workbench.document.column import attach_view, show_restored
 from aadm_workbench.document.places import move_to, placement_of
 from aadm_workbench.document.properties import HIDDEN, READ_ONLY, Property, apply_properties
 from aadm_workbench.document.schema import SCHEMA, SCHEMA_PROPERTY, bring_up_to_date
 from aadm_workbench.document.stateless import Stateless
-from aadm_workbench.model import Array, Camera, Kind, Scan
+from aadm_workbench.model import Array, Kind
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
 _SCAN = "AADM scan"
@@ -122,33 +120,31 @@ class ScanCloud(Stateless):
         move_to(obj, placement * obj.InColumn)
 
 
-def make_scan(column: Any, scan: Scan, file: Path, kind: Kind, declared: Mapping[str, Any], most_points: int) -> Any:
+def make_scan(column: Any, file: Path, kind: str, units: str, read: Mapping[str, Any]) -> Any:
     """Add a scan that was read to a column.
 
     Parameters
     ----------
-    declared
-        ``units``, ``camera`` and ``depth_scale_mm``, as it was read with.
-    most_points
-        The view shows no more.
+    kind, units
+        One of :data:`KINDS` and of :data:`UNITS`, as it was declared.
+    read
+        What the private process has answered: see ``batch/answers.py``.
     """
     cloud = column.Document.addObject("App::GeometryPython", "AADM_Scan")
     cloud.Proxy = ScanCloud()
     apply_properties(cloud, PROPERTIES)
     cloud.Schema = SCHEMA
-    cloud.Label = f"{column.ColumnId} {kind.plural}: {file.name}"
-    cloud.Kind = kind.plural
+    cloud.Label = f"{column.ColumnId} {kind}: {file.name}"
+    cloud.Kind = kind
     cloud.File = str(file)
-    cloud.Units = declared.get("units", "mm")
-    camera: Camera | None = declared.get("camera")
-    cloud.Camera = "" if camera is None else json.dumps(asdict(camera))
-    cloud.DepthScale = float(declared.get("depth_scale_mm") or 0.0)
-    cloud.Sha256 = scan.sha256
-    points, count = thinned(scan.points, most_points)
-    points = points @ scan.R_file_scan.T
-    cloud.PointCount = count
-    cloud.Points = [FreeCAD.Vector(*point) for point in points.tolist()]
-    cloud.InColumn = placement_of(_guessed_place(points, kind, scan.R_file_scan))
+    cloud.Units = units
+    cloud.Camera = json.dumps(read["camera"]) if read["camera"] else ""
+    cloud.DepthScale = float(read["depth_scale_mm"] or 0.0)
+    cloud.Sha256 = read["sha256"]
+    cloud.PointCount = read["count"]
+    cloud.Points = [FreeCAD.Vector(*point) for point in read["points"]]
+    points = np.array(read["points"], dtype=np.float64).reshape(-1, 3)
+    cloud.InColumn = placement_of(_guessed_place(points, kind_of(cloud), np.array(read["R_file_scan"])))
     column.Scans = [*column.Scans, cloud]
     cloud.Proxy.follow(cloud, column.Placement)
     attach_view(cloud, "scan_view", "ScanView")
@@ -158,11 +154,6 @@ def make_scan(column: Any, scan: Scan, file: Path, kind: Kind, declared: Mapping
 def kind_of(cloud: Any) -> Kind:
     """What a scan shows."""
     return Kind.SLEEVE if cloud.Kind == Kind.SLEEVE.plural else Kind.REBAR
-
-
-def camera_of(cloud: Any) -> Camera | None:
-    """The camera that a scan was read with."""
-    return Camera(**json.loads(cloud.Camera)) if cloud.Camera else None
 
 
 def lay_on_design(cloud: Any, T_design_scan: Array, distances_mm: Array, placement: FreeCAD.Placement) -> None:

@@ -1,17 +1,18 @@
-"""A scan file on its way into a document: read in any thread, taken over on the main one."""
+"""A scan file on its way into a document: read by the private process, taken over here."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from aadm_workbench.design.directions import up_deg
-from aadm_workbench.document.packages import naming_packages
-from aadm_workbench.document.scan_cloud import make_scan
+from aadm_workbench.document.private_process import Work
+from aadm_workbench.document.scan_cloud import KINDS, UNITS, make_scan
 from aadm_workbench.errors import ScanError
-from aadm_workbench.model import Camera, Kind, Scan
+from aadm_workbench.model import Camera
 
 _IN_NAMES_OF_BARS = ("bar", "rebar", "steel", "筋", "钢")
 
@@ -22,60 +23,42 @@ def guessed_kind(file: str | Path) -> str:
     return "rebars" if any(word in name for word in _IN_NAMES_OF_BARS) else "sleeves"
 
 
-@dataclass(frozen=True, eq=False)
-class ReadScan:
-    """A scan that was read, and how it was declared."""
+@dataclass(frozen=True)
+class AskedScan:
+    """A scan file as it is to be read; ``camera`` None: it has none, or needs none."""
 
-    scan: Scan
+    kind: str
     file: Path
-    kind: Kind
-    declared: Mapping[str, Any]
+    units: str = "mm"
+    camera: Camera | str | None = None
+    depth_scale_mm: float | None = None
+    most_points: int = 60_000
+
+    def work(self) -> Work:
+        """What the private process is asked.
+
+        Raises
+        ------
+        ScanError
+            Where there is no such kind, unit or file.
+        """
+        for word, known in ((self.kind, KINDS), (self.units, UNITS)):
+            if word not in known:
+                raise ScanError(f"a scan shows {' or '.join(KINDS)}, in {' or '.join(UNITS)}, not {word!r}")
+        if not self.file.exists():
+            raise ScanError(f"{self.file}: there is no such file")
+        question = {
+            "about": "scan",
+            "file": str(self.file.resolve()),
+            "units": self.units,
+            "camera": asdict(self.camera) if isinstance(self.camera, Camera) else self.camera,
+            "depth_scale_mm": self.depth_scale_mm,
+            "most_points": self.most_points,
+        }
+        return Work(("ask", "question.json", "answer.json"), {"question.json": json.dumps(question)}, "answer.json")
 
 
-def read_for(
-    kind: str,
-    file: str | Path,
-    *,
-    units: str = "mm",
-    camera: Camera | str | Path | None = None,
-    depth_scale_mm: float | None = None,
-) -> ReadScan:
-    """Read a scan; touches no document.
-
-    Parameters
-    ----------
-    kind
-        ``sleeves`` or ``rebars``.
-    camera
-        Intrinsics, or the file that holds them.
-
-    Raises
-    ------
-    AadmError
-        Where it cannot be read.
-    """
-    with naming_packages():
-        return _read(kind, Path(file), units, camera, depth_scale_mm)
-
-
-def _read(
-    kind: str, file: Path, units: str, camera: Camera | str | Path | None, depth_scale_mm: float | None
-) -> ReadScan:
-    from aadm_workbench.scan.camera import read_camera, read_depth_scale_mm
-    from aadm_workbench.scan.read import read_scan
-
-    named = {one.plural: one for one in Kind}
-    if kind not in named:
-        raise ScanError(f"a scan shows {' or '.join(named)}, not {kind!r}")
-    known = camera if camera is None or isinstance(camera, Camera) else read_camera(Path(camera))
-    if depth_scale_mm is None and isinstance(camera, str | Path):
-        depth_scale_mm = read_depth_scale_mm(Path(camera))
-    scan = read_scan(file, units=units, camera=known, depth_scale_mm=depth_scale_mm, source=file.name)
-    declared = {"units": units, "camera": known, "depth_scale_mm": depth_scale_mm}
-    return ReadScan(scan, file.resolve(), named[kind], declared)
-
-
-def take_scan(column: Any, read: ReadScan, *, up: str | None = None, most_points: int = 60_000) -> Any:
+def take_scan(column: Any, asked: AskedScan, read: Mapping[str, Any], *, up: str | None = None) -> Any:
     """Give a column a scan that was read; parameters as :func:`aadm_workbench.document.api.add_scan`.
 
     Raises
@@ -85,5 +68,5 @@ def take_scan(column: Any, read: ReadScan, *, up: str | None = None, most_points
     """
     if up is not None:
         up_deg(up, column.Label)
-        setattr(column, "SleevesUp" if read.kind is Kind.SLEEVE else "RebarsUp", up)
-    return make_scan(column, read.scan, read.file, read.kind, read.declared, most_points)
+        setattr(column, "SleevesUp" if asked.kind == KINDS[0] else "RebarsUp", up)
+    return make_scan(column, asked.file.resolve(), asked.kind, asked.units, read)

@@ -16,13 +16,16 @@ from aadm_workbench.extract.patches import Patches
 from aadm_workbench.model import Array, BoolArray, FloatArray
 
 _FALL_MM = (1.0, 60.0)  # from pixel to pixel on a ramp
+_FALL_SIGMAS = 2.0  # of single pixels: noise falls by more three times in a row once in a hundred thousand runs
 _EVEN = 6.0  # the steepest fall of three over the flattest
 _OFF_WALL_MM, _OFF_LEAN = 2.5, 0.08  # ribs and chamfers stay nearer to a wall; bars that lean by four degrees do
 _BELOW_MM = 3.0  # of the surface that a feature lies in
 _WITHIN_MM = 1.5  # of it, where its noise is looked at
 _OWN_NOISE = 0.55  # noise of which half is shared over a pixel and more comes to 0.7, a median of three to 0.5
 _RAMPED, _RAMPED_UNLOST = 0.1, 0.03  # slips of the fringe order and flying pixels come to 0.02
-_UNLOST = 1e-4  # a camera loses one pixel in a thousand at least
+# a camera loses one pixel in two thousand at least (path-traced scans of concrete), so that of so many it loses ten;
+# with none lost a few ramps tell of a filter that path-traced scans, which lose some, never showed
+_UNLOST, _UNLOST_OF, _RAMPED_COMPLETE = 1e-4, 20_000, 0.005
 
 SMOOTHED = "the camera smoothed this scan: its surfaces run into each other at their edges"
 GAPS_FILLED = "the camera filled in what it did not measure: surfaces lie where nothing is"
@@ -39,19 +42,25 @@ class FilterSigns:
 
     ``ramps``: places of even fall through the air, for each pixel of the features' outlines. ``fine``: second
     differences of heights over one pixel against those over two, squared; 1 for noise that every pixel has of its own,
-    0 for what is smooth. ``lost``: share of pixels without a point among such with points on all
-    sides.
+    0 for what is smooth. ``lost``: share of pixels without a point among such with points on all sides; ``looked_at``:
+    how many these are.
     """
 
     ramps: float = 0.0
     fine: float = 1.0
     lost: float = 0.0
+    looked_at: int = 0
+
+    @property
+    def complete(self) -> bool:
+        """Whether no pixel was lost where a camera loses some."""
+        return self.lost == 0.0 and self.looked_at > _UNLOST_OF
 
     def reason(self, *, blurred: bool) -> str:
         """Why nothing is to be measured in such a scan; empty where neither a filter shows nor a blur."""
         if self.fine < _OWN_NOISE:
             return SMOOTHED
-        if self.lost < _UNLOST and self.ramps > _RAMPED_UNLOST:
+        if self.lost < _UNLOST and self.ramps > (_RAMPED_COMPLETE if self.complete else _RAMPED_UNLOST):
             return GAPS_FILLED
         if blurred:
             return BLURRED
@@ -78,7 +87,7 @@ def filter_signs(
     outline = len(centre) * 2.0 * np.pi * radius_mm / pitch_mm
     rows = slice(None, None, _EVERY)
     first, second = (_roughness(height[:, rows], on_surface[:, rows], step) if flat else None for step in (1, 2))
-    return FilterSigns(float(ramps / outline), _ratio(first, second), _lost(height))
+    return FilterSigns(float(ramps / outline), _ratio(first, second), *_lost(height))
 
 
 def _ramps(height: FloatArray, in_air: BoolArray, step: int) -> int:
@@ -88,10 +97,18 @@ def _ramps(height: FloatArray, in_air: BoolArray, step: int) -> int:
     at = at[in_air[at + step]]
     if not len(at):
         return 0
-    fall = np.diff(np.stack([height[at + step * place] for place in (-1, 0, 1, 2)]), axis=0)
+    run = np.stack([height[at + step * place] for place in (-1, 0, 1, 2)])
+    fall = np.diff(run, axis=0)
+    least_mm = max(_FALL_MM[0], _FALL_SIGMAS * _noise_mm(fall[1] - fall[0]))
     fall = np.where(fall[1] < 0, -fall, fall)
     low, high = fall.min(axis=0), fall.max(axis=0)
-    return int(((low > _FALL_MM[0]) & (high < _FALL_MM[1]) & (high < _EVEN * low)).sum())
+    return int(((low > least_mm) & (high < _FALL_MM[1]) & (high < _EVEN * low)).sum())
+
+
+def _noise_mm(bend: FloatArray) -> float:
+    """Standard deviation of single pixels by their second differences (n,), where most lie on a floor far below."""
+    bend = np.abs(bend[np.isfinite(bend)])
+    return float(1.4826 * np.median(bend) / np.sqrt(6.0)) if len(bend) else 0.0
 
 
 def _roughness(height: FloatArray, on_surface: BoolArray, step: int) -> float | None:
@@ -112,7 +129,9 @@ def _ratio(one: float | None, other: float | None) -> float:
     return 1.0 if one is None or not other else one / other
 
 
-def _lost(height: FloatArray) -> float:
+def _lost(height: FloatArray) -> tuple[float, int]:
+    """Share of pixels without a point among such with points on all sides, and how many these are."""
     there = np.isfinite(height)
     around = there[:, :-2, 1:-1] & there[:, 2:, 1:-1] & there[:, 1:-1, :-2] & there[:, 1:-1, 2:]
-    return float((around & ~there[:, 1:-1, 1:-1]).sum() / max(int(around.sum()), 1))
+    count = int(around.sum())
+    return float((around & ~there[:, 1:-1, 1:-1]).sum() / max(count, 1)), count

@@ -35,6 +35,10 @@ _WALL_POINTS_MAX = 350  # of a bore, evenly taken: neighbours share their errors
 # a third of a mouth lets light in, so that a tape over half of it does not close it; of a whole face's points; of the
 # radius
 _SECTORS, _OPEN_SECTORS, _CLOSED_SHARE, _INSIDE = 12, 4, 0.15, (0.2, 0.75)
+# farther before the face than its rings; of a mouth's lines of sight: slips of the fringe order before unlit walls came
+# to 0.24 on path-traced scans, bars to 0.6 and more
+_BEFORE_MM, _HIDDEN_SHARE = 10.0, 0.5
+_FEWEST_BARS, _BARS_SHARE = 3, 0.4  # each bar hides one piece of a floor and throws a shadow on another
 _FLOOR_MM, _SPALL_MM, _PLUG_ROUND = 15.0, 5.0, 0.6  # plugs sit deeper than spalls, and their rims are round
 _OPPOSITE_COSINE = 0.3  # 73 degrees to either side of where the camera looks
 # of a circle: half a mouth may be taped, and a part of the rest lost; a choice: ±30 % moves nothing on sound scans
@@ -88,6 +92,8 @@ def mouths_in(
     inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front & ~_ghosts(patches, front, high_mm)))
     kept = ~other & (shape.coverage >= _COVERAGE_MIN) & ~_closed(inside, centre, radius_mm, pitch_mm)
     kept &= ~_is_shallow(patches, near & ~front, shape, centre, radius_mm, pitch_mm)
+    hidden = _are_hidden(patches, high_mm, centre, radius_mm, pitch_mm)
+    kept &= ~hidden & (not _is_floor(hidden, kept))
     bores = _bores(patches, centre, radius_mm, near)
     upper = (bores.depth > _UPPER_WALL_MM[0]) & (bores.depth < _UPPER_WALL_MM[1])
     rims = shape.only(~_shown(bores.points.where(upper), centre, bins))
@@ -192,6 +198,19 @@ def _is_shallow(
     )
     unlike_plug = agreeing_shares(shape, centre, radius_mm) < _PLUG_ROUND
     return np.asarray(floored & ((middle_mm < _SPALL_MM) | unlike_plug))
+
+
+def _are_hidden(patches: Patches, high_mm: float, centre: Array, radius_mm: float, pitch_mm: float) -> BoolArray:
+    """Where (k,) most lines of sight into a mouth end before the face: bars hide round pieces of a floor like this."""
+    crossed = patches.crossings(np.flatnonzero(patches.height > high_mm + _BEFORE_MM))
+    within_mm = _INSIDE[1] * radius_mm
+    expected = np.pi * (within_mm / pitch_mm) ** 2
+    return np.asarray(crossed.counted(crossed.distance(centre) < within_mm) > _HIDDEN_SHARE * expected)
+
+
+def _is_floor(hidden: BoolArray, kept: BoolArray) -> bool:
+    """Whether so many mouths are hidden that the rest are shadows of what stands there: bars on a floor, no foot."""
+    return bool(hidden.sum() >= max(_FEWEST_BARS, _BARS_SHARE * (hidden | kept).sum()))
 
 
 def _shown(points: PlanPoints, centre: Array, bins: int, reach: int = 2) -> BoolArray:

@@ -25,15 +25,17 @@ _ZONE = 0.35, 1.7  # of the nominal radius: bars two sizes off either way, and n
 _ROUNDS = 4  # points of ribs leave in the first two
 # ribs stand out by more; of the outline; of the turn: a choice, not tuned since
 _ROUND_WITHIN_MM, _ROUND_SHARE, _COVERED_SHARE = 0.45, 0.6, 0.7
-_FEWEST = 4  # of fewer a median is no sign
-_LEAST_U_MM = 0.25  # of one outline: half a pixel, and ribs that stand out on one side
+_FEWEST, _ENOUGH = 2, 4  # of fewer a median is no sign; of fewer nobody knows how much outlines of this scan scatter
+# of one outline: half a pixel, and ribs that stand out on one side; a whole pixel where the scatter is not known
+_LEAST_U_MM, _UNKNOWN_U_MM = 0.25, 0.5
+_OF_MEDIAN = 1.57  # variance of a median against that of a mean, for the normal law
 
 
 @dataclass(frozen=True, eq=False)
 class OwnDiameters:
     """Diameters (k,) mm of single bars, NaN where an outline is not round or not seen, and their standard uncertainty.
 
-    None of them is known where fewer than four bars tell what outlines of sound bars look like.
+    None of them is known where fewer than two bars tell what outlines of sound bars look like.
     """
 
     diameters_mm: Array
@@ -61,7 +63,9 @@ def own_diameters(
     beyond = own_mm[known] - shared_mm[known]
     usual_mm = float(np.median(beyond))
     scatter_mm = 1.4826 * float(np.median(np.abs(beyond - usual_mm)))
-    return OwnDiameters(own_mm - usual_mm, max(scatter_mm, _LEAST_U_MM))
+    least_mm = _LEAST_U_MM if known.sum() >= _ENOUGH else _UNKNOWN_U_MM
+    u_mm = max(scatter_mm, least_mm) * float(np.sqrt(1.0 + _OF_MEDIAN / known.sum()))
+    return OwnDiameters(own_mm - usual_mm, u_mm)
 
 
 def _radii(scan: Scan, level: Plane, places: Array, radius_mm: float, rng: np.random.Generator) -> Array:

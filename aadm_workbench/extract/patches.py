@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
+from aadm_workbench.extract.circle import PlanPoints
 from aadm_workbench.extract.plane import axes_on, from_plane, in_plane
 from aadm_workbench.extract.sample import Thinned
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane, Scan
@@ -79,6 +80,20 @@ class Patches:
                 if down or right:
                     count += np.abs(height[np.clip(chosen + (down + right), 0, last)] - own) < _BORNE_WITHIN_MM
         return np.asarray(count >= _BORNE_BY)
+
+    def crossings(self, chosen: IntArray, level_mm: Array | None = None) -> PlanPoints:
+        """Where lines of sight cross the plane, or levels (k,) over it, to points that stand before that.
+
+        The points are given by indices (n,) into the flattened patches.
+        """
+        own = PlanPoints.of(self.x, self.y, chosen)
+        if self.eye is None:
+            return own
+        eye = self.eye.astype(np.float32)[own.owner]
+        level = np.zeros(len(self.x), np.float32) if level_mm is None else level_mm.astype(np.float32)
+        share = (eye[:, 2] - level[own.owner]) / np.maximum(eye[:, 2] - self.height.ravel()[chosen], np.float32(1e-6))
+        x, y = (eye[:, axis] + (part - eye[:, axis]) * share for axis, part in enumerate((own.x, own.y)))
+        return PlanPoints(x, y, own.owner, own.features)
 
     def _borne_in_cloud(self) -> BoolArray:
         from scipy.spatial import cKDTree

@@ -13,7 +13,9 @@ import numpy as np
 from scipy.special import expit
 
 from aadm_workbench.extract.bars_in_scan import Standing, find_standing, standing_along
+from aadm_workbench.extract.burrs import burr_u_mm
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
+from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
 from aadm_workbench.extract.edges.edge_shift import Bend, bend_at_edges, eroded_rings, no_bend, shift_of_tops
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import filter_signs
@@ -51,6 +53,9 @@ _BAR_LEAN_U = 7e-3  # ribs, which stand out on one side here and on the other th
 _USUAL_LEAN, _COMMON_COUNT = 5e-3, 4  # 0.3 degrees, as bars are cast in
 _BENT_SHARE = 0.1  # of bars that lean by more than that: bent by hand, or hit
 _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)  # before the vertical is known bars lean by degrees
+# of the size that was looked for: cores have 0.94 to 1.03 of it, outlines a few hundredths more or less; each look
+# finds more of what is larger than the last one took it for
+_OF_SIZE, _SIZES_TRIED = (0.9, 1.06), 3
 _TURNS = 3  # each is seen along what the last one's bars show: a choice, not tuned since
 
 
@@ -61,6 +66,7 @@ class _Bars:
     tops: Tops
     fit: PooledFit
     points: tuple[AssemblyPoint, ...]
+    complete: bool
 
 
 def extract_rebars(
@@ -85,6 +91,8 @@ def extract_rebars(
     others_mm
         Diameters of other bars in the same group: what is nearer to one of these is left out.
     """
+    if copies_depths(scan):
+        return _nothing(COPIED)
     sample, sizes_mm = thinned(scan, _SAMPLE, rng), (diameter_mm, *others_mm)
     standing = find_standing(sample, diameter_mm / 2, scan.viewpoint, rng)
     if standing is not None and standing.floor is None:
@@ -92,9 +100,19 @@ def extract_rebars(
     if standing is None:
         return _nothing(f"the scan shows no upright bar of {diameter_mm:g} mm")
     bars = _measured(scan, sample, standing, places, sizes_mm, _BAR_PRIORS, rng)
+    for _ in range(_SIZES_TRIED):
+        if isinstance(bars, str) or _is_of_size(bars, sizes_mm[0]):
+            break
+        sizes_mm = (2.0 * float(np.median(bars.fit.outline_radius)), *others_mm)
+        bars = _measured(scan, sample, standing, places, sizes_mm, _BAR_PRIORS, rng)
     if isinstance(bars, str):
         return _nothing(bars)
     return _extraction(bars, standing, diameter_mm)
+
+
+def _is_of_size(bars: _Bars, diameter_mm: float) -> bool:
+    low, high = _OF_SIZE
+    return low < 2.0 * float(np.median(bars.fit.outline_radius)) / diameter_mm < high
 
 
 def _turned_to_the_bars(
@@ -148,7 +166,7 @@ def _measured(
     if leaning is not tops:
         tops, fit = leaning, _fit(leaning, radius_mm, priors)
     fit = _shifted(fit, tops, lines, bend)
-    return _Bars(tops, fit, _points(tops, fit, priors.lean, level))
+    return _Bars(tops, fit, _points(tops, fit, priors.lean, level), signs.complete)
 
 
 def _lines(patches: Patches, planes: TopPlanes, tops: Tops) -> SightLines | None:
@@ -216,7 +234,9 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
         "wall_residual_mm": fit.wall_mm,
         "wall_points": int(fit.wall_count.sum()),
     }
-    return Extraction(Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality)
+    return Extraction(
+        Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality, complete=bars.complete
+    )
 
 
 def _believed_leans(fit: PooledFit, prior: float) -> tuple[Array, Array]:
@@ -289,7 +309,8 @@ def _shape_u_mm(tops: Tops, fit: PooledFit) -> Array:
     spoilt += 0.5 * (behind > 1.0).sum(axis=1) / count + 0.5 * (1.0 - tops.rims.coverage)
     held = tops.beyond.seen.sum(axis=1) > 0.5 * count
     ribs = np.where(held, *_SHAPE_U_PITCHES) * tops.pitch_mm
-    return np.asarray(np.hypot(ribs, _SPOILT_U_MM * spoilt))
+    burrs = burr_u_mm(tops.rims, fit.centre, float(np.median(fit.outline_radius)))
+    return np.asarray(np.hypot(np.hypot(ribs, burrs), _SPOILT_U_MM * spoilt))
 
 
 def _mean_axis(points: tuple[AssemblyPoint, ...]) -> Array:

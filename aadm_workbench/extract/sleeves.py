@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM
+from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
 from aadm_workbench.extract.edges.edge_shift import (
     BentDiscs,
     Shift,
@@ -87,6 +88,8 @@ def extract_sleeves(
     Extraction
         With an empty ``points`` and a ``reason`` where no face or no hole was found.
     """
+    if copies_depths(scan):
+        return Extraction(Kind.SLEEVE, "refined", (), None, None, reason=COPIED)
     sample = thinned(scan, _SAMPLE, rng)
     found = face_with_holes(scan, sample, diameter_mm / 2, rng)
     if found is None:
@@ -152,7 +155,9 @@ def _measured(mouths: Mouths, patches: Patches, layer: FootFace, diameter_mm: fl
         "wall_residual_mm": fit.wall_mm,
         "wall_points": int(fit.wall_count.sum()),
     }
-    return Extraction(Kind.SLEEVE, "refined", points, face, -face.normal, "foot face", quality=quality)
+    return Extraction(
+        Kind.SLEEVE, "refined", points, face, -face.normal, "foot face", quality=quality, complete=signs.complete
+    )
 
 
 def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm: float) -> PooledFit | None:

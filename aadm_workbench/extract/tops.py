@@ -35,6 +35,9 @@ _OUTLINE_ZONE, _OUTLINE_BEYOND_MM = 0.3, 3.0  # of the radius; beyond it
 _RIM_BEYOND_MM = 2.5
 # of the density of the disc, in a ring beyond the ribs; of the radius (a choice: ±30 % changes what is found)
 _GOES_ON_SHARE, _GOES_ON_RING, _GOES_ON_DISC = 0.3, (1.25, 1.5), 0.9
+# a face about a hole is farther before what is seen through it than a slanted cut rises; sectors of a ring beyond the
+# hole that show it: beside a bar stand a few things, not one all round; of the points that would fill one
+_SUNK_MM, _SUNK_RING, _SECTORS, _SUNK_SECTORS, _SUNK_SHARE = 10.0, (1.1, 2.2), 12, 8, 0.15
 _COVERAGE_MIN = 0.5  # half of a circle still holds its centre both ways
 _PITCH_MAX = 0.2  # of the radius: 80 points on a top; on fewer anything passes for round
 _PASSED_FROM, _PASSED_BEYOND_MM = 0.75, 6.0  # of the radius; beyond it: so far about the edge rays tell where it is
@@ -105,7 +108,7 @@ def tops_in(
     rims = outlines(top.where(top.distance(centre) < radius_mm + _RIM_BEYOND_MM), centre, bins, innermost=False)
     around = top if beside is None else _at_the_height_of(beside, places, planes, bands_mm[:, 0], radius_mm)
     kept = planes.found & ~other & ~_goes_on(around, centre, radius_mm) & (rims.coverage >= _COVERAGE_MIN)
-    kept &= pitch_mm < _PITCH_MAX * radius_mm
+    kept &= (pitch_mm < _PITCH_MAX * radius_mm) & ~_is_sunk(patches, planes, height, centre, radius_mm, pitch_mm)
     passed = _passed(patches, planes, height < -bands_mm, centre, radius_mm)
     beyond = outlines(passed, centre, bins, innermost=True).only(rims.seen)  # no surface: nothing tells of its edge
     side_xy, side_depth, side_seen = _sides(patches, height, centre, radius_mm, kept)
@@ -150,6 +153,20 @@ def _goes_on(top: PlanPoints, centre: Array, radius_mm: float) -> BoolArray:
     disc = top.counted(radius < _GOES_ON_DISC) / _GOES_ON_DISC**2
     around = top.counted((radius > low) & (radius < high)) / (high**2 - low**2)
     return np.asarray(around > _GOES_ON_SHARE * disc)
+
+
+def _is_sunk(
+    patches: Patches, planes: TopPlanes, height: FloatArray, centre: Array, radius_mm: float, pitch_mm: Array
+) -> BoolArray:
+    """Where (k,) surfaces stand before a top all round it: that is the end of a hole, seen through it."""
+    at = np.flatnonzero((height > _SUNK_MM) & planes.found[:, None])
+    around = patches.crossings(at, planes.offset)
+    (low, high), radius = _SUNK_RING, around.distance(centre) / radius_mm
+    around = around.where((radius > low) & (radius < high))
+    counts = np.bincount(around.owner * _SECTORS + around.bins(centre, _SECTORS), minlength=_SECTORS * len(centre))
+    expected = np.pi * (high**2 - low**2) * (radius_mm / pitch_mm) ** 2 / _SECTORS
+    shown = counts.reshape(-1, _SECTORS) > _SUNK_SHARE * expected[:, None]
+    return np.asarray(shown.sum(axis=1) >= _SUNK_SECTORS)
 
 
 def _passed(patches: Patches, planes: TopPlanes, behind: BoolArray, centre: Array, radius_mm: float) -> PlanPoints:

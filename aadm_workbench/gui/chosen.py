@@ -31,6 +31,12 @@ def chosen_columns() -> list[Any]:
     return known if not selected and len(known) == 1 else found
 
 
+def has_columns() -> bool:
+    """Whether the document in front has a column."""
+    document = FreeCAD.ActiveDocument
+    return document is not None and bool(columns_in(document))
+
+
 def the_column() -> Any:
     """The one column to work on.
 

@@ -9,6 +9,7 @@ from PySide import QtCore
 
 from aadm_workbench.document.column import columns_in, follow_model
 from aadm_workbench.document.result import is_result
+from aadm_workbench.gui.panels.task_panel import close_orphans
 
 _UNITS = "User parameter:BaseApp/Preferences/Units"
 
@@ -27,6 +28,14 @@ class ModelObserver:
         if document.Name not in self._moved:
             self._moved.add(document.Name)
             QtCore.QTimer.singleShot(0, lambda name=document.Name: self._follow(name))
+
+    def slotDeletedDocument(self, document: Any) -> None:
+        """A document is closed: the panel that was about it goes once FreeCAD is done."""
+        QtCore.QTimer.singleShot(0, close_orphans)
+
+    def slotDeletedObject(self, obj: Any) -> None:
+        """An object is deleted, and with it what was about it."""
+        QtCore.QTimer.singleShot(0, close_orphans)
 
     def _follow(self, name: str) -> None:
         self._moved.discard(name)

@@ -49,10 +49,10 @@ class ResultTable(QtGui.QTableWidget):
             [
                 "",
                 translate("AADM_Table", "Point"),
-                translate("AADM_Table", "What"),
                 translate("AADM_Table", "Deviation"),
-                "± u",
                 translate("AADM_Table", "Limit"),
+                "± u",
+                translate("AADM_Table", "What"),
                 translate("AADM_Table", "Clause"),
             ]
         )
@@ -85,10 +85,10 @@ class ResultTable(QtGui.QTableWidget):
         cells = (
             ("", place),
             (row.name, _natural(row.name)),
-            (what, what),
             (value, -1.0 if row.value_mm is None else abs(row.value_mm)),
-            (length_text(row.u_mm), row.u_mm or 0.0),
             (length_text(row.limit_mm), row.limit_mm or 0.0),
+            (length_text(row.u_mm), row.u_mm or 0.0),
+            (what, what),
             (row.clause, row.clause),
         )
         said = in_language(row.reason) if row.reason else f"{row.name}: {in_words(row.verdict)}"
@@ -96,7 +96,7 @@ class ResultTable(QtGui.QTableWidget):
             item = _Cell(text)
             item.setData(_BY, key)
             item.setToolTip(said)
-            if column in (3, 4, 5):
+            if column in (2, 3, 4):
                 item.setTextAlignment(QtCore.Qt.AlignRight | QtCore.Qt.AlignVCenter)
             self.setItem(place, column, item)
         first = self.item(place, 0)
@@ -104,10 +104,10 @@ class ResultTable(QtGui.QTableWidget):
         first.setData(_ROW, place)
         if row.verdict not in {"pass", "not_assessed"}:
             colour = QtGui.QColor.fromRgbF(*of_verdict(row.verdict))
-            font = self.item(place, 3).font()
+            font = self.item(place, 2).font()
             font.setBold(True)
-            self.item(place, 3).setFont(font)
-            self.item(place, 3).setForeground(colour)
+            self.item(place, 2).setFont(font)
+            self.item(place, 2).setForeground(colour)
 
     def _tell(self) -> None:
         places = {index.row() for index in self.selectedIndexes()}

@@ -15,7 +15,6 @@ from pivy import coin
 
 from aadm_workbench.document.column import column_design, owner_of
 from aadm_workbench.document.display.colours import of_verdict
-from aadm_workbench.document.display.design_text import design_of_report
 from aadm_workbench.document.display.marks import (
     SHOWN,
     Label,
@@ -26,6 +25,7 @@ from aadm_workbench.document.display.marks import (
     pitch_of,
     ring,
 )
+from aadm_workbench.document.display.reported_design import design_of_report
 from aadm_workbench.document.places import transform_of
 from aadm_workbench.document.properties import Property
 from aadm_workbench.document.result import found_of

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import traceback
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import FreeCAD
@@ -11,7 +11,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from aadm_workbench.document.display.messages import complain
-from aadm_workbench.errors import AadmError, MissingDependencyError
+from aadm_workbench.errors import AadmError, NoEnvironmentError
 
 translate = FreeCAD.Qt.translate
 WINDOW_NAME = "AADM_Sentence"
@@ -26,8 +26,11 @@ def sentences(title: str) -> Iterator[None]:
         show_error(title, error)
 
 
-def show_error(title: str, error: BaseException) -> None:
-    """Say what went wrong in a window that does not block, and in the report view."""
+def show_error(title: str, error: BaseException, *offers: tuple[str, Callable[[], object]]) -> None:
+    """Say what went wrong in a window that does not block, and in the report view.
+
+    ``offers``: buttons with what they do about it.
+    """
     complain(sentence_of(error))
     box = QtGui.QMessageBox(FreeCADGui.getMainWindow())
     box.setObjectName(WINDOW_NAME)
@@ -36,10 +39,15 @@ def show_error(title: str, error: BaseException) -> None:
     box.setWindowTitle(title)
     box.setText(sentence_of(error))
     box.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
-    if isinstance(error, MissingDependencyError):
-        from aadm_workbench.gui.panels.install import offer_to_install
+    if isinstance(error, NoEnvironmentError):
+        from aadm_workbench.gui.panels.environment import install
 
-        offer_to_install(box, error)
+        offers = ((translate("AADM", "Install now"), install), *offers)
+    for text, act in offers:
+        button = box.addButton(text, QtGui.QMessageBox.ActionRole)
+        button.clicked.connect(lambda checked=False, act=act: act())
+    if offers:
+        box.addButton(QtGui.QMessageBox.Close)
     box.open()
 
 

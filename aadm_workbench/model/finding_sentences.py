@@ -105,6 +105,14 @@ FINDING_SENTENCES: dict[str, Sentence] = {
         "{group} 的扫描在边缘与其后方之间有并不存在的表面:未测到处被填补,或边缘被加粗。请在相机软件中关闭孔洞填充"
         "(补洞、插值、膨胀,即 hole filling / gap filling)后重新扫描",
     ),
+    "edges_fattened": Sentence(
+        "in the scan of the {group} the pixels at edges and gaps repeat the depths of their neighbours: what is near "
+        "was carried over what lies behind it, or over what was not measured, and edges stand where nothing is. Turn "
+        "this off in the camera's software (hole filling with the nearest or the left neighbour, dilation, edge "
+        "padding) and scan again",
+        "{group} 的扫描在边缘和空缺处重复相邻像素的深度:近处表面被延伸到其后方或未测到之处,边缘因此移位。"
+        "请在相机软件中关闭(以最近点或左邻点补洞、膨胀、边缘扩展,即 hole filling / dilation)后重新扫描",
+    ),
     "exposed_length_differs.short": Sentence(
         "{about} sticks out {measured_mm:.0f} mm where {expected_mm:.0f} mm are expected ({of}): it is cut off or bent "
         "away, and does not reach as far into its sleeve as it must",

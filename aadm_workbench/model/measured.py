@@ -191,7 +191,8 @@ class Extraction:
 
     ``plane`` is the foot face (sleeves) or the robust mean level of the bar tops (rebars);
     ``vertical`` (3,) is the unit vector that is "up along the column", and ``vertical_from`` says what
-    gave it. ``quality`` holds plain numbers for the report.
+    gave it. ``quality`` holds plain numbers for the report. ``complete``: about the points no pixel is lost, where
+    cameras lose some: as if what was not measured had been filled in.
     """
 
     kind: Kind
@@ -203,3 +204,4 @@ class Extraction:
     exposed_length_mm: tuple[float | None, ...] = ()
     quality: dict[str, Any] = field(default_factory=dict)
     reason: str = ""
+    complete: bool = False

@@ -52,7 +52,7 @@ def test_every_command_is_quiet_on_request_and_prints_json() -> None:
         options = {option for action in parser._actions for option in action.option_strings}
         if "--debug" in options:
             assert "--quiet" in options
-            assert ("--json" in options) == (not parser.prog.startswith("aadm simulate "))
+            assert ("--json" in options) == (not parser.prog.startswith(("aadm simulate ", "aadm ask")))
 
 
 def python(*arguments: str, folder: Path) -> subprocess.CompletedProcess[str]:
@@ -231,4 +231,5 @@ def test_command_names() -> None:
         "writeback",
         "profiles",
         "doctor",
+        "ask",
     ]

@@ -5,16 +5,18 @@ import itertools
 import numpy as np
 import pytest
 
+from aadm_workbench.design.design_text import read_design, write_design
 from aadm_workbench.design.recognise.pattern import inline_design
-from aadm_workbench.document.cloud import distance_from_design, thinned
+from aadm_workbench.document.cloud import distance_from_design
 from aadm_workbench.document.display.colours import FAR, of_distances
-from aadm_workbench.document.display.design_text import design_of_report, read_design, write_design
 from aadm_workbench.document.display.label_layout import Wanted, overlap, place_labels
 from aadm_workbench.document.display.marks import arrow_outline, best_magnification, marks_of, pitch_of, ring
 from aadm_workbench.document.display.projection import ViewCamera, project
+from aadm_workbench.document.display.reported_design import design_of_report
 from aadm_workbench.document.display.result_rows import only_what_fails, result_rows
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Kind
+from aadm_workbench.scan.thinned import thinned
 from tests.document.test_objects import point, report
 
 COLUMN = report()["columns"][0]

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tests.conftest import FreeCADRunner
-from tests.freecad_packages import with_packages
+from tests.freecad_environment import with_environment
 
 pytestmark = pytest.mark.freecad
 
@@ -76,7 +76,7 @@ def saved(freecadcmd: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[st
     """What one process made and saved, and what a fresh one read."""
     folder = tmp_path_factory.mktemp("saved")
     (folder / "report.json").write_text(json.dumps(report()), encoding="utf-8")
-    runner = with_packages(FreeCADRunner(freecadcmd, folder))
+    runner = with_environment(FreeCADRunner(freecadcmd, folder))
     made = runner.run(
         "import FreeCAD\n"
         "from aadm_workbench.document import api\n"
@@ -242,7 +242,7 @@ def test_files_that_are_no_reports_or_scans_get_a_sentence(freecad: Any) -> None
         if text is not None:
             (freecad.folder / name).write_text(text, encoding="utf-8")
     (freecad.folder / "broken.ply").write_text("ply\nformat ascii 1.0\nelement vertex 5\n", encoding="utf-8")
-    result = freecad.run(
+    result = with_environment(freecad).run(
         "import FreeCAD\n"
         "from aadm_workbench.errors import AadmError\n"
         "from aadm_workbench.document import api, open_scan\n"
@@ -279,36 +279,32 @@ def test_examples_of_the_api_run(freecad: Any, repository: Path) -> None:
     assert len(lines) >= 7
     *work, last = lines
     body = f"import os\nos.chdir({str(repository)!r})\n{''.join(work)}result['verdict'] = {last}"
-    result = with_packages(freecad).run(body)
+    result = with_environment(freecad).run(body)
     assert result["verdict"] == "pass"
 
 
-def test_missing_package_is_named_with_the_command_that_installs_it(freecad: Any, repository: Path) -> None:
+def test_without_the_environment_a_sentence_says_so(freecad: Any, repository: Path) -> None:
     scans = repository / "samples" / "lab" / "scans"
     result = freecad.run(
         "import FreeCAD, sys\n"
-        "sys.modules['cv2'] = sys.modules['lzf'] = None\n"  # as if they were not installed, wherever this runs
-        "from aadm_workbench.document import api\n"
-        "from aadm_workbench.errors import MissingDependencyError\n"
+        "from aadm_workbench.document import api, open_scan\n"
+        "from aadm_workbench.errors import NoEnvironmentError\n"
         "document = FreeCAD.newDocument('bare')\n"
         "design = {'centres': [[-90, -90], [90, -90], [90, 90], [-90, 90]], 'sleeve_diameter': 26.0}\n"
         "column = api.describe(document, 'L-1', design)\n"
-        f"api.add_scan(column, {str(scans / 'L-1-foot.ply')!r}, 'sleeves')\n"
         "result['said'] = []\n"
-        f"bars = {str(scans / 'L-1-bars.pcd')!r}\n"
-        "for call in (lambda: api.check(column), lambda: api.add_scan(column, bars, 'rebars')):\n"
+        f"foot, model = {str(scans / 'L-1-foot.ply')!r}, {str(repository / 'samples/floor/floor3.ifc')!r}\n"
+        "for call in (lambda: api.add_scan(column, foot, 'sleeves'), lambda: api.sample(document, file=model),\n"
+        "             lambda: api.sample(document)):\n"
         "    try:\n"
         "        call()\n"
-        "    except MissingDependencyError as error:\n"
+        "    except NoEnvironmentError as error:\n"
         "        result['said'].append(str(error))\n"
-        "result['folder'] = str(FreeCAD.getUserAppDataDir())\n"
+        "open_scan.insert(foot, document.Name)\n"
     )
-    check, scan = result["said"]
-    assert "opencv-python-headless" in check
-    assert "python-neo-lzf" in scan
-    for sentence in (check, scan):
-        assert "-m pip install" in sentence
-        assert f"--target {result['folder']}AdditionalPythonPackages" in sentence
+    assert len(result["said"]) == 3
+    assert all("FreeCAD itself is not changed" in sentence for sentence in result["said"])
+    assert result["said"][0] in result["printed"]
 
 
 def test_import_hooks_are_registered(freecad: Any) -> None:

@@ -2,12 +2,19 @@
 
 import json
 import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from aadm_workbench.design.design_text import read_design
+from aadm_workbench.design.element_json import from_json
+from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
+from aadm_workbench.errors import DesignError
+from aadm_workbench.model import AssemblyPoint, ColumnDesign
+from batch.answers import columns
 from tests.conftest import FreeCADRunner, find_freecad
 
 pytestmark = pytest.mark.freecad
@@ -15,52 +22,67 @@ pytestmark = pytest.mark.freecad
 EXACT_MM = 0.001
 AUTHOR = Path(__file__).with_name("freecad_author.py")
 
-# One FreeCAD writes and samples everything: most of what these tests take is its start.
+# One FreeCAD writes all and samples its shapes: most of what these tests take is its start.
 SAMPLE_ALL = """\
 import sys
 sys.path.insert(0, {folder!r})
 import FreeCAD
 import freecad_author
-from aadm_workbench.document.sample.columns import sample_column, sample_document
+from aadm_workbench.document.sample.columns import sampled_shapes
 from aadm_workbench.errors import AadmError
-
-def plain(points):
-    return [
-        dict(label=p.label, centre=p.centre.tolist(), axis=p.axis.tolist(), diameter=p.diameter_mm, length=p.length_mm,
-             guid=p.global_id, object=p.object_name, why=p.why)
-        for p in points
-    ]
-
-def entry(column):
-    return dict(id=column.id, names=column.names, size=column.size_mm, storey=column.storey, mark=column.piece_mark,
-                guid=column.global_id, T=column.T_model_column.tolist(), sleeves=plain(column.sleeves),
-                rebars=plain(column.rebars), warnings=column.warnings)
-
-def sampled(model):
-    return dict(columns=[entry(column) for column in model.columns], loose_sleeves=plain(model.loose_sleeves),
-                loose_rebars=plain(model.loose_rebars), warnings=model.warnings, holdings=model.holdings,
-                left=[[left.what, left.name, left.reason] for left in model.not_taken], sha256=model.sha256)
 
 result["undrawn"] = [name for name in freecad_author.SCENES if not freecad_author.can_draw(name)]
 for name in set(freecad_author.SCENES) - set(result["undrawn"]):
     path, truth = freecad_author.write(name, folder)
     document = FreeCAD.openDocument(path)
-    result[name] = sampled(sample_document(document)) | dict(truth=truth, path=path)
+    result[name] = dict(shapes=sampled_shapes(document), truth=truth, path=path)
     if name == "links":
-        result["selected"] = entry(sample_column(document.Column002))
-        result["objects"] = sampled(sample_document(document, columns=[document.Column, document.Column001]))
-        try:
-            sample_column(document.OneBar)
-        except AadmError as error:
-            result["not a column"] = str(error)
-        result["rule"] = sampled(sample_document(document, columns='Label=/^预制柱$/, object!=Column.Concrete',
-                                                 sleeves="Name*=Sleeve + Label=/套筒/"))
-        result["first part is an object"] = all(
-            document.getObject(point.object_name.split(".")[0]) is not None
-            for column in sample_document(document).columns for point in column.sleeves + column.rebars
-        )
+        result["selected"] = sampled_shapes(document, [document.Column002])
+        result["objects"] = sampled_shapes(document, [document.Column, document.Column001])
+        result["one bar"] = sampled_shapes(document, [document.OneBar])
+        result["names"] = [obj.Name for obj in document.Objects]
     FreeCAD.closeDocument(document.Name)
 """
+
+
+def plain(points: Sequence[AssemblyPoint]) -> list[dict[str, Any]]:
+    return [
+        {"label": p.label, "centre": p.centre.tolist(), "axis": p.axis.tolist(), "diameter": p.diameter_mm}
+        | {"length": p.length_mm, "guid": p.global_id, "object": p.object_name, "why": p.why}
+        for p in points
+    ]
+
+
+def entry(column: ColumnDesign) -> dict[str, Any]:
+    assert column.T_model_column is not None
+    said = {"id": column.id, "names": list(column.names), "size": column.size_mm, "storey": column.storey}
+    said |= {"mark": column.piece_mark, "guid": column.global_id, "T": column.T_model_column.tolist()}
+    return said | {
+        "sleeves": plain(column.sleeves),
+        "rebars": plain(column.rebars),
+        "warnings": list(column.warnings),
+    }
+
+
+def recognised(shapes: Mapping[str, Any], rules: Rules | None = None) -> dict[str, Any]:
+    """What the private process makes of shapes that FreeCAD has handed over, all of them."""
+    origin = Origin(shapes["source"], shapes["sha256"], "FreeCAD", tuple(shapes["problems"]))
+    model = recognise(from_json(shapes["elements"]), origin, rules)
+    return {
+        "columns": [entry(column) for column in model.columns],
+        "loose_sleeves": plain(model.loose_sleeves),
+        "loose_rebars": plain(model.loose_rebars),
+        "warnings": list(model.warnings),
+        "holdings": model.holdings,
+        "left": [[left.what, left.name, left.reason] for left in model.not_taken],
+        "sha256": model.sha256,
+    }
+
+
+def pointed_at(shapes: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """The columns that the private process answers for objects that were selected."""
+    answer = columns({"about": "columns", **shapes})
+    return [entry(read_design(json.dumps(column), column["id"])) for column in answer["columns"]]
 
 
 class Sampled(dict[str, Any]):
@@ -77,7 +99,11 @@ def sampled(tmp_path_factory: pytest.TempPathFactory) -> Sampled:
     """What FreeCAD sampled in each scene, with the truth."""
     program = find_freecad("freecadcmd", "FreeCADCmd")
     runner = FreeCADRunner(program, tmp_path_factory.mktemp("documents"))
-    return Sampled(runner.run(SAMPLE_ALL.format(folder=str(AUTHOR.parent)), timeout_s=300.0))
+    found = Sampled(runner.run(SAMPLE_ALL.format(folder=str(AUTHOR.parent)), timeout_s=300.0))
+    for name in SCENES:
+        if name not in found["undrawn"]:
+            found[name] = recognised(found[name]["shapes"]) | found[name]
+    return found
 
 
 SCENES = (
@@ -150,7 +176,8 @@ def test_points_know_their_objects_and_their_global_ids(sampled) -> None:
     assert plain["guid"] is None
     assert {point["guid"] for point in plain["sleeves"] + plain["rebars"]} == {None}
     assert {sleeve["object"] for sleeve in plain["sleeves"]} == {"Cut"}
-    assert sampled["first part is an object"]
+    points = [point for column in sampled["links"]["columns"] for point in column["sleeves"] + column["rebars"]]
+    assert {point["object"].split(".")[0] for point in points} <= set(sampled["names"])
 
 
 def test_what_is_no_sleeve_is_left_out_and_said(sampled) -> None:
@@ -164,14 +191,18 @@ def test_what_is_no_sleeve_is_left_out_and_said(sampled) -> None:
 
 
 def test_one_selected_column(sampled) -> None:
-    assert sampled["selected"]["id"] == "C-403"
-    assert len(sampled["selected"]["rebars"]) == 12
-    assert sorted(column["id"] for column in sampled["objects"]["columns"]) == ["C-401", "C-402"]
-    assert "OneBar has no grouting sleeves in its foot face" in sampled["not a column"]
+    (selected,) = pointed_at(sampled["selected"])
+    assert selected["id"] == "C-403"
+    assert len(selected["rebars"]) == 12
+    assert [column["id"] for column in pointed_at(sampled["objects"])] == ["C-401", "C-402"]
+    with pytest.raises(DesignError, match="OneBar has no grouting sleeves in its foot face"):
+        pointed_at(sampled["one bar"])
 
 
 def test_rules_of_the_job(sampled) -> None:
-    assert sorted(column["id"] for column in sampled["rule"]["columns"]) == ["C-402", "C-403", "C-404"]
+    rules = Rules("Label=/^预制柱$/, object!=Column.Concrete", "Name*=Sleeve + Label=/套筒/")
+    found = recognised(sampled["links"]["shapes"], rules)
+    assert sorted(column["id"] for column in found["columns"]) == ["C-402", "C-403", "C-404"]
 
 
 def test_a_hidden_original_counts_only_where_everything_is_hidden(sampled) -> None:

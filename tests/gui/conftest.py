@@ -4,16 +4,17 @@ import fcntl
 import json
 import os
 import shutil
+import tomllib
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.conftest import ROOT, FreeCADRunner, find_freecad
-from tests.freecad_packages import with_packages
+from tests.freecad_environment import with_environment
 from tests.gui.model_text import MODEL
 
-_BODIES = ("session_body.py", "floor_body.py")
+_BODIES = ("bare_body.py", "session_body.py", "floor_body.py", "private_body.py")
 
 
 @pytest.fixture(scope="session")
@@ -35,11 +36,13 @@ def session(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
 
 
 def _run(folder: Path, display: str) -> dict[str, Any]:
-    runner = with_packages(FreeCADRunner(find_freecad("freecad", "FreeCAD"), folder, display))
+    runner = with_environment(FreeCADRunner(find_freecad("freecad", "FreeCAD"), folder, display))
     bodies = [(Path(__file__).parent / name).read_text(encoding="utf-8") for name in _BODIES]
     given = f"MODEL = {MODEL!r}\nSAMPLES = {str(ROOT / 'samples')!r}\n"
+    camera = tomllib.loads((ROOT / "samples/floor/job.toml").read_text(encoding="utf-8"))["camera"]
+    given += f"CAMERA = {''.join(f'{key} = {value!r}' + chr(10) for key, value in camera.items())!r}\n"
     given += f"FREECADCMD = {str(find_freecad('freecadcmd', 'FreeCADCmd'))!r}\n"
-    result = runner.run(given + "\n".join(bodies), timeout_s=240.0)
+    result = runner.run(given + "\n".join(bodies), timeout_s=480.0)
     if os.environ.get("AADM_DOCUMENTS"):
         # For the other versions of FreeCAD, which must be able to open it.
         shutil.copy(folder / "session.FCStd", Path(os.environ["AADM_DOCUMENTS"]) / f"{result['freecad']}.FCStd")

@@ -13,6 +13,8 @@ import FreeCADGui as Gui
 import numpy as np
 from PySide import QtCore, QtGui
 
+from aadm_workbench.gui.aadm_process import _RUNNING
+
 namespace = {}
 exec(MODEL, namespace)
 window = Gui.getMainWindow()
@@ -77,6 +79,7 @@ def run_anyway(name):
 
     module, command = COMMANDS[name]
     getattr(import_module(f"aadm_workbench.gui.commands.{module}"), command)().Activated()
+    spin(lambda: not _RUNNING)
     return sentences()
 
 
@@ -86,8 +89,6 @@ FreeCAD.ParamGet("User parameter:BaseApp/Preferences/View").SetBool("UseNavigati
 # The workbench, as it is found.
 result["freecad"] = ".".join(FreeCAD.Version()[:2])
 result["listed"] = "AADMWorkbench" in Gui.listWorkbenches()
-import sys
-
 result["loaded_early"] = "aadm_workbench.gui.commands.about" in sys.modules
 Gui.activateWorkbench("AADMWorkbench")
 active = Gui.activeWorkbench()
@@ -114,13 +115,14 @@ result["objects_after_nonsense"] = [obj.Name for obj in document.Objects if obj.
 document.removeObject(torus.Name)
 
 # Sample design, undo, redo.
+from aadm_workbench.gui.panels.design import DesignPanel
+
 Gui.Selection.clearSelection()
 Gui.Selection.addSelection(column_body)
 Gui.runCommand("AADM_SampleDesign")
-settle(0.2)
+spin(lambda: panel(DesignPanel) is not None)
 from aadm_workbench.document import api
 from aadm_workbench.document.places import transform_of
-from aadm_workbench.gui.panels.design import DesignPanel
 
 (column,) = api.columns_in(document)
 design_panel = panel(DesignPanel)
@@ -164,7 +166,7 @@ def import_scan(file, kind, camera=str(intrinsics)):
     importing.depth_scale.setValue(0.03)
     before = len(column.Scans)
     importing.start()
-    spin(lambda: len(column.Scans) > before or importing.import_button.isEnabled(), 30)
+    spin(lambda: len(column.Scans) > before or importing.start_button.isEnabled(), 30)
     said = sentences()
     if panel(ImportPanel) is not None:
         importing.reject()
@@ -189,12 +191,12 @@ Gui.runCommand("AADM_CheckColumn")
 checking = panel(CheckPanel)
 checking.start()
 checking.cancel()
-spin(checking.check_button.isEnabled, 30)
+spin(checking.start_button.isEnabled, 30)
 result["result_after_cancel"] = column.Result is not None
 longest_gap_s = 0.0
 rounds = 0
 checking.start()
-spin(lambda: column.Result is not None and checking.check_button.isEnabled(), 60)
+spin(lambda: column.Result is not None and checking.start_button.isEnabled(), 60)
 result["longest_gap_s"] = longest_gap_s
 result["rounds"] = rounds
 result["said_by_check"] = sentences()
@@ -355,14 +357,14 @@ broken = folder / "broken.toml"
 broken.write_text("schema = 1\nnonsense = 2\n")
 job.job.set_text(str(broken))
 job.start()
-spin(lambda: job.process is None, 30)
+spin(lambda: job.work is None, 30)
 result["said_for_broken_job"] = sentences()
 job.job.set_text(str(Path(SAMPLES) / "floor" / "job.toml"))
 job.folder.set_text(str(folder / "cancelled"))
 job.start()
 settle(0.3)
 job.cancel()
-spin(lambda: job.process is None, 30)
+spin(lambda: job.work is None, 30)
 result["said_by_cancelled_job"] = sentences()
 result["shown_by_cancelled_job"] = len(api.columns_in(floor))
 short = folder / "short.toml"
@@ -372,7 +374,7 @@ job.job.set_text(str(short))
 job.folder.set_text(str(folder / "lab"))
 longest_gap_s = 0.0
 job.start()
-spin(lambda: job.process is None, 90)
+spin(lambda: job.work is None, 90)
 result["said_by_job"] = sentences()
 result["job_lines"] = [job.lines.item(place).text() for place in range(job.lines.count())]
 result["job_columns"] = [[one.ColumnId, one.Result.Verdict] for one in api.columns_in(floor)]

@@ -25,6 +25,7 @@ COMMANDS = [
     "AADM_SampleDesign",
     "AADM_SavePicture",
     "AADM_Settings",
+    "AADM_TryIt",
     "AADM_WriteResults",
 ]
 
@@ -238,7 +239,9 @@ def test_hoisting_says_which_way(session: dict[str, Any]) -> None:
 
 def test_about_and_doctor(session: dict[str, Any]) -> None:
     assert session["about"].startswith(f"AADM {__version__}\nFreeCAD ")
-    assert session["about_rows"] >= 6
+    assert "FreeCAD itself is not changed" in session["about_state"]
+    assert session["about_buttons"][0] == "Try it on a sample floor"
+    assert session["about_buttons"][1:4] == ["Repair", "From a folder of wheels…", "Remove"]
 
 
 def test_language_switches(session: dict[str, Any]) -> None:

@@ -10,6 +10,7 @@ pattern is there then, sizes and all, that is what was wrong.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -19,13 +20,15 @@ from aadm_workbench.assembly.findings.diameters import CORE_ABOVE, CORE_BELOW, s
 from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
+from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.edges.edge_shift import BLURRED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Finding, Kind
 
 _BADLY_BUILT_MM = 3.0  # root mean square: a half more than the limit of every single point
+_FITS_BETTER = 2.0  # on its own design, or on one like it, a group scatters by as much: by half is no chance
 _LOOKS = 3  # in one scan, for other columns' sizes: each takes as long as a check
-_UNFIT_REASONS = (SMOOTHED, GAPS_FILLED, BLURRED)
+_UNFIT_REASONS = (SMOOTHED, GAPS_FILLED, COPIED, BLURRED)
 _NEXT_BORE = 1.15  # sleeves for the next bar are 2 to 6 mm wider; found are those within 8 %
 _SIZES_EACH_WAY = 2  # bars two sizes off have been delivered; more would be seen from afar
 
@@ -62,17 +65,16 @@ def mistaken_findings(
     lost = [kind for kind, group in groups.items() if _is_lost(group)]
     odd = list(length_findings([(groups[kind], scans[kind]) for kind in lost if not is_usual(scans[kind].distance_mm)]))
     yield from odd
-    lost = [kind for kind in lost if not any(kind.plural in finding.about for finding in odd)]
-    crossed = [kind for kind in lost if _shows(design, scans[kind], _other(kind))]
+    lost = [kind for kind in lost if not _is_told(odd, kind)]
+    crossed = _crossed(design, groups, scans, odd)
     if len(crossed) == 2:
         yield make_finding("swapped", ["sleeves", "rebars"])
         return
+    for kind in crossed:
+        names = {"group": kind.plural, "others": _other(kind).plural, "source": scans[kind].source}
+        yield make_finding("swapped.one", [kind.plural], **names)
     unexplained = []
-    for kind in lost:
-        if kind in crossed:
-            names = {"group": kind.plural, "others": _other(kind).plural, "source": scans[kind].source}
-            yield make_finding("swapped.one", [kind.plural], **names)
-            continue
+    for kind in (kind for kind in lost if kind not in crossed):
         found = _of_another_column(groups[kind], scans[kind], others)
         found = found or _of_other_sizes(groups[kind], scans[kind])
         if found is not None:
@@ -80,10 +82,28 @@ def mistaken_findings(
         else:
             unexplained.append((groups[kind], scans[kind]))
     yield from length_findings(unexplained)
-    for kind in (kind for kind, group in groups.items() if _hardly_fits(group)):
-        found = _of_another_column(groups[kind], scans[kind], others)
+    for kind, group in groups.items():
+        doubtful = _hardly_fits(group) or group.match.contradiction == "turn_contradicted"
+        found = _of_another_column(group, scans[kind], others) if doubtful and kind not in crossed else None
         if found is not None:
             yield found
+
+
+def _crossed(
+    design: ColumnDesign, groups: Mapping[Kind, SeenGroup], scans: Mapping[Kind, NamedScan], odd: Sequence[Finding]
+) -> list[Kind]:
+    """The groups whose scans show the other group: lost ones, and with one such the other, whatever it seems to be."""
+    lost = [kind for kind, group in groups.items() if _is_lost(group) and not _is_told(odd, kind)]
+    crossed = [kind for kind in lost if _shows(design, scans[kind], _other(kind))]
+    if len(crossed) != 1:
+        return crossed
+    (one,) = crossed
+    doubtful = [kind for kind, group in groups.items() if kind is not one and (not group.match or _hardly_fits(group))]
+    return [one, *(kind for kind in doubtful if kind not in lost and _shows(design, scans[kind], one))]
+
+
+def _is_told(findings: Sequence[Finding], kind: Kind) -> bool:
+    return any(kind.plural in finding.about for finding in findings)
 
 
 def _is_lost(group: SeenGroup) -> bool:
@@ -121,10 +141,15 @@ def _of_another_column(group: SeenGroup, scan: NamedScan, others: Sequence[Colum
             continue
         if sizes not in seen:
             seen[sizes] = scan.look(group.kind, sizes)
-        if fits(points, seen[sizes]):
+        if fits(points, seen[sizes], _own_rms_mm(group) / _FITS_BETTER):
             name = group.kind.plural
             return make_finding("other_column", [name], group=name, column=other.id)
     return None
+
+
+def _own_rms_mm(group: SeenGroup) -> float:
+    """How well a group lies on its own design in a turn that is not the declared one; infinite where it does not."""
+    return min((one.rms_mm for one in group.match.contradicting), default=math.inf)
 
 
 def _sizes(points: Sequence[AssemblyPoint]) -> tuple[float, ...]:
@@ -202,10 +227,10 @@ class NamedScan:
     distance_mm: float = 0.0
 
 
-def fits(points: Sequence[AssemblyPoint], extraction: Extraction) -> bool:
-    """Whether an extraction lies on a design, mirrored or not."""
+def fits(points: Sequence[AssemblyPoint], extraction: Extraction, within_mm: float = math.inf) -> bool:
+    """Whether an extraction lies on a design, mirrored or not, and scatters about it by less than so much, rms."""
     match = match_extraction(points, extraction)
     needed = max(FEWEST, FITS_SHARE * len(points))
     if match.contradiction == "mirrored":
-        return True
-    return bool(match) and match.placements[0].found >= needed
+        return math.isinf(within_mm)
+    return bool(match) and match.placements[0].found >= needed and match.placements[0].rms_mm < within_mm

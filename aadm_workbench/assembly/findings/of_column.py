@@ -32,9 +32,13 @@ from aadm_workbench.model import (
 
 _SAMPLE = 10_000  # points: a look, not a measurement
 
-TAKES_BACK = ("scale_differs", "other_column")
+TAKES_BACK = ("scale_differs", "other_column", "swapped", "gaps_filled")
 """A part in a hundred moves a point at the corner of a column by millimetres, whoever is to blame; and some points of
-another column lie on this one by chance."""
+another column, or of the other group, lie on this one by chance; how far filled edges were moved nobody knows."""
+
+OPENS_TRIAL = "common_lean"
+"""Of all sleeves and all bars alike: places within a plane are as they were; leans, and with them the room in the
+sleeves, are not."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,13 +74,22 @@ def with_findings(
     """
     groups = {kind: one.group for kind, one in seen.items()}
     scans = {kind: _named(one.scan, method, rng) for kind, one in seen.items()}
-    found = [*findings_of(design, list(groups.values())), *mistaken_findings(design, groups, scans, others)]
+    found = _without_turns(
+        [*findings_of(design, list(groups.values())), *mistaken_findings(design, groups, scans, others)]
+    )
     found += shared_id_findings(design)
     if Kind.REBAR in seen and method == "refined":
         found += odd_bar_findings(groups[Kind.REBAR], seen[Kind.REBAR].scan, found, rng)
     lost = {kind for kind, group in groups.items() if not group.match}
     said = [f"{kind.plural}: {groups[kind].match.reason}" for kind in lost if _told(found, kind)]
     return held_back(without_spoilt(report, found, checks), found, said)
+
+
+def _without_turns(found: Sequence[Finding]) -> list[Finding]:
+    """Some findings, without what they say of the turn of a scan that shows another column."""
+    foreign = {name for one in found if one.code == "other_column" for name in one.about}
+    turns = ("turn_contradicted", "turn_doubtful")
+    return [one for one in found if one.code not in turns or foreign.isdisjoint(one.about)]
 
 
 def _told(found: Sequence[Finding], kind: Kind) -> bool:
@@ -117,13 +130,14 @@ def without_spoilt(report: ColumnReport, findings: Sequence[Finding], checks: Se
         What the verdict of the column counts: ``sleeves``, ``rebars``, ``trial``.
     """
     reason = {name: one.text for one in findings if one.code in TAKES_BACK for name in one.about}
-    if not reason:
+    sheared = [one.text for one in findings if one.code == OPENS_TRIAL and len(one.about) > 1]
+    if not reason and not sheared:
         return report
     sleeves, rebars = (
         _voided(group, reason[name]) if group is not None and name in reason else group
         for name, group in (("sleeves", report.sleeves), ("rebars", report.rebars))
     )
-    trial = None if report.trial_assembly is None else _open(report.trial_assembly, next(iter(reason.values())))
+    trial = None if report.trial_assembly is None else _open(report.trial_assembly, [*reason.values(), *sheared][0])
     counted = [group if name in checks else None for name, group in (("sleeves", sleeves), ("rebars", rebars))]
     verdict, goes_on, reasons = sum_up(counted[0], counted[1], trial if "trial" in checks else None)
     return replace(

@@ -28,10 +28,11 @@ from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.matching.match import FAR_FROM_DECLARED
 from aadm_workbench.assembly.matching.pattern_search import USUAL_SCATTER_MM
 from aadm_workbench.assembly.pose.eopa import wrap
+from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
 from aadm_workbench.model import Array, ColumnDesign, Finding, Kind
 
-_CODES = {SMOOTHED: "smoothed", GAPS_FILLED: "gaps_filled"}
+_CODES = {SMOOTHED: "smoothed", GAPS_FILLED: "gaps_filled", COPIED: "edges_fattened"}
 
 PLAY_MM = 20.0
 """What a sleeve gives at the end that is assembled on site, beyond the embedded length: JG/T 398-2019 (recalled)."""
@@ -46,7 +47,10 @@ _TO_SIGMA = 1.4826  # of a median of absolute deviations, for the normal law
 LEAST_DEG = 0.8
 """Floors, and feet, are square to their columns to half of that; a single bar or sleeve leans by 0.3° by right."""
 
+_FEWEST_OF_BOTH = 3  # where sleeves and bars say the same, three of each are one of six
 _LEAN_SIGMAS = 6.0  # beyond what noise, tried twelve times, ever does
+# two scans that err alike by chance are rarer than one that errs
+_LEAN_SIGMAS_OF_BOTH, _LEAN_SIGMAS_OF_EACH, _LEAN_SIGMAS_APART = 5.0, 1.5, 3.0
 _SHARED_DEG = {Kind.SLEEVE: 0.15, Kind.REBAR: 0.3}  # what all leans of one scan may be off together
 _ALIKE = 0.35  # of the larger: so much two scans of one camera may differ in
 
@@ -65,18 +69,24 @@ def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Find
     found: list[Finding] = [finding for group in groups for finding in turn_findings(group)]
     found += scale_findings(groups)
     found += lean_findings(groups)
+    found += filter_findings(groups)
     for group in groups:
-        found += filter_findings(group)
         found += diameter_findings(group)
         found += exposed_length_findings(group, design.exposed_length_mm)
     return tuple(found)
 
 
-def filter_findings(group: SeenGroup) -> Iterator[Finding]:
-    """A finding where a group was not measured because a filter spoilt its scan."""
-    for reason, code in _CODES.items():
-        if reason in group.extraction.reason:
-            yield make_finding(code, [group.kind.plural], group=group.kind.plural)
+def filter_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
+    """A finding where a group was not measured because a filter spoilt its scan.
+
+    Where holes were filled in one scan of a column, another one in which no pixel is lost was filled, too.
+    """
+    filled = any(GAPS_FILLED in group.extraction.reason for group in groups)
+    for group in groups:
+        for reason, code in _CODES.items():
+            also = reason == GAPS_FILLED and filled and group.extraction.complete
+            if reason in group.extraction.reason or also:
+                yield make_finding(code, [group.kind.plural], group=group.kind.plural)
 
 
 def turn_findings(group: SeenGroup) -> Iterator[Finding]:
@@ -146,29 +156,47 @@ class _Shear:
 
     value: Array
     u: float
+    points: int
+
+    @property
+    def length(self) -> float:
+        """Radians, for small ones."""
+        return float(np.hypot(*self.value))
 
     @property
     def degrees(self) -> float:
-        return math.degrees(math.atan(float(np.hypot(*self.value))))
+        return math.degrees(math.atan(self.length))
 
     @property
     def counts(self) -> bool:
-        return self.degrees > LEAST_DEG and float(np.hypot(*self.value)) > _LEAN_SIGMAS * self.u
+        return self.points >= _FEWEST_KNOWN and self.degrees > LEAST_DEG and self.length > _LEAN_SIGMAS * self.u
 
 
 def lean_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
     """One finding for a lean that both groups share, towards one side of the image; else one for each that leans."""
-    found = {group.kind: (group, shear) for group in groups if (shear := _shear(group)) is not None and shear.counts}
+    found = {group.kind: (group, shear) for group in groups if (shear := _shear(group)) is not None}
     if len(found) == 2:
-        (_, sleeves), (_, bars) = (found[kind] for kind in Kind)
-        largest = max(float(np.hypot(*sleeves.value)), float(np.hypot(*bars.value)))
-        if float(np.hypot(*(sleeves.value - bars.value))) < _ALIKE * largest:
+        sleeves, bars = (found[kind][1] for kind in Kind)
+        if _are_one(sleeves, bars):
             values = {"sleeves_deg": sleeves.degrees, "rebars_deg": bars.degrees}
             yield make_finding("common_lean.camera", ["sleeves", "rebars"], **values)
             return
-    for group, shear in found.values():
+    for group, shear in (one for one in found.values() if one[1].counts):
         name = group.kind.plural
         yield make_finding(f"common_lean.{group.kind.value}", [name], lean_deg=shear.degrees)
+
+
+def _are_one(one: _Shear, other: _Shear) -> bool:
+    """Whether two scans are sheared alike, and by more than chance: few points of each tell it together."""
+    apart, u_apart = float(np.hypot(*(one.value - other.value))), math.hypot(one.u, other.u)
+    if apart > max(_ALIKE * max(one.length, other.length), _LEAN_SIGMAS_APART * u_apart):
+        return False
+    if one.counts and other.counts:
+        return True
+    weight = np.array([one.u, other.u]) ** -2
+    both = _Shear(weight @ [one.value, other.value] / weight.sum(), float(weight.sum() ** -0.5), 0)
+    each = min(one.length / one.u, other.length / other.u)
+    return both.degrees > LEAST_DEG and both.length > _LEAN_SIGMAS_OF_BOTH * both.u and each > _LEAN_SIGMAS_OF_EACH
 
 
 def _shear(group: SeenGroup) -> _Shear | None:
@@ -177,7 +205,7 @@ def _shear(group: SeenGroup) -> _Shear | None:
     vertical = extraction.vertical
     known = [point for point in extraction.points if point.axis_covariance is not None and point.seen_length_mm]
     if (
-        len(known) < _FEWEST_KNOWN
+        len(known) < _FEWEST_OF_BOTH
         or vertical is None
         or extraction.vertical_from == "bar axes"
         or abs(vertical[2]) < 0.5
@@ -189,7 +217,7 @@ def _shear(group: SeenGroup) -> _Shear | None:
     middle = np.median(leans, axis=0)
     scatter = 1.4826 * float(np.median(np.abs(leans - middle)))
     u = 1.2533 * math.hypot(scatter, math.sqrt(float(np.median(own)))) / math.sqrt(len(known))
-    return _Shear(middle / vertical[2], math.hypot(u, math.radians(_SHARED_DEG[group.kind]) / 2.0))
+    return _Shear(middle / vertical[2], math.hypot(u, math.radians(_SHARED_DEG[group.kind]) / 2.0), len(known))
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ import FreeCAD
 import aadm_workbench.document.scan_cloud  # noqa: F401 - FreeCAD brings back proxies only of modules that are there
 from aadm_workbench.document import gui_document
 from aadm_workbench.document.column import Column, columns_in, make_column
-from aadm_workbench.document.display.design_text import design_of_report
+from aadm_workbench.document.display.reported_design import design_of_report
 from aadm_workbench.document.report.file import load_report
 from aadm_workbench.document.result import make_result
 from aadm_workbench.errors import AadmError, ReportError
@@ -130,22 +130,25 @@ def _opened(path: Path) -> Any:
 
 
 def objects_by_global_id(document: Any) -> dict[str, Any]:
-    """Objects of a model by the GlobalId that importers leave on them, as a property or among their IFC attributes."""
+    """Objects of a model by the GlobalId that importers leave on them."""
     found: dict[str, Any] = {}
     for obj in document.Objects:
-        if getattr(getattr(obj, "Proxy", None), "Type", "") == Column.Type:
-            continue
-        names = [getattr(obj, name, "") for name in _GLOBAL_ID_PROPERTIES]
-        written = getattr(obj, "IfcData", None)
-        if isinstance(written, Mapping) and "attributes" in written:
-            try:
-                names.append(json.loads(written["attributes"]).get("GlobalId", ""))
-            except (ValueError, AttributeError):
-                continue
-        for name in names:
-            if isinstance(name, str) and name:
+        if getattr(getattr(obj, "Proxy", None), "Type", "") != Column.Type:
+            for name in global_ids_of(obj):
                 found.setdefault(name, obj)
     return found
+
+
+def global_ids_of(obj: Any) -> list[str]:
+    """GlobalIds of an object of a model: as a property, or among its IFC attributes."""
+    names = [getattr(obj, name, "") for name in _GLOBAL_ID_PROPERTIES]
+    written = getattr(obj, "IfcData", None)
+    if isinstance(written, Mapping) and "attributes" in written:
+        try:
+            names.append(json.loads(written["attributes"]).get("GlobalId", ""))
+        except (ValueError, AttributeError):
+            return []
+    return [name for name in names if isinstance(name, str) and name]
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Reading a report.json inside FreeCAD: quickly, and without the packages that hold it against its schema.
+"""Reading and writing a report.json inside FreeCAD: quickly, and without the packages that hold it against its schema.
 
 Only what makes a file a report is looked at here; what a column of it should hold is looked at when it is shown.
 """
@@ -6,6 +6,7 @@ Only what makes a file a report is looked at here; what a column of it should ho
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -41,3 +42,8 @@ def load_report(path: Path) -> dict[str, Any]:
             f"{path}: has schema {document.get('schema')}, this version reads schema {SCHEMA}; repeat the check"
         )
     return document
+
+
+def encoded(report: Mapping[str, Any]) -> bytes:
+    """The bytes of a report.json; its numbers are those of the reports that it was made from."""
+    return (json.dumps(report, ensure_ascii=False, indent=1) + "\n").encode(errors="replace")

@@ -14,6 +14,7 @@ COMMANDS = MappingProxyType(
         "AADM_WriteResults": ("write_results", "WriteResults"),
         "AADM_Report": ("report", "Report"),
         "AADM_SavePicture": ("save_picture", "SavePicture"),
+        "AADM_TryIt": ("try_it", "TryIt"),
         "AADM_Settings": ("settings_page", "SettingsPage"),
         "AADM_About": ("about", "About"),
     }

@@ -1,9 +1,8 @@
-"""The command About and doctor: which version this is, what it runs on, which packages are there and which are not."""
+"""The command About and doctor: which version this is, what it runs on, and what it runs with."""
 
 from __future__ import annotations
 
 import platform
-from importlib import import_module
 from typing import Any
 
 import FreeCAD
@@ -11,21 +10,26 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from aadm_workbench import __version__
-from aadm_workbench.document.packages import PACKAGES, Package, install_command
+from aadm_workbench.document.private_process import command, made_environment
+from aadm_workbench.errors import NoEnvironmentError
 from aadm_workbench.gui.command import Command
-from aadm_workbench.gui.panels.install import install
+from aadm_workbench.gui.panels.environment import install
 from aadm_workbench.gui.resources import icon_path
+from aadm_workbench.gui.sentences import sentences
+from aadm_workbench.private.environment import left_over, remove_folder
 
 translate = FreeCAD.Qt.translate
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
 
 
 class About(Command):
-    """Shows versions and packages."""
+    """Shows versions and the private environment."""
 
     NAME = "AADM_About"
     TEXT = QT_TRANSLATE_NOOP("AADM_About", "About AADM and doctor")
-    TOOLTIP = QT_TRANSLATE_NOOP("AADM_About", "Shows the version, and which Python packages are missing for what")
+    TOOLTIP = QT_TRANSLATE_NOOP(
+        "AADM_About", "Shows the version, tries the workbench on a sample, installs or repairs what it needs"
+    )
 
     def run(self) -> None:
         """Open the window; it does not block FreeCAD."""
@@ -33,14 +37,14 @@ class About(Command):
 
 
 class AboutWindow(QtGui.QDialog):
-    """Versions, packages, and a button for each package that is missing."""
+    """The first thing that it offers is to try the workbench; then what becomes of the private environment."""
 
     def __init__(self) -> None:
         super().__init__(FreeCADGui.getMainWindow())
         self.setObjectName("AADM_About")
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
         self.setWindowTitle(translate("AADM_About", "About AADM"))
-        self.resize(760, 420)
+        self.resize(620, 360)
         self.text = QtGui.QLabel(about_text())
         self.text.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
         picture = QtGui.QLabel()
@@ -48,49 +52,84 @@ class AboutWindow(QtGui.QDialog):
         head = QtGui.QHBoxLayout()
         head.addWidget(picture)
         head.addWidget(self.text, 1)
+        self.try_button = self._button(translate("AADM_About", "Try it on a sample floor"), self._try)
+        self.try_button.setDefault(True)
+        self.state = QtGui.QLabel(wordWrap=True)
+        self.state.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
+        self.install_button = self._button("", lambda: self._install(""))
+        self.wheels_button = self._button(translate("AADM_Install", "From a folder of wheels…"), self._of_wheels)
+        self.remove_button = self._button(translate("AADM_Install", "Remove"), self.remove)
+        buttons = QtGui.QHBoxLayout()
+        for button in (self.install_button, self.wheels_button, self.remove_button):
+            buttons.addWidget(button)
+        needed = QtGui.QGroupBox(translate("AADM_About", "What it runs with"))
+        inside = QtGui.QVBoxLayout(needed)
+        inside.addWidget(self.state)
+        inside.addLayout(buttons)
         layout = QtGui.QVBoxLayout(self)
         layout.addLayout(head)
-        layout.addWidget(self._packages())
-        close = QtGui.QPushButton(translate("AADM", "Close"))
-        close.clicked.connect(self.close)
-        layout.addWidget(close)
+        layout.addWidget(self.try_button)
+        layout.addWidget(needed)
+        layout.addStretch(1)
+        layout.addWidget(self._button(translate("AADM", "Close"), self.close))
+        self.refresh()
 
-    def _packages(self) -> Any:
-        table = QtGui.QTableWidget(len(PACKAGES), 4)
-        table.setHorizontalHeaderLabels(
-            [
-                translate("AADM_About", "Package"),
-                translate("AADM_About", "Version"),
-                translate("AADM_About", "Needed for"),
-                "",
-            ]
+    def _button(self, text: str, act: Any) -> Any:
+        button = QtGui.QPushButton(text)
+        button.clicked.connect(lambda checked=False: act())
+        return button
+
+    def refresh(self) -> None:
+        """Say what is there now."""
+        made = made_environment()
+        self.state.setText(state_text())
+        self.install_button.setText(
+            translate("AADM_Install", "Install") if made is None else translate("AADM_Install", "Repair")
         )
-        table.setEditTriggers(QtGui.QAbstractItemView.NoEditTriggers)
-        table.verticalHeader().hide()
-        for row, package in enumerate(PACKAGES):
-            found, problem = version_of(package)
-            needed_for = translate("AADM_Packages", package.needed_for)
-            for column, text in enumerate((package.pip_name, found or problem, needed_for)):
-                table.setItem(row, column, QtGui.QTableWidgetItem(text))
-            if not found:
-                button = QtGui.QPushButton(translate("AADM_Install", "Install"))
-                button.setToolTip(" ".join(install_command(package)))
-                button.clicked.connect(lambda checked=False, package=package: install(package))
-                table.setCellWidget(row, 3, button)
-        table.resizeColumnsToContents()
-        table.horizontalHeader().setSectionResizeMode(2, QtGui.QHeaderView.Stretch)
-        return table
+        self.remove_button.setEnabled(made is not None or bool(left_over()))
+
+    def remove(self) -> None:
+        """Take away the environment, and those of earlier versions."""
+        made = made_environment()
+        folders = [*left_over(), *([made.folder] if made is not None else [])]
+        kept = [folder for folder in folders if not remove_folder(folder)]
+        self.refresh()
+        if kept:
+            said = translate("AADM_Install", "A check is running with it: wait until that is done, then try again.")
+            self.state.setText(f"{said}\n{kept[0]}")
+
+    def _try(self) -> None:
+        with sentences(self.windowTitle()):
+            try:
+                command([])
+            except NoEnvironmentError:
+                install("", self._begin_to_try)
+            else:
+                self._begin_to_try()
+
+    def _begin_to_try(self) -> None:
+        self.close()
+        FreeCADGui.runCommand("AADM_TryIt")
+
+    def _install(self, wheels: str) -> None:
+        install(wheels, self.refresh)
+
+    def _of_wheels(self) -> None:
+        chosen = QtGui.QFileDialog.getExistingDirectory(self, translate("AADM_Install", "Folder of wheels"))
+        if chosen:
+            self._install(chosen)
 
 
-def version_of(package: Package) -> tuple[str, str]:
-    """Version of a package, and what keeps it from being used; one of the two is empty."""
+def state_text() -> str:
+    """What checks run with, one fact a line."""
+    made = made_environment()
+    if made is not None:
+        installed = translate("AADM_About", "Installed, in a folder of its own; FreeCAD itself is not changed.")
+        return f"{installed}\n{made.folder}\n{made.python} (Python {made.version[0]}.{made.version[1]})"
     try:
-        module = import_module(package.module)
-    except ModuleNotFoundError:
-        return "", translate("AADM_About", "missing")
-    except (ImportError, AttributeError, OSError) as error:
-        return "", translate("AADM_About", "broken: {reason}").format(reason=error)
-    return str(getattr(module, "__version__", "") or getattr(module, "version", "") or "✓"), ""
+        return translate("AADM_About", "Checks run with {program}.").format(program=command([])[0])
+    except NoEnvironmentError as error:
+        return str(error)
 
 
 def about_text() -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import FreeCAD
 
-from aadm_workbench.gui.chosen import chosen_columns, the_column
+from aadm_workbench.gui.chosen import has_columns, the_column
 from aadm_workbench.gui.command import Command
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
@@ -22,8 +22,8 @@ class CheckColumn(Command):
     )
 
     def IsActive(self) -> bool:
-        """With one column selected."""
-        return len(chosen_columns()) == 1
+        """Where there are columns; which one is asked for is said when it runs."""
+        return has_columns()
 
     def run(self) -> None:
         """Open the panel."""

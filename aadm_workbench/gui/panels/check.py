@@ -9,31 +9,25 @@ import FreeCAD
 import numpy as np
 from PySide import QtCore, QtGui
 
-from aadm_workbench.document.checking import keep, prepare, run
+from aadm_workbench.document.checking import check_work, keep
 from aadm_workbench.document.column import DECISIONS, METHODS
 from aadm_workbench.document.display.colours import of_verdict
 from aadm_workbench.document.display.marks import pitch_of
 from aadm_workbench.document.display.messages import tell
-from aadm_workbench.document.display.result_rows import Row
+from aadm_workbench.document.display.result_rows import DISTANCE, Row
 from aadm_workbench.document.places import world_point
 from aadm_workbench.document.result import found_of
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.document.words import in_words
 from aadm_workbench.gui.language import in_language
-from aadm_workbench.gui.panels.task_panel import TaskPanel, show_panel
+from aadm_workbench.gui.panels.task_panel import WorkingPanel, is_there, show_panel
 from aadm_workbench.gui.result_table import ResultTable
-from aadm_workbench.gui.sentences import sentences, show_error
+from aadm_workbench.gui.sentences import sentences
 from aadm_workbench.gui.view_camera import active_view, zoom_to
-from aadm_workbench.gui.worker import Worker
 
 translate = FreeCAD.Qt.translate
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
 
-_STEPS = {
-    "read": QT_TRANSLATE_NOOP("AADM_Check", "reading the scans"),
-    "extract": QT_TRANSLATE_NOOP("AADM_Check", "finding centres"),
-    "assembly": QT_TRANSLATE_NOOP("AADM_Check", "comparing with the design"),
-}
 _VIEWS = (
     ("position", QT_TRANSLATE_NOOP("AADM_Check", "Against the design")),
     ("minimax", QT_TRANSLATE_NOOP("AADM_Check", "Trial assembly, best position (minimax)")),
@@ -42,15 +36,14 @@ _VIEWS = (
 _SHOWN_REASONS = 3  # the panel is a hand wide; the table has all
 
 
-class CheckPanel(TaskPanel):
+class CheckPanel(WorkingPanel):
     """Settings on top, result below; the check runs beside the window."""
 
     ICON = "check-column"
 
     def __init__(self, column: Any) -> None:
-        super().__init__(translate("AADM_Check", "Check {column}").format(column=column.ColumnId))
+        super().__init__(translate("AADM_Check", "Check {column}").format(column=column.ColumnId), column)
         self.column = column
-        self.worker: Worker | None = None
         self._add_settings()
         self._add_result()
         self.refresh()
@@ -70,19 +63,8 @@ class CheckPanel(TaskPanel):
         form.addRow(translate("AADM_Check", "Method"), self.method)
         form.addRow(translate("AADM_Check", "Tolerances"), self.tolerances)
         form.addRow(translate("AADM_Check", "Decision"), self.decision)
-        self.check_button = QtGui.QPushButton(translate("AADM_Check", "Check"))
-        self.check_button.clicked.connect(self.start)
-        self.cancel_button = QtGui.QPushButton(translate("AADM", "Cancel"), enabled=False)
-        self.cancel_button.clicked.connect(self.cancel)
-        self.progress = QtGui.QProgressBar(maximum=0, visible=False)
-        self.step = QtGui.QLabel()
-        buttons = QtGui.QHBoxLayout()
-        buttons.addWidget(self.check_button, 1)
-        buttons.addWidget(self.cancel_button)
         self.layout.addLayout(form)
-        self.layout.addLayout(buttons)
-        self.layout.addWidget(self.progress)
-        self.layout.addWidget(self.step)
+        self.add_start(translate("AADM_Check", "Check"))
 
     def _add_result(self) -> None:
         self.verdict = QtGui.QLabel(wordWrap=True)
@@ -102,54 +84,24 @@ class CheckPanel(TaskPanel):
 
     def start(self) -> None:
         """Check the column, beside the window."""
-        with sentences(self.form.windowTitle()):
+        with sentences(self.title):
             with undo_step(self.column.Document, translate("AADM_Check", "Settings of the check")):
                 self.column.Method = self.method.currentText()
                 self.column.Tolerances = self.tolerances.currentText().strip()
                 self.column.Decision = self.decision.currentText()
-            request = prepare(self.column)
-            self._busy(True)
-            self.worker = Worker(lambda stage: run(request, stage))
-            self.worker.stepped.connect(lambda name: self.step.setText(translate("AADM_Check", _STEPS.get(name, name))))
-            self.worker.done.connect(self._done)
-            self.worker.failed.connect(self._failed)
-            self.worker.cancelled.connect(self._cancelled)
-            self.worker.begin()
+            self.have_done(check_work(self.column), self._take)
 
-    def cancel(self) -> None:
-        """End the check at its next step."""
-        if self.worker is not None:
-            self.worker.cancel()
-            self.step.setText(translate("AADM_Check", "cancelling…"))
-
-    def _done(self, report: dict[str, Any]) -> None:
-        with sentences(self.form.windowTitle()):
-            self._busy(False)
-            with undo_step(self.column.Document, translate("AADM_Check", "Check column")):
-                result = keep(self.column, report)
-            tell(f"{self.column.ColumnId}: {in_words(result.Verdict)}")
-            self.refresh()
-
-    def _failed(self, error: BaseException) -> None:
-        self._busy(False)
-        show_error(self.form.windowTitle(), error)
-
-    def _cancelled(self) -> None:
-        self._busy(False)
-        self.step.setText(translate("AADM_Check", "cancelled"))
-
-    def _busy(self, busy: bool) -> None:
-        self.check_button.setEnabled(not busy)
-        self.cancel_button.setEnabled(busy)
-        self.progress.setVisible(busy)
-        self.step.setText("")
+    def _take(self, report: dict[str, Any]) -> None:
+        with undo_step(self.column.Document, translate("AADM_Check", "Check column")):
+            result = keep(self.column, report)
+        tell(f"{self.column.ColumnId}: {in_words(result.Verdict)}")
+        self.refresh()
 
     def closing(self) -> None:
         """A check that still runs is ended, and no point stays picked."""
-        self.cancel()
-        result = self.column.Result if self.column.Document is not None else None
-        if result is not None:
-            result.ViewObject.Proxy.pick(None)
+        super().closing()
+        if is_there(self.column) and self.column.Result is not None:
+            self.column.Result.ViewObject.Proxy.pick(None)
 
     def refresh(self) -> None:
         """Show what the column holds now."""
@@ -176,10 +128,13 @@ class CheckPanel(TaskPanel):
             lines.append(translate("AADM_Check", "… and {count} more, see the table").format(count=more))
         lines += notes
         self.reasons.setText("\n".join(lines))
-        self.shows.blockSignals(True)
-        self.shows.setCurrentIndex(self.shows.findData(result.ViewObject.Shows))
-        self.shows.blockSignals(False)
+        self._say_what_is_shown()
         self._fill_table()
+
+    def _say_what_is_shown(self) -> None:
+        self.shows.blockSignals(True)
+        self.shows.setCurrentIndex(self.shows.findData(self.column.Result.ViewObject.Shows))
+        self.shows.blockSignals(False)
 
     def _shows_changed(self, index: int) -> None:
         if self.column.Result is not None:
@@ -197,6 +152,9 @@ class CheckPanel(TaskPanel):
         result, view = self.column.Result, active_view()
         if result is None or row.place_mm is None:
             return
+        trial = "least_squares" if self.shows.currentData() == "least_squares" else "minimax"
+        result.ViewObject.Shows = trial if row.what == DISTANCE else "position"
+        self._say_what_is_shown()
         result.ViewObject.Proxy.pick(row.place_mm)
         if view is not None:
             zoom_to(view, np.asarray(world_point(result, row.place_mm)), 3.0 * pitch_of(found_of(result)))

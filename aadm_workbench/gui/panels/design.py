@@ -26,7 +26,7 @@ class DesignPanel(TaskPanel):
     ICON = "sample-design"
 
     def __init__(self, column: Any) -> None:
-        super().__init__(translate("AADM_Design", "Design of {column}").format(column=column.ColumnId))
+        super().__init__(translate("AADM_Design", "Design of {column}").format(column=column.ColumnId), column)
         self.column = column
         self.design = column_design(column)
         self.headline = QtGui.QLabel()
@@ -98,7 +98,7 @@ class DesignPanel(TaskPanel):
 
     def apply(self) -> None:
         """Keep what was chosen, in one undo step."""
-        with sentences(self.form.windowTitle()):
+        with sentences(self.title):
             ups = [self.sleeves_up.currentText().strip(), self.rebars_up.currentText().strip()]
             for written in ups:
                 up_deg(written, self.column.Label)

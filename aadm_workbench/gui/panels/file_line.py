@@ -11,11 +11,14 @@ translate = FreeCAD.Qt.translate
 
 
 class FileLine(QtGui.QWidget):
-    """``patterns`` such as ``*.ply *.pcd``; an empty text means a folder. ``save``: the file need not be there."""
+    """``patterns`` such as ``*.ply *.pcd``; an empty text means a folder.
+
+    ``save``: the file need not be there. ``folder``: a folder may be chosen instead, with a button of its own.
+    """
 
     changed = QtCore.Signal(str)
 
-    def __init__(self, title: str, patterns: str, value: str = "", *, save: bool = False) -> None:
+    def __init__(self, title: str, patterns: str, value: str = "", *, save: bool = False, folder: bool = False) -> None:
         super().__init__()
         self._title, self._patterns, self._save = title, patterns, save
         self.line = QtGui.QLineEdit(value)
@@ -26,6 +29,11 @@ class FileLine(QtGui.QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.line, 1)
         layout.addWidget(button)
+        if folder:
+            another = QtGui.QToolButton(text="…/")
+            another.setToolTip(translate("AADM", "Choose a folder: a capture as the camera saves it"))
+            another.clicked.connect(self._choose_folder)
+            layout.addWidget(another)
         self.line.editingFinished.connect(lambda: self.changed.emit(self.text()))
 
     def text(self) -> str:
@@ -38,11 +46,16 @@ class FileLine(QtGui.QWidget):
         self.changed.emit(value)
 
     def _choose(self) -> None:
-        dialog: Any = QtGui.QFileDialog
         if not self._patterns:
-            chosen = dialog.getExistingDirectory(self, self._title, self.text())
-        else:
-            ask = dialog.getSaveFileName if self._save else dialog.getOpenFileName
-            chosen, _ = ask(self, self._title, self.text(), f"{self._title} ({self._patterns})")
+            self._choose_folder()
+            return
+        dialog: Any = QtGui.QFileDialog
+        ask = dialog.getSaveFileName if self._save else dialog.getOpenFileName
+        chosen, _ = ask(self, self._title, self.text(), f"{self._title} ({self._patterns})")
+        if chosen:
+            self.set_text(chosen)
+
+    def _choose_folder(self) -> None:
+        chosen = QtGui.QFileDialog.getExistingDirectory(self, self._title, self.text())
         if chosen:
             self.set_text(chosen)

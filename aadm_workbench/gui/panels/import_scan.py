@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,15 +14,15 @@ from aadm_workbench.design.directions import UP_DEG
 from aadm_workbench.document.column import columns_in
 from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.scan_cloud import KINDS, UNITS
-from aadm_workbench.document.scan_reading import ReadScan, guessed_kind, read_for, take_scan
+from aadm_workbench.document.scan_reading import AskedScan, guessed_kind, take_scan
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError, ScanError
 from aadm_workbench.gui import settings
 from aadm_workbench.gui.chosen import select
 from aadm_workbench.gui.panels.file_line import FileLine
-from aadm_workbench.gui.panels.task_panel import TaskPanel, close_panel, show_panel
+from aadm_workbench.gui.panels.sampling import of_ifc_file
+from aadm_workbench.gui.panels.task_panel import WorkingPanel, close_panel, is_there, show_panel
 from aadm_workbench.gui.sentences import sentences, show_error
-from aadm_workbench.gui.worker import Worker
 from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, TABLES
 
 translate = FreeCAD.Qt.translate
@@ -30,21 +30,20 @@ translate = FreeCAD.Qt.translate
 _FORMATS = " ".join(f"*{suffix}" for suffix in (*DEPTH_MAPS, *CLOUDS, *TABLES))
 
 
-class ImportPanel(TaskPanel):
+class ImportPanel(WorkingPanel):
     """Reads the file beside the window, then puts it into the document in one undo step."""
 
     ICON = "import-scan"
 
     def __init__(self, document: Any, files: Sequence[Path] = (), column: Any = None) -> None:
-        super().__init__(translate("AADM_Import", "Import scan"))
+        super().__init__(translate("AADM_Import", "Import scan"), document)
         self.document = document
         self.columns = columns_in(document)
-        self.worker: Worker | None = None
         self.column = QtGui.QComboBox()
         self.column.addItems([one.Label for one in self.columns])
         if column in self.columns:
             self.column.setCurrentIndex(self.columns.index(column))
-        self.file = FileLine(translate("AADM_Import", "Scan"), _FORMATS, str(files[0]) if files else "")
+        self.file = FileLine(translate("AADM_Import", "Scan"), _FORMATS, str(files[0]) if files else "", folder=True)
         self.kind, self.units, self.up = QtGui.QComboBox(), QtGui.QComboBox(), QtGui.QComboBox()
         self.kind.addItem(translate("AADM_Import", "sleeves (the foot)"), KINDS[0])
         self.kind.addItem(translate("AADM_Import", "rebars (the bars below)"), KINDS[1])
@@ -73,13 +72,9 @@ class ImportPanel(TaskPanel):
             (translate("AADM_Import", "Step of a 16-bit depth map"), self.depth_scale),
         ):
             form.addRow(text, widget)
-        self.import_button = QtGui.QPushButton(translate("AADM_Import", "Import"))
-        self.import_button.setDefault(True)
-        self.import_button.clicked.connect(self.start)
-        self.progress = QtGui.QProgressBar(maximum=0, visible=False)
         self.layout.addLayout(form)
-        self.layout.addWidget(self.import_button)
-        self.layout.addWidget(self.progress)
+        self.add_start(translate("AADM_Import", "Import"))
+        self.start_button.setDefault(True)
         self.layout.addStretch(1)
 
     def _file_chosen(self, file: str) -> None:
@@ -88,21 +83,20 @@ class ImportPanel(TaskPanel):
         self.camera.setEnabled(True)
 
     def start(self) -> None:
-        """Read the file in a thread."""
-        with sentences(self.form.windowTitle()):
-            request = self._request()
-            self.import_button.setEnabled(False)
-            self.progress.setVisible(True)
-            self.worker = Worker(lambda stage: read_for(*request[0], **request[1]))
-            self.worker.done.connect(self._take)
-            self.worker.failed.connect(self._failed)
-            self.worker.begin()
+        """Have the file read."""
+        with sentences(self.title):
+            if not self.columns:
+                show_error(self.title, self._no_column(), of_ifc_file(self.document))
+                return
+            asked = self._asked()
+            self.have_done(asked.work(), lambda read: self._take(asked, read))
 
-    def _request(self) -> tuple[tuple[str, str], dict[str, Any]]:
-        if not self.columns:
-            raise AadmError(
-                translate("AADM_Import", "A scan belongs to a column, and this document has none: Sample design first.")
-            )
+    def _no_column(self) -> AadmError:
+        return AadmError(
+            translate("AADM_Import", "A scan belongs to a column, and this document has none: Sample design first.")
+        )
+
+    def _asked(self) -> AskedScan:
         file = self.file.text()
         if not file:
             raise ScanError(translate("AADM_Import", "Choose the file of the scan."))
@@ -114,33 +108,27 @@ class ImportPanel(TaskPanel):
         settings.remember_camera_file(camera)
         # Of a cloud a camera says that it is in the camera's frame; that is left to depth maps here.
         used = camera if camera and Path(file).suffix.lower() in DEPTH_MAPS else None
-        declared = {
-            "units": self.units.currentText(),
-            "camera": used,
-            "depth_scale_mm": self.depth_scale.value() or None,
-        }
-        return (self.kind.currentData(), file), declared
+        return AskedScan(
+            kind=self.kind.currentData(),
+            file=Path(file),
+            units=self.units.currentText(),
+            camera=used,
+            depth_scale_mm=self.depth_scale.value() or None,
+            most_points=settings.most_points(),
+        )
 
-    def _take(self, read: ReadScan) -> None:
-        with sentences(self.form.windowTitle()):
-            self._idle()
-            column = self.columns[self.column.currentIndex()]
-            with undo_step(self.document, translate("AADM_Import", "Import scan")):
-                up = self.up.currentText().strip() or None
-                cloud = take_scan(column, read, up=up, most_points=settings.most_points())
-            said = translate("AADM_Import", "{file}: {count} points, imported to {column}")
-            tell(said.format(file=read.file.name, count=cloud.PointCount, column=column.Label))
-            close_panel(self)
-            select([column])
-            FreeCADGui.SendMsgToActiveView("ViewFit")
-
-    def _failed(self, error: BaseException) -> None:
-        self._idle()
-        show_error(self.form.windowTitle(), error)
-
-    def _idle(self) -> None:
-        self.import_button.setEnabled(True)
-        self.progress.setVisible(False)
+    def _take(self, asked: AskedScan, read: Mapping[str, Any]) -> None:
+        column = self.columns[self.column.currentIndex()]
+        if not is_there(column):
+            raise ScanError(translate("AADM_Import", "The column is not there any more: choose another."))
+        with undo_step(self.document, translate("AADM_Import", "Import scan")):
+            up = self.up.currentText().strip() or None
+            cloud = take_scan(column, asked, read, up=up)
+        said = translate("AADM_Import", "{file}: {count} points, imported to {column}")
+        tell(said.format(file=asked.file.name, count=cloud.PointCount, column=column.Label))
+        close_panel(self)
+        select([column])
+        FreeCADGui.SendMsgToActiveView("ViewFit")
 
 
 def open_panel(document: Any, files: Sequence[Path] = (), column: Any = None) -> ImportPanel:

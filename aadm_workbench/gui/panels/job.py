@@ -2,135 +2,86 @@
 
 from __future__ import annotations
 
-import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
-from aadm_workbench.document.display.messages import complain, tell
-from aadm_workbench.document.packages import require
+from aadm_workbench.document.checking import CHECKED
+from aadm_workbench.document.display.messages import tell
+from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.report.annotate import show_report
 from aadm_workbench.document.report.file import load_report
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import JobError
-from aadm_workbench.gui.aadm_process import AadmProcess
 from aadm_workbench.gui.panels.file_line import FileLine
-from aadm_workbench.gui.panels.task_panel import TaskPanel, show_panel
-from aadm_workbench.gui.sentences import sentences, show_error
+from aadm_workbench.gui.panels.task_panel import WorkingPanel, show_panel
+from aadm_workbench.gui.sentences import sentences
 
 translate = FreeCAD.Qt.translate
-_CHECKED = frozenset({0, 10, 11, 12})
-"""Exit codes of a job whose columns were looked at: report.json is there."""
 
 
-class JobPanel(TaskPanel):
-    """A job file, a bar, a list of finished columns."""
+class JobPanel(WorkingPanel):
+    """A job file, a bar, a list of finished columns; ``after`` is called with the columns that were shown."""
 
     ICON = "run-job"
 
-    def __init__(self, job: str = "") -> None:
+    def __init__(self, job: str = "", after: Callable[[list[Any]], None] | None = None) -> None:
         super().__init__(translate("AADM_Job", "Run job"))
-        self.process: AadmProcess | None = None
-        self.last_words: list[str] = []
+        self.after = after
         self.job = FileLine(translate("AADM_Job", "Job"), "*.toml", job)
         self.folder = FileLine(translate("AADM_Job", "Report folder"), "")
         self.folder.setToolTip(translate("AADM_Job", "Empty: a folder beside the job file, called after it"))
-        self.run_button = QtGui.QPushButton(translate("AADM_Job", "Run"))
-        self.run_button.clicked.connect(self.start)
-        self.cancel_button = QtGui.QPushButton(translate("AADM", "Cancel"), enabled=False)
-        self.cancel_button.clicked.connect(self.cancel)
-        self.progress = QtGui.QProgressBar(visible=False)
         self.lines = QtGui.QListWidget()
         form = QtGui.QFormLayout()
         form.addRow(translate("AADM_Job", "Job file"), self.job)
         form.addRow(translate("AADM_Job", "Report folder"), self.folder)
-        buttons = QtGui.QHBoxLayout()
-        buttons.addWidget(self.run_button, 1)
-        buttons.addWidget(self.cancel_button)
         self.layout.addLayout(form)
-        self.layout.addLayout(buttons)
-        self.layout.addWidget(self.progress)
+        self.add_start(translate("AADM_Job", "Run"))
         self.layout.addWidget(self.lines, 1)
 
     def start(self) -> None:
         """Run the job in a process of its own."""
-        with sentences(self.form.windowTitle()):
+        with sentences(self.title):
             job = Path(self.job.text())
             if not self.job.text() or not job.is_file():
                 raise JobError(translate("AADM_Job", "Choose the job file: a .toml as the manual describes it."))
-            require("numpy", "scipy", "cv2")
-            out = self.folder.text() or str(job.with_name(f"{job.stem}-report"))
-            self.report = Path(out) / "report.json"
+            job = job.resolve()
+            out = Path(self.folder.text() or job.with_name(f"{job.stem}-report")).resolve()
             self.lines.clear()
-            self.last_words.clear()
-            self._busy(True)
-            self.process = AadmProcess(["check", str(job), "--out", out, "--json"], tempfile.gettempdir())
-            self.process.stepped.connect(self._stepped)
-            self.process.said.connect(self._said)
-            self.process.ended.connect(self._ended)
-            self.process.start()
+            arguments = ["check", str(job), "--out", str(out), "--json"]
+            self.have_done(Work(arguments, codes=CHECKED), lambda _: self._show(out / "report.json"))
 
-    def cancel(self) -> None:
-        """End the job; the report of an earlier run stays."""
-        if self.process is not None:
-            self.process.cancel()
+    def stepped(self, done: int, total: int, what: str) -> None:
+        """A column is done."""
+        super().stepped(done, total, what)
+        self.said(what)
 
-    def _stepped(self, done: int, total: int, what: str) -> None:
-        self.progress.setMaximum(total)
-        self.progress.setValue(done)
-        self.lines.addItem(what)
+    def said(self, line: str) -> None:
+        """A line more."""
+        self.lines.addItem(line)
         self.lines.scrollToBottom()
 
-    def _said(self, line: str) -> None:
-        self.last_words.append(line)
-        self.lines.addItem(line)
-
-    def _ended(self, code: int) -> None:
-        self._busy(False)
-        process, self.process = self.process, None
-        if process is not None:
-            process.deleteLater()
-        if code == -1 and not self.last_words:
-            self.lines.addItem(translate("AADM_Job", "cancelled"))
-            return
-        if code not in _CHECKED:
-            said = "\n".join(self.last_words[-3:]) or translate("AADM_Job", "The job ended with {code}").format(
-                code=code
-            )
-            show_error(self.form.windowTitle(), JobError(said))
-            return
-        with sentences(self.form.windowTitle()):
-            self._show()
-
-    def _show(self) -> None:
-        report = load_report(self.report)
+    def _show(self, file: Path) -> None:
+        report = load_report(file)
         document = FreeCAD.ActiveDocument or FreeCAD.newDocument("AADM")
         with undo_step(document, translate("AADM_Job", "Results of a job")):
             columns = show_report(document, report)
         summary = ", ".join(f"{count} {verdict}" for verdict, count in report["summary"].items() if count)
         said = translate("AADM_Job", "{count} columns: {summary}. Report: {file}")
-        tell(said.format(count=len(columns), summary=summary, file=self.report))
-        self.lines.addItem(said.format(count=len(columns), summary=summary, file=self.report))
+        tell(said.format(count=len(columns), summary=summary, file=file))
+        self.said(said.format(count=len(columns), summary=summary, file=file))
         if FreeCADGui.activeDocument() is not None:
             FreeCADGui.SendMsgToActiveView("ViewFit")
-
-    def _busy(self, busy: bool) -> None:
-        self.run_button.setEnabled(not busy)
-        self.cancel_button.setEnabled(busy)
-        self.progress.setVisible(busy)
-        self.progress.setMaximum(0)
-
-    def closing(self) -> None:
-        """A job that still runs is ended."""
-        if self.process is not None:
-            complain(translate("AADM_Job", "The job was cancelled: its panel was closed"))
-            self.cancel()
+        if self.after is not None:
+            self.after(columns)
 
 
-def open_panel(job: str = "") -> JobPanel:
+def open_panel(job: str = "", after: Callable[[list[Any]], None] | None = None) -> JobPanel:
     """Show the panel."""
-    panel = JobPanel(job)
+    panel = JobPanel(job, after)
     show_panel(panel)
     return panel

@@ -147,6 +147,10 @@ _FRAGMENTS: tuple[tuple[str, str], ...] = (
         r"the camera filled in what it did not measure: surfaces lie where nothing is",
         "相机填补了未测到之处:出现并不存在的表面",
     ),
+    (
+        r"the camera copied depths over the edges of this scan: its surfaces are larger than what was measured",
+        "相机把深度复制到了该扫描的边缘之外:表面比实测的大",
+    ),
     (r"no opening: the mouth is plugged or covered", "没有开口:套筒口被堵塞或遮盖"),
     (r"too little of the mouth's rim is seen to measure it", "套筒口边缘可见部分太少,无法测量"),
     (r"outside of what the scan shows of the foot", "在扫描到的柱底范围之外"),

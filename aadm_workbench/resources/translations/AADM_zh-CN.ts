@@ -28,8 +28,16 @@
    <translation>选择</translation>
   </message>
   <message>
+   <source>Choose a folder: a capture as the camera saves it</source>
+   <translation>选择文件夹：相机保存的一次采集</translation>
+  </message>
+  <message>
    <source>Close</source>
    <translation>关闭</translation>
+  </message>
+  <message>
+   <source>Install now</source>
+   <translation>立即安装</translation>
   </message>
   <message>
    <source>No document is open: open the model first.</source>
@@ -44,6 +52,10 @@
    <translation>选中了多根柱：请只选一根。</translation>
   </message>
   <message>
+   <source>The process that checks ended with {code} and said nothing; repair its environment</source>
+   <translation>检测进程以 {code} 结束，没有给出任何说明；请修复其运行环境</translation>
+  </message>
+  <message>
    <source>There is not enough memory for this scan: crop it to the component, or close others.</source>
    <translation>内存不足以处理此扫描：请裁剪到构件范围，或关闭其他文件。</translation>
   </message>
@@ -52,12 +64,24 @@
    <translation>此文档还没有 AADM 柱：请选择模型中的柱，然后“提取设计点”。</translation>
   </message>
   <message>
+   <source>This needs packages that FreeCAD does not bring. AADM installs them into a folder of their own, once; FreeCAD itself is not changed.</source>
+   <translation>此操作需要 FreeCAD 不带的软件包。AADM 只需一次把它们安装到单独的文件夹里；FreeCAD 本身不作任何改动。</translation>
+  </message>
+  <message>
    <source>This should not happen ({kind}: {reason}). The log of the report view shows where.</source>
    <translation>出现了意外情况（{kind}：{reason}）。详见报告浏览器中的日志。</translation>
   </message>
   <message>
    <source>arrows ×{factor:g}</source>
    <translation>箭头放大 ×{factor:g}</translation>
+  </message>
+  <message>
+   <source>cancelled</source>
+   <translation>已取消</translation>
+  </message>
+  <message>
+   <source>cancelling…</source>
+   <translation>正在取消…</translation>
   </message>
   <message>
    <source>error</source>
@@ -107,6 +131,10 @@
    <source>{label} was saved by a newer version of the AADM workbench: update it before changing this object</source>
    <translation>{label} 由更新版本的 AADM 工作台保存：请先升级再修改此对象</translation>
   </message>
+  <message>
+   <source>{program} cannot be run; look at the settings</source>
+   <translation>无法运行 {program}；请检查设置</translation>
+  </message>
  </context>
  <context>
   <name>AADM_About</name>
@@ -123,28 +151,24 @@
    <translation>检测预制柱灌浆套筒与连接钢筋的对位。</translation>
   </message>
   <message>
-   <source>Needed for</source>
-   <translation>用途</translation>
+   <source>Checks run with {program}.</source>
+   <translation>检测由 {program} 执行。</translation>
   </message>
   <message>
-   <source>Package</source>
-   <translation>软件包</translation>
+   <source>Installed, in a folder of its own; FreeCAD itself is not changed.</source>
+   <translation>已安装在单独的文件夹中；FreeCAD 本身没有改动。</translation>
   </message>
   <message>
-   <source>Shows the version, and which Python packages are missing for what</source>
-   <translation>显示版本，以及缺少哪些 Python 软件包、影响哪些功能</translation>
+   <source>Shows the version, tries the workbench on a sample, installs or repairs what it needs</source>
+   <translation>显示版本，用样例试用工作台，安装或修复它所需的软件包</translation>
   </message>
   <message>
-   <source>Version</source>
-   <translation>版本</translation>
+   <source>Try it on a sample floor</source>
+   <translation>用样例楼层试用</translation>
   </message>
   <message>
-   <source>broken: {reason}</source>
-   <translation>损坏：{reason}</translation>
-  </message>
-  <message>
-   <source>missing</source>
-   <translation>缺少</translation>
+   <source>What it runs with</source>
+   <translation>运行环境</translation>
   </message>
  </context>
  <context>
@@ -202,28 +226,8 @@
    <translation>试装，最小二乘</translation>
   </message>
   <message>
-   <source>cancelled</source>
-   <translation>已取消</translation>
-  </message>
-  <message>
-   <source>cancelling…</source>
-   <translation>正在取消…</translation>
-  </message>
-  <message>
-   <source>comparing with the design</source>
-   <translation>正在与设计比较</translation>
-  </message>
-  <message>
-   <source>finding centres</source>
-   <translation>正在提取中心</translation>
-  </message>
-  <message>
    <source>none yet: Import scan</source>
    <translation>还没有：请导入扫描</translation>
-  </message>
-  <message>
-   <source>reading the scans</source>
-   <translation>正在读取扫描</translation>
   </message>
   <message>
    <source>{verdict} · goes on: {goes_on}</source>
@@ -434,6 +438,10 @@
    <translation>16 位深度图的每级毫米数</translation>
   </message>
   <message>
+   <source>The column is not there any more: choose another.</source>
+   <translation>该柱已不存在：请另选一根。</translation>
+  </message>
+  <message>
    <source>Up in the picture</source>
    <translation>图像上方</translation>
   </message>
@@ -468,28 +476,92 @@
  <context>
   <name>AADM_Install</name>
   <message>
+   <source>A check is running with it: wait until that is done, then try again.</source>
+   <translation>有检测正在使用它：请等检测结束后再试。</translation>
+  </message>
+  <message>
+   <source>A package cannot be loaded on this machine; the last line of the log says which and why.</source>
+   <translation>有软件包无法在这台机器上加载；日志最后一行说明是哪一个以及原因。</translation>
+  </message>
+  <message>
+   <source>A package was not found. Without a network this is what is said, too: look at the connection, or whether the folder of wheels holds all that requirements/freecad.txt names, for this Python.</source>
+   <translation>找不到某个软件包。没有网络时也会这样提示：请检查网络连接，或检查 wheel 文件夹是否包含 requirements/freecad.txt 列出的、适用于此 Python 的全部软件包。</translation>
+  </message>
+  <message>
+   <source>About 30 packages, 180 MB from the network. FreeCAD itself is not changed.</source>
+   <translation>约 30 个软件包，从网络下载 180 MB。FreeCAD 本身不作改动。</translation>
+  </message>
+  <message>
+   <source>Another window is installing it: wait until that is done.</source>
+   <translation>另一个窗口正在安装：请等它完成。</translation>
+  </message>
+  <message>
+   <source>Copy the log</source>
+   <translation>复制日志</translation>
+  </message>
+  <message>
+   <source>Folder of wheels</source>
+   <translation>wheel 文件夹</translation>
+  </message>
+  <message>
+   <source>From a folder of wheels…</source>
+   <translation>从 wheel 文件夹安装…</translation>
+  </message>
+  <message>
    <source>Install</source>
    <translation>安装</translation>
   </message>
   <message>
-   <source>Install it now</source>
-   <translation>立即安装</translation>
+   <source>Installed. Repeat the command.</source>
+   <translation>已安装。请重新执行命令。</translation>
   </message>
   <message>
-   <source>Installing {package}</source>
-   <translation>正在安装 {package}</translation>
+   <source>Installing what AADM needs</source>
+   <translation>正在安装 AADM 所需的软件包</translation>
   </message>
   <message>
-   <source>{command} cannot be run: name a Python in the settings</source>
-   <translation>无法运行 {command}：请在设置中指定 Python</translation>
+   <source>It was not installed; nothing is left of it.</source>
+   <translation>没有安装；没有留下任何文件。</translation>
   </message>
   <message>
-   <source>{package} could not be installed; the lines above say why.</source>
-   <translation>无法安装 {package}；原因见上。</translation>
+   <source>No Python from 3.11 to 3.14 was found: install one (on Debian: apt-get install python3), or name one in the settings of AADM.</source>
+   <translation>找不到 3.11 至 3.14 版的 Python：请安装一个（Debian：apt-get install python3），或在 AADM 的设置中指定一个。</translation>
   </message>
   <message>
-   <source>{package} is installed. Repeat the command.</source>
-   <translation>{package} 已安装。请重新执行命令。</translation>
+   <source>Remove</source>
+   <translation>移除</translation>
+  </message>
+  <message>
+   <source>Repair</source>
+   <translation>修复</translation>
+  </message>
+  <message>
+   <source>The disk is full: 1 GB is needed.</source>
+   <translation>磁盘空间不足：需要 1 GB。</translation>
+  </message>
+  <message>
+   <source>The folder cannot be written; the last line of the log says which.</source>
+   <translation>无法写入文件夹；日志最后一行说明是哪一个。</translation>
+  </message>
+  <message>
+   <source>The network cannot be reached. Try again later, or install from a folder of wheels.</source>
+   <translation>无法连接网络。请稍后再试，或从 wheel 文件夹安装。</translation>
+  </message>
+  <message>
+   <source>The proxy refuses: name it in pip's settings (proxy).</source>
+   <translation>代理服务器拒绝连接：请在 pip 的设置（proxy）中指定代理。</translation>
+  </message>
+  <message>
+   <source>The server's certificate is not trusted here: name your company's in pip's settings (cert).</source>
+   <translation>本机不信任服务器的证书：请在 pip 的设置（cert）中指定公司的证书。</translation>
+  </message>
+  <message>
+   <source>Try again</source>
+   <translation>重试</translation>
+  </message>
+  <message>
+   <source>pip could not install it; the log says why.</source>
+   <translation>pip 无法安装；原因见日志。</translation>
   </message>
  </context>
  <context>
@@ -527,75 +599,16 @@
    <translation>运行任务</translation>
   </message>
   <message>
-   <source>The job ended with {code}</source>
-   <translation>任务以代码 {code} 结束</translation>
-  </message>
-  <message>
-   <source>The job was cancelled: its panel was closed</source>
-   <translation>任务已取消：面板被关闭</translation>
-  </message>
-  <message>
-   <source>cancelled</source>
-   <translation>已取消</translation>
-  </message>
-  <message>
    <source>{count} columns: {summary}. Report: {file}</source>
    <translation>{count} 根柱：{summary}。报告：{file}</translation>
-  </message>
-  <message>
-   <source>{program} cannot be run: name a Python with the packages in the settings</source>
-   <translation>无法运行 {program}：请在设置中指定装有所需软件包的 Python</translation>
-  </message>
- </context>
- <context>
-  <name>AADM_Packages</name>
-  <message>
-   <source>Check column</source>
-   <translation>检测柱</translation>
-  </message>
-  <message>
-   <source>Check column, depth maps</source>
-   <translation>检测柱、深度图</translation>
-  </message>
-  <message>
-   <source>Report</source>
-   <translation>报告</translation>
-  </message>
-  <message>
-   <source>Report: Excel workbook</source>
-   <translation>报告：Excel 工作簿</translation>
-  </message>
-  <message>
-   <source>Report: HTML</source>
-   <translation>报告：HTML</translation>
-  </message>
-  <message>
-   <source>Report: PDF, pages and cards</source>
-   <translation>报告：PDF、作业单与指示卡</translation>
-  </message>
-  <message>
-   <source>Sample design from an IFC file, Write results to an IFC file</source>
-   <translation>从 IFC 文件提取设计点、将结果写入 IFC 文件</translation>
-  </message>
-  <message>
-   <source>all measuring</source>
-   <translation>所有测量</translation>
-  </message>
-  <message>
-   <source>compressed PCD files</source>
-   <translation>压缩 PCD 文件</translation>
-  </message>
-  <message>
-   <source>methods fusion, pointcloud and image</source>
-   <translation>方法 fusion、pointcloud 与 image</translation>
-  </message>
-  <message>
-   <source>the command aadm, behind Run job and Report</source>
-   <translation>命令 aadm（用于“运行任务”和“报告”）</translation>
   </message>
  </context>
  <context>
   <name>AADM_Preferences</name>
+  <message>
+   <source>An aadm that you have installed yourself, of the same version; it is used instead of the private environment</source>
+   <translation>您自己安装的、版本相同的 aadm；用它代替专用运行环境</translation>
+  </message>
   <message>
    <source>Camera file</source>
    <translation>相机文件</translation>
@@ -637,16 +650,16 @@
    <translation>三维视图中标签的字号（磅）</translation>
   </message>
   <message>
+   <source>Own aadm</source>
+   <translation>自己的 aadm</translation>
+  </message>
+  <message>
    <source>Points of a scan shown at most</source>
    <translation>扫描最多显示的点数</translation>
   </message>
   <message>
-   <source>Python for jobs</source>
-   <translation>运行任务的 Python</translation>
-  </message>
-  <message>
-   <source>Runs jobs and installs packages; empty: the Python that FreeCAD was built with</source>
-   <translation>用于运行任务和安装软件包；留空：FreeCAD 自带的 Python</translation>
+   <source>Python</source>
+   <translation>Python</translation>
   </message>
   <message>
    <source>Scans are imported in</source>
@@ -655,6 +668,10 @@
   <message>
    <source>Size of labels</source>
    <translation>标签字号</translation>
+  </message>
+  <message>
+   <source>The private environment is made for it, 3.11 to 3.14; empty: one is looked for</source>
+   <translation>专用运行环境为它建立，3.11 至 3.14 版；留空则自动查找</translation>
   </message>
   <message>
    <source>Tolerance profile</source>
@@ -732,10 +749,6 @@
    <translation>已写出：{folder}</translation>
   </message>
   <message>
-   <source>aadm report ended with {code}</source>
-   <translation>aadm report 以代码 {code} 结束</translation>
-  </message>
-  <message>
    <source>report.json is always written. And:</source>
    <translation>总是写出 report.json。另外：</translation>
   </message>
@@ -775,6 +788,10 @@
   <message>
    <source>IFC file…</source>
    <translation>IFC 文件…</translation>
+  </message>
+  <message>
+   <source>Sample</source>
+   <translation>提取</translation>
   </message>
   <message>
    <source>Sample design</source>
@@ -851,26 +868,41 @@
   </message>
  </context>
  <context>
+  <name>AADM_TryIt</name>
+  <message>
+   <source>Opens a floor of eight sample columns, checks their synthetic scans, and shows which ones fail</source>
+   <translation>打开有八根样例柱的楼层，检测它们的合成扫描，并显示哪些不合格</translation>
+  </message>
+  <message>
+   <source>Try it</source>
+   <translation>试用</translation>
+  </message>
+  <message>
+   <source>{folder}: the samples are not there; install the addon as a clone</source>
+   <translation>{folder}：没有样例；请以克隆方式安装插件</translation>
+  </message>
+ </context>
+ <context>
   <name>AADM_Write</name>
   <message>
-   <source>As properties of the model's objects</source>
-   <translation>写为模型对象的属性</translation>
+   <source>A copy of it as it was is kept beside it</source>
+   <translation>旁边保留一份原样的副本</translation>
+  </message>
+  <message>
+   <source>Change the file itself</source>
+   <translation>直接修改该文件</translation>
   </message>
   <message>
    <source>Choose the IFC file that the model came from.</source>
    <translation>请选择模型所来自的 IFC 文件。</translation>
   </message>
   <message>
-   <source>Columns are then found by their GlobalIds</source>
-   <translation>此时按 GlobalId 查找柱</translation>
+   <source>Empty: MODEL-checked.ifc beside the file</source>
+   <translation>留空：写到该文件旁的 MODEL-checked.ifc</translation>
   </message>
   <message>
-   <source>Empty: the file itself, changed in place</source>
-   <translation>留空：直接修改该文件</translation>
-  </message>
-  <message>
-   <source>Even if the file has changed since the check</source>
-   <translation>即使文件在检测后已更改</translation>
+   <source>Even if it has changed</source>
+   <translation>即使文件已改动</translation>
   </message>
   <message>
    <source>IFC file</source>
@@ -881,12 +913,20 @@
    <translation>写入模型的 IFC 文件</translation>
   </message>
   <message>
+   <source>Onto the model's objects</source>
+   <translation>写到模型对象上</translation>
+  </message>
+  <message>
    <source>Results were written into {file}</source>
    <translation>结果已写入 {file}</translation>
   </message>
   <message>
    <source>Results were written onto {count} objects of the model</source>
    <translation>结果已写到 {count} 个模型对象上</translation>
+  </message>
+  <message>
+   <source>Since the check: columns are then found by their GlobalIds</source>
+   <translation>检测之后的改动；此时按 GlobalId 查找柱</translation>
   </message>
   <message>
    <source>Then save the document</source>
@@ -955,6 +995,10 @@
    <translation>显示在最前：柱底被柱体混凝土遮挡</translation>
   </message>
   <message>
+   <source>File that the design was taken from</source>
+   <translation>设计所取自的文件</translation>
+  </message>
+  <message>
    <source>Form of this object; newer versions of the workbench bring it up to date</source>
    <translation>此对象的格式；新版工作台会自动升级</translation>
   </message>
@@ -969,6 +1013,10 @@
   <message>
    <source>Grid axes</source>
    <translation>轴线</translation>
+  </message>
+  <message>
+   <source>Hash of that file when it was read</source>
+   <translation>读取时该文件的哈希值</translation>
   </message>
   <message>
    <source>Hash of the file as it was imported</source>

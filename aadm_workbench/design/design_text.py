@@ -1,21 +1,20 @@
-"""A column's design as the text that its document object keeps: JSON, lengths in mm, every digit."""
+"""A column's design as text: JSON, lengths in mm, every digit. Documents keep it, and processes hand it over."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Kind
 
 _PLAIN = ("id", "global_id", "piece_mark", "storey", "grid", "rebar_outer_diameter_mm", "embedded_length_mm")
-FROM_REPORT = "a report"
-"""Why a point is there that was taken from report.json: its place is the design's, its diameter was measured."""
-_UNKNOWN_DIAMETER_MM = {Kind.SLEEVE: 40.0, Kind.REBAR: 20.0}
-"""Drawn for a report whose points were all not measured; it is never measured against."""
 
 
 def write_design(design: ColumnDesign) -> str:
@@ -57,39 +56,41 @@ def read_design(text: str, label: str) -> ColumnDesign:
         raise DesignError(f"{label} holds no design: sample the design of its column again") from error
 
 
-def design_of_report(column: Mapping[str, Any]) -> ColumnDesign:
-    """What a column of report.json says of its design: its points as designed; diameters are the measured ones."""
-    placed, size_mm = column.get("T_model_column"), column.get("size_mm")
-    return ColumnDesign(
-        id=str(column["id"]),
-        sleeves=_reported_points(Kind.SLEEVE, column),
-        rebars=_reported_points(Kind.REBAR, column),
-        size_mm=None if size_mm is None else (float(size_mm[0]), float(size_mm[1])),
-        global_id=column.get("global_id"),
-        piece_mark=column.get("piece_mark"),
-        storey=column.get("storey"),
-        grid=column.get("grid"),
-        names=(str(column["id"]),),
-        T_model_column=None if placed is None else np.array(placed, dtype=np.float64),
-    )
+def write_model(origin: Mapping[str, Any], columns: Mapping[str, ColumnDesign]) -> str:
+    """The text of a file that a job may name as its model: columns whose design is already known.
+
+    Parameters
+    ----------
+    origin
+        ``source``, ``sha256`` and ``schema`` of the model that they were taken from, as far as known.
+    columns
+        By the ids that the job calls them by.
+    """
+    entries = [
+        json.loads(write_design(replace(design, id=name, names=tuple(dict.fromkeys((name, *design.names))))))
+        for name, design in columns.items()
+    ]
+    return json.dumps({"taken_from": dict(origin), "columns": entries}, ensure_ascii=False)
 
 
-def _reported_points(kind: Kind, column: Mapping[str, Any]) -> tuple[AssemblyPoint, ...]:
-    points: Sequence[Mapping[str, Any]] = (column.get(kind.plural) or {}).get("points", ())
-    measured = [point["diameter_mm"] for point in points if point.get("diameter_mm") is not None]
-    diameter_mm = float(np.median(measured)) if measured else _UNKNOWN_DIAMETER_MM[kind]
-    return tuple(
-        AssemblyPoint(
-            label=point["label"],
-            kind=kind,
-            centre=np.array(point["design_mm"], dtype=np.float64),
-            axis=np.array([0.0, 0.0, 1.0]),
-            diameter_mm=diameter_mm,
-            global_id=point.get("global_id"),
-            why=FROM_REPORT,
-        )
-        for point in points
-    )
+def read_designs(path: Path) -> ModelDesign:
+    """The model that :func:`write_model` has written; it is reported under the name and hash of its origin.
+
+    Raises
+    ------
+    DesignError
+        Where the file cannot be read, or is none.
+    """
+    try:
+        written = json.loads(path.read_text(encoding="utf-8"))
+        origin, entries = written["taken_from"], written["columns"]
+        source, sha256, schema = (str(origin.get(key) or "") for key in ("source", "sha256", "schema"))
+        columns = tuple(read_design(json.dumps(entry), str(path)) for entry in entries)
+    except OSError as error:
+        raise DesignError(f"{path}: cannot be read ({error.strerror})") from error
+    except (ValueError, LookupError, TypeError, AttributeError) as error:
+        raise DesignError(f"{path}: holds no designs as the workbench hands them over ({error})") from error
+    return ModelDesign(source or str(path), sha256, schema, columns)
 
 
 def _point_entry(point: AssemblyPoint) -> dict[str, Any]:

@@ -1,0 +1,125 @@
+"""What the FreeCAD workbench asks for: the columns of a model, and scans, in plain numbers."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from aadm_workbench.errors import DesignError
+
+_SHOWN = 6  # reasons in a message; more say no more
+_DIGITS = 4  # of a point that is drawn, mm
+
+
+def columns(question: Mapping[str, Any]) -> dict[str, Any]:
+    """Columns with their assembly points.
+
+    Parameters
+    ----------
+    question
+        ``path`` of a model, or ``elements`` as :mod:`aadm_workbench.design.element_json` has them, with ``source``,
+        ``sha256``, ``problems``, and ``chosen``: for each object of the model that was pointed at its ``label`` and the
+        ids of its elements; empty for all.
+
+    Raises
+    ------
+    DesignError
+        Where there is none; says what was looked at.
+    """
+    from aadm_workbench.design.design_text import write_design
+    from aadm_workbench.inspection.as_designed import read_design
+
+    model, designs = (read_design(question["path"]), None) if "path" in question else _sampled(question)
+    found = model.columns if designs is None else designs
+    if not found:
+        reasons = list(dict.fromkeys(f"{one.name}: {one.reason}" for one in model.not_taken))[:_SHOWN]
+        said = f" ({'; '.join(reasons)})" if reasons else ""
+        hint = f". {model.hint}" if model.hint else ""
+        raise DesignError(f"{model.source} has no column with grouting sleeves in its foot{said}{hint}")
+    return {
+        "source": model.source,
+        "sha256": model.sha256,
+        "schema": model.schema,
+        "warnings": list(model.warnings),
+        "columns": [json.loads(write_design(design)) for design in found],
+    }
+
+
+def _sampled(question: Mapping[str, Any]) -> tuple[Any, Sequence[Any] | None]:
+    """The model that FreeCAD's shapes make, and the columns that were pointed at, one for each object."""
+    from aadm_workbench.design.element_json import from_json
+    from aadm_workbench.design.recognise.columns import Origin, recognise
+
+    elements = from_json(question["elements"])
+    origin = Origin(question["source"], question["sha256"], "FreeCAD", tuple(question["problems"]))
+    if not question["chosen"]:
+        return recognise(elements, origin), None
+    models = []
+    for chosen in question["chosen"]:
+        ids = set(chosen["ids"])
+        model = recognise(elements, origin, chosen=[one for one in elements if one.GlobalId in ids])
+        _check_one(model, chosen["label"])
+        models.append(model)
+    return models[0], [model.columns[0] for model in models]
+
+
+def _check_one(model: Any, label: str) -> None:
+    """Refuse an object that is no column, or holds several."""
+    if not model.columns:
+        reasons = [f"{left.name}: {left.reason}" for left in model.not_taken if left.what == "sleeve"]
+        said = "; ".join(dict.fromkeys(reasons[:_SHOWN]))
+        raise DesignError(f"{label} has no grouting sleeves in its foot face. {said}".strip())
+    if len(model.columns) > 1:
+        called = ", ".join(column.id for column in model.columns[:_SHOWN])
+        raise DesignError(f"{label} holds {len(model.columns)} columns: {called}. Select one of them.")
+
+
+def scan(question: Mapping[str, Any]) -> dict[str, Any]:
+    """A scan for the eye.
+
+    Parameters
+    ----------
+    question
+        ``file``, ``units``, ``camera`` (intrinsics, the file that holds them, or None), ``depth_scale_mm`` or None,
+        ``most_points``.
+
+    Returns
+    -------
+    dict
+        ``sha256``, ``count`` of all points, ``points`` (n, 3) mm in the file's own frame, ``R_file_scan``, and how the
+        file was read: ``camera`` and ``depth_scale_mm``.
+
+    Raises
+    ------
+    AadmError
+        Where it cannot be read.
+    """
+    from aadm_workbench.model import Camera
+    from aadm_workbench.scan.camera import read_camera, read_depth_scale_mm
+    from aadm_workbench.scan.read import read_scan
+    from aadm_workbench.scan.thinned import thinned
+
+    file, asked, step_mm = Path(question["file"]), question["camera"], question["depth_scale_mm"]
+    if isinstance(asked, str):
+        camera: Camera | None = read_camera(Path(asked))
+        step_mm = read_depth_scale_mm(Path(asked)) if step_mm is None else step_mm
+    else:
+        camera = None if asked is None else Camera(**asked)
+    read = read_scan(file, units=question["units"], camera=camera, depth_scale_mm=step_mm, source=file.name)
+    points, count = thinned(read.points, int(question["most_points"]))
+    return {
+        "sha256": read.sha256,
+        "count": count,
+        "points": (points @ read.R_file_scan.T).round(_DIGITS).tolist(),
+        "R_file_scan": read.R_file_scan.tolist(),
+        "camera": None if camera is None else asdict(camera),
+        "depth_scale_mm": step_mm,
+        "notes": list(read.notes),
+    }
+
+
+ANSWERS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {"columns": columns, "scan": scan}
+"""By what is asked."""

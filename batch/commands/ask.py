@@ -1,0 +1,43 @@
+"""Answer a question of the FreeCAD workbench, which runs no packages of its own. For programs, not for people.
+
+QUESTION.json says under "about" what is asked: "columns" of a model or of shapes that FreeCAD has sampled, or the
+"scan" in a file. The answer appears whole or not at all.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from ..exit_codes import ALL_PASS
+from ..switches import add_switches
+
+EXAMPLE = """\
+examples:
+  aadm ask question.json answer.json"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    parser.add_argument("question", type=Path, metavar="QUESTION.json", help="the question")
+    parser.add_argument("answer", type=Path, metavar="ANSWER.json", help="where the answer is written")
+    add_switches(parser, prints_json=None)
+    parser.set_defaults(run=run)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Answer."""
+    import json
+
+    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.errors import JobError
+
+    from ..answers import ANSWERS
+
+    try:
+        question = json.loads(options.question.read_text(encoding="utf-8"))
+        answer = ANSWERS[question["about"]]
+    except (OSError, ValueError, LookupError, TypeError) as error:
+        raise JobError(f"{options.question}: is no question of the workbench ({error})") from error
+    write_atomically(options.answer, json.dumps(answer(question), ensure_ascii=False).encode())
+    return ALL_PASS
