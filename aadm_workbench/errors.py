@@ -34,6 +34,18 @@ class CameraError(AadmError):
     """Intrinsics are missing or cannot belong to the scan."""
 
 
+class CaptureError(AadmError):
+    """A live camera did not give a frame that can be believed: this frame is lost, the next one may be had."""
+
+
+class CameraGoneError(CaptureError):
+    """A live camera does not answer any more: it must be opened again."""
+
+
+class EndOfFramesError(CaptureError):
+    """A camera that plays captures again has played them all."""
+
+
 class ReportError(AadmError):
     """A report.json cannot be used: broken, of another schema, or not what the schema describes."""
 
@@ -88,17 +100,23 @@ PACKAGES = (
         others=("opencv-python", "opencv-contrib-python-headless", "opencv-contrib-python", "opencv"),
     ),
     Package("ifcopenshell", "ifcopenshell", "IFC models"),
+    Package("msgspec", "msgspec", "reading and writing report.json"),
     Package("rich", "rich", "tables in the terminal"),
     Package("jinja2", "jinja2", "report.html", "reports"),
     Package("fontTools", "fonttools", "Chinese in report.html", "reports"),
     Package("reportlab", "reportlab", "report.pdf, crew pages, scan cards", "reports"),
     Package("xlsxwriter", "xlsxwriter", "report.xlsx", "reports"),
-    Package("jsonschema", "jsonschema", "reading report.json", "reports"),
+    Package("pypdfium2", "pypdfium2", "pictures in report.bcf", "reports"),
     Package("lzf", "python-neo-lzf", "compressed PCD files", "formats"),
     Package("lazrs", "lazrs", "LAZ files", "formats"),
     Package("pye57", "pye57", "E57 files", "formats"),
     Package("tifffile", "tifffile", "TIFF of half floats and of X, Y, Z", "formats"),
     Package("imagecodecs", "imagecodecs", "TIFF packed with ZSTD, LZMA or LERC", "formats"),
+    Package("genicam", "genicam", "gentl: cameras", "camera"),
+    Package("harvesters", "harvesters", "gentl: cameras", "camera"),
+    Package("asyncua", "asyncua", "link --opcua", "link"),
+    Package("pymodbus", "pymodbus", "link --modbus", "link"),
+    Package("paho", "paho-mqtt", "link --mqtt", "link"),
     Package("psutil", "psutil", "check --jobs N", "batch"),
     Package("distributed", "distributed", "check --scheduler", "batch"),
     Package("open3d", "open3d", "virtual camera, methods of the literature", "twin", ("open3d-cpu",)),

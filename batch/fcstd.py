@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.fcstd import check_archive
 from aadm_workbench.design.freecad_program import ask_freecad
 from aadm_workbench.design.model_file import sha256_of
 from aadm_workbench.errors import AadmError
+from aadm_workbench.model import JobReport
 from aadm_workbench.own_files import ASIDE_FOLDER
-from aadm_workbench.report.json import encode
+from aadm_workbench.report.json import encoded_report
 
 _MODULE = "aadm_workbench.document.report.annotate"
 
 
-def write_fcstd(report: dict[str, Any], path: Path) -> None:
+def write_fcstd(report: JobReport, path: Path) -> None:
     """Write a .FCStd with the annotated columns of a report.
 
     Where the report's model is a .FCStd that still has the hash that was checked, the columns are shown on it; the file
@@ -30,7 +31,7 @@ def write_fcstd(report: dict[str, Any], path: Path) -> None:
     AadmError
         Where FreeCAD cannot write the document.
     """
-    model = model_of(report, path)
+    model = model_of(report.model, path)
     if model is not None:
         check_archive(model)
     try:
@@ -38,7 +39,7 @@ def write_fcstd(report: dict[str, Any], path: Path) -> None:
         with TemporaryDirectory(prefix=ASIDE_FOLDER, dir=path.parent.resolve()) as folder:
             made = Path(folder) / path.name
             question = {
-                "report": encode(report).decode(),
+                "report": encoded_report(report).decode(),
                 "out": str(made),
                 "model": None if model is None else str(model.resolve()),
             }
@@ -50,13 +51,12 @@ def write_fcstd(report: dict[str, Any], path: Path) -> None:
         raise AadmError(f"{path}: cannot be written ({error.strerror}); check its folder") from error
 
 
-def model_of(report: dict[str, Any], path: Path) -> Path | None:
+def model_of(model: Mapping[str, str] | None, path: Path) -> Path | None:
     """The .FCStd that was checked, where it lies beside the report or above it and has not changed since."""
-    model = report.get("model") or {}
-    source = str(model.get("source", ""))
-    if not source.lower().endswith(".fcstd"):
+    source = "" if model is None else model["source"]
+    if model is None or not source.lower().endswith(".fcstd"):
         return None
     for place in (path.parent / source, path.parent.parent / source, Path(source)):
-        if place.is_file() and sha256_of(place) == model.get("sha256"):
+        if place.is_file() and sha256_of(place) == model["sha256"]:
             return place
     return None

@@ -12,8 +12,8 @@ from aadm_workbench.errors import JobError
 
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
+    from aadm_workbench.model import JobReport
     from aadm_workbench.report.ifc.model import WriteBack
-    from aadm_workbench.report.read import Report
 
 _REPORTS = ("report.html", "report.json")
 """What the columns of the model are linked to: the first of these that lies in the folder of the report."""
@@ -35,7 +35,7 @@ def ifc_model_of(job: Job) -> Path:
     return path
 
 
-def write_results(report: Report, report_folder: Path, model: Path, out: Path, *, force: bool = False) -> WriteBack:
+def write_results(report: JobReport, report_folder: Path, model: Path, out: Path, *, force: bool = False) -> WriteBack:
     """Write a report into a model and link the columns to the report's file; errors as ``write_ifc``."""
     from aadm_workbench.report.ifc.model import write_ifc
 
@@ -78,7 +78,7 @@ def _link(folder: Path, out: Path) -> str:
         return report.as_uri()
 
 
-def write_checked_model(report: Report, job: Job, folder: Path) -> WriteBack:
+def write_checked_model(report: JobReport, job: Job, folder: Path) -> WriteBack:
     """A copy of the job's model with the results, into the folder of the reports; errors as :func:`write_results`."""
     model = ifc_model_of(job)
     return write_results(report, folder, model, folder / f"{model.stem}-checked.ifc")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
-    from aadm_workbench.report.read import Report
+    from aadm_workbench.model import JobReport
 
 FORMATS = {
     "html": ("report.html", "one page to read in a browser, offline; prints well"),
@@ -28,6 +28,8 @@ _PACKAGES = {
     "html": ("jinja2", "fonttools"),
     "pdf": ("reportlab",),
     "xlsx": ("xlsxwriter",),
+    "bcf": ("reportlab", "pypdfium2"),
+    "bcf_pairs": ("reportlab", "pypdfium2"),
     "crew": ("reportlab",),
     "scan_card": ("reportlab",),
 }
@@ -68,7 +70,7 @@ def require_packages(formats: Sequence[str]) -> None:
 
 
 def write_reports(
-    report: Report, formats: Sequence[str], folder: Path, language: Literal["en", "zh"] | None = None
+    report: JobReport, formats: Sequence[str], folder: Path, language: Literal["en", "zh"] | None = None
 ) -> dict[str, Path]:
     """Write reports into a folder; the files by the names of their formats.
 
@@ -85,7 +87,7 @@ def write_reports(
     return files
 
 
-def _write(name: str, report: Report, path: Path, language: Literal["en", "zh"] | None) -> None:
+def _write(name: str, report: JobReport, path: Path, language: Literal["en", "zh"] | None) -> None:
     """One report; the packages of a format are imported only where it is asked for."""
     if name == "html":
         from aadm_workbench.report.pages.html import write_html
@@ -117,7 +119,7 @@ def _write(name: str, report: Report, path: Path, language: Literal["en", "zh"] 
         _write_pages(name, report, path, language)
 
 
-def _write_pages(name: str, report: Report, path: Path, language: Literal["en", "zh"] | None) -> None:
+def _write_pages(name: str, report: JobReport, path: Path, language: Literal["en", "zh"] | None) -> None:
     if name == "crew":
         from aadm_workbench.report.pages.crew_page import write_crew_pages
 
@@ -126,4 +128,4 @@ def _write_pages(name: str, report: Report, path: Path, language: Literal["en", 
         from aadm_workbench.report.pages.scan_card import scan_cards
         from aadm_workbench.report.pages.scan_card_page import write_scan_cards
 
-        write_scan_cards(scan_cards(report), path, language or "zh", title=report["job"]["name"])
+        write_scan_cards(scan_cards(report), path, language or "zh", title=report.job["name"])

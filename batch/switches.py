@@ -11,6 +11,7 @@ _SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 
 LEAST_MEMORY_BYTES = 256 * 10**6
 """The packages alone take about as much; below it nothing could be checked."""
+_UNITS_S = {"": 1.0, "s": 1.0, "ms": 1e-3, "min": 60.0}  # of a time
 
 
 def add_switches(parser: argparse.ArgumentParser, *, prints_json: str | None) -> None:
@@ -60,3 +61,11 @@ def _quantity(text: str, units: dict[str, float] | dict[str, int], example: str)
     if found is None or unit is None or float(found[1]) == 0.0:
         raise argparse.ArgumentTypeError(f"{text!r} is no limit; write {example}")
     return float(found[1]) * unit
+
+
+def duration(text: str) -> float:
+    """A time, in seconds: 2, 2s, 500ms, 1min."""
+    found = re.fullmatch(r"(\d+(?:\.\d+)?)\s*(s|ms|min|)", text.strip())
+    if found is None or float(found[1]) == 0.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no time; write 2s, 500ms or 1min")
+    return float(found[1]) * _UNITS_S[found[2]]

@@ -12,7 +12,7 @@ documents="$chroots/documents"
 mirror=${AADM_MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' | head -n 1)}
 packages="ca-certificates fonts-noto-cjk freecad libegl1 libgl1-mesa-dri python3-pip python3-pytest xvfb"
 # What the tests themselves need, beside FreeCAD; what FreeCAD's checks run with is made by the workbench's own button.
-wheels="numpy scipy opencv-python-headless ifcopenshell jsonschema psutil python-neo-lzf rich"
+wheels="numpy scipy opencv-python-headless ifcopenshell msgspec psutil python-neo-lzf rich"
 [ "$#" -gt 0 ] || set -- trixie sid
 [ "$(id -u)" = 0 ] || { echo "this needs root, for chroot" >&2; exit 2; }
 mkdir -p "$documents"

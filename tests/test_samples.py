@@ -11,7 +11,7 @@ import jsonschema
 import numpy as np
 import pytest
 
-from aadm_workbench.report.json import report_document, report_schema
+from aadm_workbench.report.json import encoded_report, report_schema
 from batch.job.file import read_job
 from batch.runner.run import RunOptions, run_job
 from tests.frozen import KEPT, frozen
@@ -28,7 +28,7 @@ def truth(sample: str) -> dict[str, Any]:
 @cache
 def report(sample: str, method: str = "refined", only: tuple[str, ...] = ()) -> dict[str, Any]:
     run = run_job(read_job(SAMPLES / sample / "job.toml"), RunOptions(method, only))
-    return json.loads(json.dumps(report_document(run.report)))  # type: ignore[no-any-return]
+    return json.loads(encoded_report(run.report))  # type: ignore[no-any-return]
 
 
 def in_plane_errors(document: dict[str, Any], sample: str, kind: str) -> np.ndarray:

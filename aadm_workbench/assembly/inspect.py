@@ -102,7 +102,6 @@ def inspect_group(
     ]
     verdict = agreed(result.verdict for result in inspected)
     return GroupReport(
-        kind=extraction.kind,
         source=source,
         sha256=sha256,
         method=extraction.method,
@@ -266,7 +265,6 @@ def _not_matched(
     position = next(iter(applicable_rules(profile, f"{kind}_position")[0]), None)
     spacing = next(iter(applicable_rules(profile, f"{kind}_spacing")[0]), None)
     return GroupReport(
-        kind=extraction.kind,
         source=source,
         sha256=sha256,
         method=extraction.method,

@@ -184,8 +184,8 @@ def _rule(entry: _Table, where: str) -> Rule:
     return Rule(
         name=entry["name"],
         limits=entry["limits"],
-        upper=float(entry["upper_mm"]),
-        lower=float(entry["lower_mm"]) if "lower_mm" in entry else None,
+        upper_mm=float(entry["upper_mm"]),
+        lower_mm=float(entry["lower_mm"]) if "lower_mm" in entry else None,
         clause=entry["clause"],
         severity=entry["severity"],
         source=entry["source"],

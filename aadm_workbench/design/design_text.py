@@ -12,7 +12,7 @@ import numpy as np
 
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.errors import DesignError
-from aadm_workbench.model import AssemblyPoint, ColumnDesign, Kind
+from aadm_workbench.model import AssemblyPoint, ColumnDesign, Json, Kind
 
 _PLAIN = ("id", "global_id", "piece_mark", "storey", "grid", "rebar_outer_diameter_mm", "embedded_length_mm")
 
@@ -93,7 +93,7 @@ def read_designs(path: Path) -> ModelDesign:
     return ModelDesign(source or str(path), sha256, schema, columns)
 
 
-def _point_entry(point: AssemblyPoint) -> dict[str, Any]:
+def _point_entry(point: AssemblyPoint) -> dict[str, Json]:
     return {
         "label": point.label,
         "centre_mm": np.asarray(point.centre, dtype=np.float64).tolist(),

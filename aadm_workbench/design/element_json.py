@@ -11,7 +11,7 @@ from aadm_workbench.design.elements import Element, Solid
 from aadm_workbench.design.recognise.bar_courses import Course
 from aadm_workbench.design.recognise.paths import Arc, Leg, Straight
 from aadm_workbench.design.recognise.tubes import Tube
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Json
 
 _TEXTS = (
     "GlobalId",
@@ -27,7 +27,7 @@ _TEXTS = (
 )
 
 
-def to_json(elements: Sequence[Element]) -> list[dict[str, Any]]:
+def to_json(elements: Sequence[Element]) -> list[Json]:
     """Elements as plain lists, numbers and texts; numbers keep all their digits."""
     return [
         {
@@ -59,7 +59,7 @@ def from_json(written: Sequence[Mapping[str, Any]]) -> list[Element]:
     ]
 
 
-def _solid(solid: Solid) -> dict[str, Any]:
+def _solid(solid: Solid) -> Json:
     return {
         "tubes": [[tube.start.tolist(), tube.end.tolist(), tube.outer_mm, list(tube.bore_mm)] for tube in solid.tubes],
         "bars": [
@@ -83,7 +83,7 @@ def _read_solid(written: Mapping[str, Any]) -> Solid:
     )
 
 
-def _leg(leg: Leg) -> list[Any]:
+def _leg(leg: Leg) -> Json:
     if isinstance(leg, Straight):
         return [leg.start.tolist(), leg.end.tolist()]
     return [leg.centre.tolist(), leg.u.tolist(), leg.v.tolist(), leg.begin, leg.stop]

@@ -20,6 +20,7 @@ from aadm_workbench.model import (
     GroupReport,
     HoistingMeasurement,
     HoistingReport,
+    Kind,
     Scan,
     Verdict,
 )
@@ -40,7 +41,7 @@ class Before:
     @classmethod
     def of(cls, report: ColumnReport) -> Before:
         """What the scans before hoisting have told of a column."""
-        return cls(_points(report.sleeves), _points(report.rebars))
+        return cls(_points(Kind.SLEEVE, report.sleeves), _points(Kind.REBAR, report.rebars))
 
 
 def measure_frames(
@@ -102,7 +103,7 @@ def _held_against_each_other(
     return tuple(reports)
 
 
-def _points(group: GroupReport | None) -> Points:
+def _points(kind: Kind, group: GroupReport | None) -> Points:
     if group is None or group.fit is None or group.fit.orientation == "ambiguous":
         return None
     points: list[AssemblyPoint | None] = []
@@ -114,5 +115,5 @@ def _points(group: GroupReport | None) -> Points:
         covariance = np.diag([u_mm**2, u_mm**2, u_mm**2])
         up = np.array([0.0, 0.0, 1.0])
         centre = np.array(point.aligned_mm, np.float64)
-        points.append(AssemblyPoint(point.label, group.kind, centre, up, point.diameter_mm or 0.0, covariance))
+        points.append(AssemblyPoint(point.label, kind, centre, up, point.diameter_mm or 0.0, covariance))
     return tuple(points)

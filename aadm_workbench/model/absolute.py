@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aadm_workbench.model.arrays import Array, Vector2, Vector3
+from aadm_workbench.model.measured import Array, Vector2, Vector3
 from aadm_workbench.model.verdicts import Verdict
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class ControlPoint:
     """A point known in the building and measured in the scan of the bars, mm.
 
@@ -29,7 +29,7 @@ class ControlPoint:
     u_mm: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class ControlResidual:
     """One control point after the fit, mm: ``residual_mm`` is measured minus known, in the column frame."""
 
@@ -40,7 +40,7 @@ class ControlResidual:
     u_mm: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class AbsolutePoint:
     """One bar against its place in the building, mm: ``offset_mm`` is measured minus design, in the column frame."""
 
@@ -54,7 +54,7 @@ class AbsolutePoint:
     reason: str = ""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class AbsolutePosition:
     """The bars of a column as a group against its place in the building.
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aadm_workbench.model.arrays import Vector2
+from aadm_workbench.model.measured import Vector2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Capability:
     """Process capability along one axis, with 95 % intervals; None where the scatter is zero."""
 
@@ -18,7 +18,7 @@ class Capability:
     cpk_interval: Vector2 | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class SleeveDrift:
     """One sleeve over all columns of a mould, mm, column frame, measured minus design.
 
@@ -52,7 +52,7 @@ class SleeveDrift:
     capability: tuple[Capability, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class MouldDrift:
     """The sleeves of all columns of one piece mark.
 
@@ -79,6 +79,11 @@ class MouldDrift:
     axis_limit_from: str
     sleeves: tuple[SleeveDrift, ...] = ()
     conclusion: str = ""
+
+    @property
+    def name(self) -> str:
+        """The piece mark, or the first column."""
+        return self.piece_mark or next(iter(self.columns), "")
 
     @property
     def drifting(self) -> tuple[SleeveDrift, ...]:

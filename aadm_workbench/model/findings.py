@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+
+from aadm_workbench.model.measured import Figures
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Finding:
     """One thing about a column that somebody should look at, as a value.
 
@@ -26,6 +27,6 @@ class Finding:
 
     code: str
     about: tuple[str, ...]
-    values: dict[str, Any] = field(default_factory=dict)
+    values: Figures = field(default_factory=dict)
     text: str = ""
     holds_back: bool = False

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
 
-from aadm_workbench.model.arrays import Array, Vector2, Vector3
 from aadm_workbench.model.findings import Finding
+from aadm_workbench.model.measured import Array, Figures, Vector2, Vector3
 from aadm_workbench.model.verdicts import Verdict
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class HoistingPair:
     """A sleeve of the hanging column over its bar, mm: ``offset_mm`` is rebar minus sleeve, in the bars' frame.
 
@@ -36,7 +35,7 @@ class HoistingPair:
     probability: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class CameraMove:
     """The correction as somebody beside the camera sees it: to the right, away from the camera, and the same turn."""
 
@@ -45,7 +44,7 @@ class CameraMove:
     yaw_deg: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Correction:
     """Displacement of the column: turned by yaw about its own axis, then moved by dx, dy, in the bars' frame.
 
@@ -67,16 +66,16 @@ class Correction:
     over: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class MovedSince:
     """A point that stands elsewhere than in its scan from before hoisting, mm, with its standard uncertainty."""
 
     label: str
     moved_mm: float
-    u_mm: float
+    u_mm: float | None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class HoistingReport:
     """One frame taken while the column hangs over its bars; it has its own verdict.
 
@@ -98,7 +97,7 @@ class HoistingReport:
     reasons: tuple[str, ...] = ()
     sha256: str = ""
     method: str = ""
-    quality: dict[str, Any] = field(default_factory=dict)
+    quality: Figures = field(default_factory=dict)
     height_mm: float | None = None
     vertical_from: str = ""
     orientation: str = ""
@@ -108,7 +107,7 @@ class HoistingReport:
     rests_on_scans: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class HoistingMeasurement:
     """A frame as it is reported, and in full precision for whoever goes on calculating.
 

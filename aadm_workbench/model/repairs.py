@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from aadm_workbench.model.arrays import Vector2
+from aadm_workbench.model.measured import Vector2
 from aadm_workbench.model.results import BestPose
 
 
@@ -24,7 +24,7 @@ class RepairAction(StrEnum):
     """Nothing that may be advised: a disposal plan agreed with the designer is needed."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class RepairStep:
     """One pair that stands in the way, and what would free it.
 
@@ -61,7 +61,7 @@ class RepairStep:
     off_mm: float = 0.0
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class RepairReport:
     """The smallest set of bars to bend so that the column goes in.
 

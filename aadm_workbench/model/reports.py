@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aadm_workbench.model.arrays import Array
 from aadm_workbench.model.drift import MouldDrift
 from aadm_workbench.model.findings import Finding
 from aadm_workbench.model.hoisting import HoistingReport
+from aadm_workbench.model.measured import Array
 from aadm_workbench.model.repairs import RepairReport
-from aadm_workbench.model.results import GroupReport, RuleResult, TrialReport
+from aadm_workbench.model.results import GroupReport, PairResult, PointResult, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile
-from aadm_workbench.model.verdicts import SUMMED, Verdict
+from aadm_workbench.model.verdicts import SUMMED, Kind, Verdict
+
+LONGEST_ID = 1024
+"""Characters of the id of a column: four times what IFC allows a label to have (IfcLabel)."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class ColumnReport:
     """Everything that report.json holds about one column; ``repair`` where its trial did not pass.
 
@@ -40,8 +43,34 @@ class ColumnReport:
     repair: RepairReport | None = None
     findings: tuple[Finding, ...] = ()
 
+    def group(self, kind: Kind) -> GroupReport | None:
+        """Its sleeves or its rebars."""
+        return self.sleeves if kind is Kind.SLEEVE else self.rebars
 
-@dataclass(frozen=True, eq=False)
+    @property
+    def groups(self) -> dict[Kind, GroupReport]:
+        """Sleeves and rebars, those of them that there are."""
+        return {kind: group for kind in Kind if (group := self.group(kind)) is not None}
+
+    def points(self, kind: Kind) -> tuple[PointResult, ...]:
+        """Its sleeves or its rebars, one by one; empty without them."""
+        group = self.group(kind)
+        return () if group is None else group.points
+
+    @property
+    def parts(self) -> tuple[ColumnReport | GroupReport | TrialReport, ...]:
+        """The column, its groups and its trial: what has rules and notes of its own."""
+        found = (self.sleeves, self.rebars, self.trial_assembly)
+        return (self, *(part for part in found if part is not None))
+
+    @property
+    def pairs(self) -> tuple[PairResult, ...]:
+        """The pairs of the trial at the pose that is shown; empty without one."""
+        pose = None if self.trial_assembly is None else self.trial_assembly.shown
+        return () if pose is None else pose.pairs
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class JobReport:
     """Everything that report.json holds: one job, its inputs by hash, its columns."""
 

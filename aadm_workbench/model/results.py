@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Literal, TypeAlias
 
 from aadm_workbench.model.absolute import AbsolutePosition
-from aadm_workbench.model.arrays import Array, Vector2, Vector3
-from aadm_workbench.model.verdicts import Kind, Verdict
+from aadm_workbench.model.measured import Array, Figures, Vector2, Vector3
+from aadm_workbench.model.rules import Source
+from aadm_workbench.model.verdicts import Verdict
+
+Orientation: TypeAlias = Literal["declared", "resolved", "ambiguous"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Candidate:
     """One way in which a measured pattern lies on its design.
 
@@ -29,7 +32,7 @@ class Candidate:
     labels: dict[str, str] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class Fit:
     """How a scan was laid on its design: ``T_design_scan`` (4, 4), in-plane least squares of all matched points.
 
@@ -41,13 +44,13 @@ class Fit:
     T_design_scan: Array
     rms_mm: float
     max_mm: float
-    orientation: str
+    orientation: Orientation
     candidates: tuple[Candidate, ...] = ()
     scale: float | None = None
     declared_up: str | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class PointResult:
     """One design point and what was measured of it, mm: ``offset_mm`` is measured minus design, in the column frame.
 
@@ -78,7 +81,7 @@ class PointResult:
     cov_mm2: tuple[Vector2, Vector2] | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class SpacingResult:
     """Distance in the plane between two adjacent centres, mm: ``deviation_mm`` is measured minus design, signed."""
 
@@ -93,20 +96,20 @@ class SpacingResult:
     probability: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class RuleResult:
     """One rule of the profile and the worst it came to; ``counted`` is False for advisory rules."""
 
     rule: str
     clause: str
-    source: str
+    source: Source
     verdict: Verdict
     counted: bool
     reason: str = ""
     worst_mm: float | None = None
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class GroupReport:
     """The sleeves or the rebars of one column: every design point, the spacing of neighbours, the fit.
 
@@ -115,7 +118,6 @@ class GroupReport:
     building; None without control points.
     """
 
-    kind: Kind
     source: str
     sha256: str
     method: str
@@ -128,11 +130,11 @@ class GroupReport:
     rules: tuple[RuleResult, ...] = ()
     reasons: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
-    quality: dict[str, Any] = field(default_factory=dict)
+    quality: Figures = field(default_factory=dict)
     absolute: AbsolutePosition | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class PairResult:
     """A rebar against the sleeve it enters, mm: ``offset_mm`` is rebar minus sleeve, in the column frame.
 
@@ -152,7 +154,7 @@ class PairResult:
     probability: float | None = None
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class TrialPose:
     """Bars brought onto sleeves in one way: ``T_sleeves_rebars`` (4, 4), both already in the column frame.
 
@@ -166,7 +168,7 @@ class TrialPose:
     pairs: tuple[PairResult, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class BestPair(PairResult):
     """A pair at the pose that leaves most: its verdict holds for the distance and the room together.
 
@@ -192,7 +194,7 @@ class BestPair(PairResult):
     seen_length_mm: float | None = None
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class BestPose(TrialPose):
     """The pose with the largest ``margin``, of distances and of room, each over what is allowed to it."""
 
@@ -200,7 +202,7 @@ class BestPose(TrialPose):
     margin: float | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class PoseWindow:
     """How far the column can move from the best pose, one number at a time reaching its end, mm and degrees.
 
@@ -212,7 +214,7 @@ class PoseWindow:
     yaw_deg: Vector2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class TurnResult:
     """The trial in one of the column's symmetric turns."""
 
@@ -221,7 +223,7 @@ class TurnResult:
     verdict: Verdict
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class TrialReport:
     """The virtual trial assembly of a column: does it go on these bars.
 
@@ -249,3 +251,14 @@ class TrialReport:
     best: BestPose | None = None
     in_the_way: tuple[str, ...] = ()
     rescan: tuple[str, ...] = ()
+
+    @property
+    def shown(self) -> TrialPose | None:
+        """The pose that people are shown, on which the verdict stands: the best; minimax in older reports."""
+        return self.best or self.minimax
+
+    @property
+    def poses(self) -> dict[str, TrialPose]:
+        """Those that were found, by their names, the one that is shown first."""
+        found = {"best": self.best, "minimax": self.minimax, "least_squares": self.least_squares}
+        return {name: pose for name, pose in found.items() if pose is not None}

@@ -3,34 +3,47 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 from aadm_workbench.model.verdicts import Verdict
 
+Source: TypeAlias = Literal["verified", "unverified"]
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, slots=True)
 class Rule:
     """One tolerance: what it limits, how far, and where that is written.
 
-    ``upper``/``lower`` in mm; ``advisory`` rules are reported and not counted. ``source`` is
+    ``advisory`` rules are reported and not counted. ``source`` is
     ``verified`` or ``unverified``. ``kind`` says how the deviation is taken (``radial``, ``per_axis`` or
     ``signed``), ``level`` what it is taken against (``bar_in_group``, ``group_to_datum`` or ``component``).
     """
 
     name: str
     limits: str
-    upper: float
-    lower: float | None
+    upper_mm: float
+    lower_mm: float | None
     clause: str
     severity: str
-    source: str
+    source: Source
     advisory: bool = False
     edition: str = ""
     note: str = ""
     kind: str = "radial"
     level: str = "bar_in_group"
 
+    @property
+    def upper(self) -> float:
+        """``upper_mm``, as sentences and comparisons name it."""
+        return self.upper_mm
 
-@dataclass(frozen=True)
+    @property
+    def lower(self) -> float | None:
+        """``lower_mm``, likewise."""
+        return self.lower_mm
+
+
+@dataclass(frozen=True, slots=True)
 class Profile:
     """A named set of rules."""
 
@@ -44,7 +57,7 @@ class Profile:
         return next((rule for rule in self.rules if rule.name == name), None)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Deviation:
     """A value against its limit: mm, with its standard uncertainty (per axis, k = 1) and clause."""
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from aadm_workbench.model.verdicts import Verdict
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class FitCell:
     """A column tried on a group of bars, in its best turn.
 
@@ -22,7 +22,7 @@ class FitCell:
     reason: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Assignment:
     """A column and the bars it is to go on; ``position`` is the job's column whose bars these are."""
 
@@ -36,7 +36,7 @@ class Assignment:
     reasons: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class ShipmentGroup:
     """Columns that are interchangeable, and the groups of bars that they may go on.
 
@@ -68,7 +68,7 @@ class ShipmentGroup:
     open_positions: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class ShipmentProblem:
     """A column or a group of bars that could not be matched, and why."""
 
@@ -78,7 +78,7 @@ class ShipmentProblem:
     reasons: tuple[str, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class ShipmentReport:
     """Everything that match.json holds."""
 

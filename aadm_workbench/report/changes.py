@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
-from aadm_workbench.model import WORST_FIRST, Verdict
-from aadm_workbench.report.read import Report
+from aadm_workbench.model import WORST_FIRST, ColumnReport, JobReport, Kind, PointResult, Verdict
 
 Trend: TypeAlias = Literal["worse", "better", "same"]
 
@@ -93,10 +92,10 @@ class Changes:
         return bool(self.new or self.missing or self.changed)
 
 
-def compare_reports(before: Report, after: Report) -> Changes:
+def compare_reports(before: JobReport, after: JobReport) -> Changes:
     """What is different in the later of two reports."""
-    first = {column["id"]: column for column in before["columns"]}
-    second = {column["id"]: column for column in after["columns"]}
+    first = {column.id: column for column in before.columns}
+    second = {column.id: column for column in after.columns}
     both = [_compare(first[name], second[name]) for name in second if name in first]
     rank = {"worse": 0, "better": 1, "same": 2}
     return Changes(
@@ -108,62 +107,56 @@ def compare_reports(before: Report, after: Report) -> Changes:
     )
 
 
-def _inputs(before: Report, after: Report) -> Iterator[str]:
-    models = [(report["model"] or {}).get("sha256") for report in (before, after)]
+def _inputs(before: JobReport, after: JobReport) -> Iterator[str]:
+    models = [(report.model or {}).get("sha256") for report in (before, after)]
     if models[0] != models[1]:
         yield "the models are not the same file"
-    if before["profile"] != after["profile"]:
-        yield f"the tolerances differ: {before['profile']['name']}, then {after['profile']['name']}"
+    if before.profile != after.profile:
+        yield f"the tolerances differ: {before.profile.name}, then {after.profile.name}"
     for key in ("decision", "method"):
-        values = [report["job"].get(key, "") for report in (before, after)]
+        values = [report.job.get(key, "") for report in (before, after)]
         if values[0] != values[1]:
             yield f"{key}: {values[0]}, then {values[1]}"
 
 
-def _compare(before: dict[str, Any], after: dict[str, Any]) -> ColumnChange:
+def _compare(before: ColumnReport, after: ColumnReport) -> ColumnChange:
     return ColumnChange(
-        id=after["id"],
-        from_verdict=before["verdict"],
-        to_verdict=after["verdict"],
-        from_goes_on=before["goes_on"],
-        to_goes_on=after["goes_on"],
+        id=after.id,
+        from_verdict=before.verdict,
+        to_verdict=after.verdict,
+        from_goes_on=before.goes_on,
+        to_goes_on=after.goes_on,
         from_largest_mm=_largest_mm(before),
         to_largest_mm=_largest_mm(after),
-        points=tuple(change for kind in ("sleeves", "rebars") for change in _points(before[kind], after[kind])),
-        new_reasons=tuple(reason for reason in after["reasons"] if reason not in before["reasons"]),
-        gone_reasons=tuple(reason for reason in before["reasons"] if reason not in after["reasons"]),
+        points=tuple(change for kind in Kind for change in _points(before.points(kind), after.points(kind))),
+        new_reasons=tuple(reason for reason in after.reasons if reason not in before.reasons),
+        gone_reasons=tuple(reason for reason in before.reasons if reason not in after.reasons),
     )
 
 
-def _largest_mm(column: dict[str, Any]) -> float | None:
-    pose = (column["trial_assembly"] or {}).get("minimax")
-    return None if pose is None else float(pose["max_mm"])
+def _largest_mm(column: ColumnReport) -> float | None:
+    pose = None if column.trial_assembly is None else column.trial_assembly.minimax
+    return None if pose is None else pose.max_mm
 
 
-def _points(before: dict[str, Any] | None, after: dict[str, Any] | None) -> Iterator[PointChange]:
-    first = {point["label"]: point for point in (before or {}).get("points", ())}
-    second = {point["label"]: point for point in (after or {}).get("points", ())}
+def _points(before: Sequence[PointResult], after: Sequence[PointResult]) -> Iterator[PointChange]:
+    first, second = ({point.label: point for point in points} for points in (before, after))
     for label in dict.fromkeys((*first, *second)):
         change = _point(label, first.get(label), second.get(label))
         if change is not None:
             yield change
 
 
-def _point(label: str, before: dict[str, Any] | None, after: dict[str, Any] | None) -> PointChange | None:
+def _point(label: str, before: PointResult | None, after: PointResult | None) -> PointChange | None:
     """What is different at one point; None where that lies within the uncertainty, or it was never measured."""
-    start, end = _offset(before), _offset(after)
-    verdicts = tuple("not_assessed" if point is None else str(point["verdict"]) for point in (before, after))
+    start, end = (None if point is None else point.offset_mm for point in (before, after))
+    verdicts = tuple(Verdict.NOT_ASSESSED if point is None else point.verdict for point in (before, after))
     if start is None or end is None:
         same = (start is None) is (end is None) and verdicts[0] == verdicts[1]
         return None if same else PointChange(label, start, end, None, None, *verdicts)
     moved_mm = math.hypot(end[0] - start[0], end[1] - start[1])
-    parts = [(point or {}).get("u_mm") for point in (before, after)]
-    u_mm = UNKNOWN_U_MM if None in parts else math.hypot(*(float(part or 0.0) for part in parts))
+    parts = [point.u_mm for point in (before, after) if point is not None and point.u_mm is not None]
+    u_mm = UNKNOWN_U_MM if len(parts) < 2 else math.hypot(*parts)
     if moved_mm <= COVERAGE * u_mm and verdicts[0] == verdicts[1]:
         return None
     return PointChange(label, start, end, moved_mm, u_mm, *verdicts)
-
-
-def _offset(point: dict[str, Any] | None) -> tuple[float, float] | None:
-    offset = None if point is None else point["offset_mm"]
-    return None if offset is None else (float(offset[0]), float(offset[1]))

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from aadm_workbench.report.read import Report
+from aadm_workbench.model import JobReport
 
 
 class Clause(NamedTuple):
@@ -14,12 +14,10 @@ class Clause(NamedTuple):
     source: str
 
 
-def clause_of(report: Report, quantity: str, limit_mm: float | None) -> Clause:
+def clause_of(report: JobReport, quantity: str, limit_mm: float | None) -> Clause:
     """The counted rule of a quantity (``sleeve_position``) with that upper limit; else the first of the quantity."""
     if limit_mm is None:
         return Clause("", "")
-    rules: list[dict[str, Any]] = [
-        rule for rule in report["profile"]["rules"] if quantity in (rule["limits"], rule["name"])
-    ]
-    rules.sort(key=lambda rule: (abs(rule["upper_mm"] - limit_mm) > 1e-6, rule["advisory"]))
-    return Clause(rules[0]["clause"], rules[0]["source"]) if rules else Clause("", "")
+    rules = [rule for rule in report.profile.rules if quantity in (rule.limits, rule.name)]
+    rules.sort(key=lambda rule: (abs(rule.upper_mm - limit_mm) > 1e-6, rule.advisory))
+    return Clause(rules[0].clause, rules[0].source) if rules else Clause("", "")

@@ -10,14 +10,14 @@ from __future__ import annotations
 import math
 import re
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
+from aadm_workbench.model import Array, ColumnReport
 from aadm_workbench.report.drawing.plan import grid_tags, place_mm
 from aadm_workbench.report.drawing.sketch import Point
-from aadm_workbench.report.read import Report
 from aadm_workbench.report.words.labels import Phrase
 
 SMALLEST_MM = 0.05
@@ -76,13 +76,13 @@ class Compass:
         )
 
 
-def compass_of(report: Report, column: dict[str, Any]) -> Compass:
-    """How directions at a column are called."""
-    if column["T_model_column"] is None:
+def compass_of(columns: Sequence[ColumnReport], column: ColumnReport) -> Compass:
+    """How directions at one of the columns of a report are called."""
+    if column.T_model_column is None:
         return Compass(_by_sides(column), 0.0, placed=False)
-    T = column["T_model_column"]
+    T = column.T_model_column
     turn = math.atan2(T[1][0], T[0][0])
-    families = _grid_headings(report, column)
+    families = _grid_headings(columns, column, T)
     plan = (
         Heading((1.0, 0.0), _plan("right", "右"), _plan("left", "左")),
         Heading((0.0, 1.0), _plan("top", "上"), _plan("bottom", "下")),
@@ -106,15 +106,15 @@ def _plan(en: str, zh: str) -> Phrase:
     return Phrase(f"towards the {en} of the plan", f"向平面图{zh}方")
 
 
-def _grid_headings(report: Report, column: dict[str, Any]) -> list[Heading]:
+def _grid_headings(columns: Sequence[ColumnReport], column: ColumnReport, T: Array) -> list[Heading]:
     """For letters and for numbers of the grid, the direction in which they count up, model frame."""
     own = grid_tags(column)
     if len(own) != 2:
         return []
     crossings = {
-        tags: place_mm(other)
-        for other in report["columns"]
-        if other["T_model_column"] is not None and len(tags := grid_tags(other)) == 2
+        tags: place_mm(other.T_model_column)
+        for other in columns
+        if other.T_model_column is not None and len(tags := grid_tags(other)) == 2
     }
     found: list[Heading] = []
     for family in (0, 1):
@@ -124,7 +124,7 @@ def _grid_headings(report: Report, column: dict[str, Any]) -> list[Heading]:
         known = sorted({tags[family] for tags in crossings}, key=_order)
         after = next((tag for tag in known if _order(tag) > _order(own[family])), None)
         before = next((tag for tag in reversed(known) if _order(tag) < _order(own[family])), None)
-        unit = _snapped(unit, column["T_model_column"])
+        unit = _snapped(unit, T)
         found.append(Heading(unit, _towards(after, before), _towards(before, after)))
     return found
 
@@ -148,9 +148,9 @@ def _counting_up(crossings: dict[tuple[str, ...], Point], family: int) -> Point 
     return (x / length, y / length) if length > _AGREEING * len(units) else None
 
 
-def _snapped(unit: Point, T: Sequence[Sequence[float]]) -> Point:
+def _snapped(unit: Point, T: Array) -> Point:
     """The side of the column that a direction runs along, where it does: columns stand beside their axes, too."""
-    sides = [(sign * T[0][k], sign * T[1][k]) for k in (0, 1) for sign in (1.0, -1.0)]
+    sides = [(sign * float(T[0][k]), sign * float(T[1][k])) for k in (0, 1) for sign in (1.0, -1.0)]
     nearest = max(sides, key=lambda side: _dot(side, unit))
     return nearest if _dot(nearest, unit) > math.cos(math.radians(_SNAP_DEG)) else unit
 
@@ -162,11 +162,12 @@ def _towards(ahead: str | None, behind: str | None) -> Phrase:
     return Phrase(f"away from grid {behind}", f"远离 {behind} 轴")
 
 
-def _by_sides(column: dict[str, Any]) -> tuple[Heading, Heading]:
+def _by_sides(column: ColumnReport) -> tuple[Heading, Heading]:
     """The sides of the column, named by the bars that stand there."""
-    points: list[dict[str, Any]] = next((column[kind]["points"] for kind in ("rebars", "sleeves") if column[kind]), [])
+    points = next((group.points for group in (column.rebars, column.sleeves) if group is not None), ())
+    places = {point.label: (point.design_mm[0], point.design_mm[1]) for point in points}
     names = {
-        side: side_name(points, unit)
+        side: side_name(places, unit)
         for side, unit in (("+x", (1.0, 0.0)), ("-x", (-1.0, 0.0)), ("+y", (0.0, 1.0)), ("-y", (0.0, -1.0)))
     }
     return Heading((1.0, 0.0), names["+x"], names["-x"]), Heading((0.0, 1.0), names["+y"], names["-y"])
@@ -180,26 +181,26 @@ _SKETCH = {
 }
 
 
-def side_name(points: Sequence[dict[str, Any]], unit: Point) -> Phrase:
+def side_name(places: Mapping[str, Point], unit: Point) -> Phrase:
     """``towards the side of R4 to R7 (right in the sketch)``."""
     where = _SKETCH[unit]
-    ends = side_labels(points, unit)
+    ends = side_labels(places, unit)
     if ends is None:
         return Phrase(f"towards the {where.en}", f"向{where.zh}")
     first, last = ends
     return Phrase(f"towards the side of {first} to {last} ({where.en})", f"向 {first} 至 {last} 一侧({where.zh})")
 
 
-def side_labels(points: Sequence[dict[str, Any]], unit: Point) -> tuple[str, str] | None:
+def side_labels(places: Mapping[str, Point], unit: Point) -> tuple[str, str] | None:
     """First and last label of the points on one side of the pattern, as they stand in the row; None below two."""
-    if not points:
+    if not places:
         return None
-    reach = [_dot((point["design_mm"][0], point["design_mm"][1]), unit) for point in points]
-    span = max(reach) - min(reach)
-    row = [point for point, value in zip(points, reach, strict=True) if value > max(reach) - 0.05 * span - 1.0]
+    reach = {label: _dot(place, unit) for label, place in places.items()}
+    most, least = max(reach.values()), min(reach.values())
+    row = [label for label, value in reach.items() if value > most - 0.05 * (most - least) - 1.0]
     along = (-unit[1], unit[0])
-    row.sort(key=lambda point: _dot((point["design_mm"][0], point["design_mm"][1]), along))
-    return (row[0]["label"], row[-1]["label"]) if len(row) > 1 else None
+    row.sort(key=lambda label: _dot(places[label], along))
+    return (row[0], row[-1]) if len(row) > 1 else None
 
 
 def _order(tag: str) -> tuple[tuple[int, int, str], ...]:

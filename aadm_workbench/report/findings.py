@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
+from aadm_workbench.model import ColumnReport, JobReport
 from aadm_workbench.report.hoist import Hoist, hoist_of, worst_first
-from aadm_workbench.report.read import Report
 from aadm_workbench.report.words.labels import Phrase
 from aadm_workbench.report.words.reasons import in_both_languages
 
@@ -17,14 +16,14 @@ _SHOWN = 2  # reasons: a person reads two, the table has all
 class Finding:
     """A column, the name of its place in the document, whether it may be hoisted, and its decisive reasons."""
 
-    column: dict[str, Any]
+    column: ColumnReport
     anchor: str
     hoist: Hoist
     key_reasons: tuple[Phrase, ...]
     more: int
 
 
-def findings(report: Report) -> list[Finding]:
+def findings(report: JobReport) -> list[Finding]:
     """One for each column, the worst first."""
     found = []
     for number, column in enumerate(worst_first(report), start=1):
@@ -34,13 +33,13 @@ def findings(report: Report) -> list[Finding]:
     return found
 
 
-def _decisive(column: dict[str, Any]) -> list[str]:
+def _decisive(column: ColumnReport) -> list[str]:
     """The column's reasons; those of the trial first where it is the trial that fails."""
-    reasons: list[str] = list(column["reasons"])
+    reasons = list(column.reasons)
     # "not measured: S7" of the trial says less than "S7 not measured: the mouth is plugged" of the foot.
     if any(" not measured: " in reason for reason in reasons):
         reasons = [reason for reason in reasons if not reason.startswith("not measured: ")]
-    if column["goes_on"] == "fail":
-        of_trial = set((column["trial_assembly"] or {}).get("reasons", ()))
+    if column.goes_on == "fail" and column.trial_assembly is not None:
+        of_trial = set(column.trial_assembly.reasons)
         reasons.sort(key=lambda reason: reason not in of_trial)
     return reasons

@@ -7,10 +7,9 @@ without a trial (sleeves checked in the yard, before the bars exist) is not clea
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
-from aadm_workbench.model import WORST_FIRST
-from aadm_workbench.report.read import Report
+from aadm_workbench.model import WORST_FIRST, ColumnReport, JobReport
 from aadm_workbench.report.words.labels import Phrase, phrase
 from aadm_workbench.report.words.reasons import in_both_languages
 
@@ -28,12 +27,12 @@ class Hoist:
     reasons: tuple[Phrase, ...]
 
 
-def hoist_of(column: dict[str, Any]) -> Hoist:
+def hoist_of(column: ColumnReport) -> Hoist:
     """Whether one column of a report may be hoisted."""
-    state, cause = _state(column["verdict"], column["goes_on"])
-    if cause in _OPEN and any(finding["holds_back"] for finding in column.get("findings", ())):
+    state, cause = _state(column.verdict, column.goes_on)
+    if cause in _OPEN and any(finding.holds_back for finding in column.findings):
         cause = "contradicted"
-    return Hoist(state, phrase(f"cause.{cause}"), tuple(in_both_languages(text) for text in column["reasons"]))
+    return Hoist(state, phrase(f"cause.{cause}"), tuple(in_both_languages(text) for text in column.reasons))
 
 
 def _state(verdict: str, goes_on: str) -> tuple[HoistState, str]:
@@ -44,12 +43,12 @@ def _state(verdict: str, goes_on: str) -> tuple[HoistState, str]:
     return "no", {"error": "not_checked", "not_measured": "not_seen"}.get(verdict, "undecided")
 
 
-def worst_first(report: Report) -> list[dict[str, Any]]:
+def worst_first(report: JobReport) -> list[ColumnReport]:
     """Columns by verdict, the worst first; what does not go on before what does; those alike in the job's order."""
-    return sorted(report["columns"], key=lambda column: (_rank(column["verdict"]), column["goes_on"] != "fail"))
+    return sorted(report.columns, key=lambda column: (_rank(column.verdict), column.goes_on != "fail"))
 
 
-def in_state(report: Report, state: HoistState) -> list[dict[str, Any]]:
+def in_state(report: JobReport, state: HoistState) -> list[ColumnReport]:
     """The columns of a report that may (not) be hoisted, the worst first."""
     return [column for column in worst_first(report) if hoist_of(column).state == state]
 
@@ -59,8 +58,8 @@ def _rank(verdict: str) -> int:
     return WORST_FIRST.index(verdict)
 
 
-def headline(report: Report) -> Phrase:
+def headline(report: JobReport) -> Phrase:
     """``4 of 8 columns must not be hoisted``."""
-    number, total = len(in_state(report, "no")), len(report["columns"])
+    number, total = len(in_state(report, "no")), len(report.columns)
     name = {0: "none_forbidden", 1: "one_forbidden"}.get(number, "forbidden")
     return phrase(f"headline.{name}").filled(number=number, total=total)

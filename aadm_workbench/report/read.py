@@ -1,20 +1,23 @@
-"""Reading report.json back: every other report is made from it alone, so it is checked against the schema first."""
+"""Reading report.json back: every other report is made from it alone, so each key must hold what its type says.
+
+Keys that this version does not know are passed over; those that an older one did not write yet have their defaults.
+"""
 
 from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Iterator
-from importlib import import_module
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, TypeAlias
+
+import msgspec
+import numpy as np
 
 from aadm_workbench.bounded import BoundsError, read_bounded
-from aadm_workbench.errors import MissingDependencyError, ReportError
-from aadm_workbench.report.json import SCHEMA, report_schema
-
-Report: TypeAlias = dict[str, Any]
-"""A job's report as report.json holds it: mm, degrees, column frame; ``resources/report.schema.json`` describes it."""
+from aadm_workbench.errors import ReportError
+from aadm_workbench.model import SUMMED, Array, ColumnReport, JobReport, Kind
+from aadm_workbench.model.reports import LONGEST_ID
+from aadm_workbench.report.json import SCHEMA
 
 LARGEST_REPORT_BYTES = 2**28
 """A column takes 50 KB: this is five thousand of them."""
@@ -23,18 +26,19 @@ MOST_VALUES = 2**25
 """Texts of this length that are nothing but brackets and commas would take many gigabytes in memory."""
 
 _SHOWN_CHARACTERS = 80  # of what a file holds: a line
-_HALF_CHARACTER = re.compile(r"\\u[dD][89a-fA-F]")
+NAMED = {"tool": ("name", "version"), "job": ("name", "sha256"), "model": ("source", "sha256")}
+"""What the parts that are lists of names and texts hold at least."""
+
+_LABEL = {Kind.SLEEVE: re.compile("S[1-9][0-9]*"), Kind.REBAR: re.compile("R[1-9][0-9]*")}
 
 
-def read_report(path: Path) -> Report:
-    """The report that a check has written.
+def read_report(path: Path) -> JobReport:
+    """The report that a check has written: mm, degrees, column frame.
 
     Raises
     ------
     ReportError
-        Where the file is missing, cut off, of another schema version, or holds what the schema does not allow.
-    MissingDependencyError
-        Without the package jsonschema.
+        Where the file is missing, cut off, of another schema version, or a key holds what it cannot.
     """
     try:
         text = read_bounded(path, LARGEST_REPORT_BYTES).decode("utf-8-sig")
@@ -46,80 +50,107 @@ def read_report(path: Path) -> Report:
         raise ReportError(f"{path}: is no text, but report.json is; name the report.json of a check") from error
     if sum(map(text.count, "[{,")) > MOST_VALUES:
         raise ReportError(f"{path}: holds more than {MOST_VALUES} values, which no check writes")
-    try:
-        document = json.loads(text)
-    except json.JSONDecodeError as error:
-        place = f"line {error.lineno}, column {error.colno}"
-        if not text[error.pos :].strip():
-            raise ReportError(f"{path}: breaks off at {place}; copy it again or repeat the check") from error
-        raise ReportError(f"{path}: is no JSON ({error.msg}, {place}); name the report.json of a check") from error
-    except ValueError as error:
-        raise ReportError(f"{path}: holds a number that is none ({error}); repeat the check") from error
-    except RecursionError as error:
-        raise _too_deep(path) from error
-    try:
-        # Python from 3.12 on reads deeper than it can walk.
-        return checked_report(_mended(document) if _HALF_CHARACTER.search(text) else document, str(path))
-    except RecursionError as error:
-        raise _too_deep(path) from error
+    return parsed_report(text, str(path))
 
 
-def _too_deep(path: Path) -> ReportError:
-    return ReportError(f"{path}: is nested too deeply to be a report.json")
-
-
-def checked_report(document: Any, source: str) -> Report:
-    """A document that is a report of this schema; ``source`` is what errors call it.
+def parsed_report(text: str | bytes, source: str) -> JobReport:
+    """The report that a text holds; ``source`` is what errors call it.
 
     Raises
     ------
     ReportError
-        Where it is not; the message names the place and what stands there.
+        Where it holds none; the message names the key and what stands there.
     """
-    if not isinstance(document, dict) or "schema" not in document:
+    try:
+        try:
+            return _report(text, source)
+        except msgspec.ValidationError:
+            raise
+        except msgspec.DecodeError:
+            # Python's parser says in which line, and takes what is half of a character: no file can hold it.
+            document = json.dumps(json.loads(text), ensure_ascii=False, allow_nan=False)
+            return _report(document.encode(errors="replace"), source)
+    except msgspec.ValidationError as error:
+        raise _slip(source, str(error)) from error
+    except json.JSONDecodeError as error:
+        place = f"line {error.lineno}, column {error.colno}"
+        if not error.doc[error.pos :].strip():
+            raise ReportError(f"{source}: breaks off at {place}; copy it again or repeat the check") from error
+        raise ReportError(f"{source}: is no JSON ({error.msg}, {place}); name the report.json of a check") from error
+    except (ValueError, msgspec.DecodeError) as error:
+        raise ReportError(f"{source}: holds a number that is none ({error}); repeat the check") from error
+    except RecursionError as error:
+        raise ReportError(f"{source}: is nested too deeply to be a report.json") from error
+
+
+def parsed_column(text: str | bytes) -> ColumnReport:
+    """One entry of a report's ``columns``.
+
+    Raises
+    ------
+    ValueError
+        Where the text holds none.
+    """
+    return msgspec.json.decode(text, type=ColumnReport, dec_hook=_transform)
+
+
+def _report(text: str | bytes, source: str) -> JobReport:
+    try:
+        keys = msgspec.json.decode(text, type=dict[str, msgspec.Raw])
+    except msgspec.ValidationError:
+        keys = {}
+    if "schema" not in keys:
         raise ReportError(f"{source}: is no report.json of a check: it has no key schema")
-    if document["schema"] != SCHEMA:
-        found = str(document["schema"])[:_SHOWN_CHARACTERS]
+    found = msgspec.json.decode(keys["schema"])
+    if found != SCHEMA:
         raise ReportError(
-            f"{source}: has schema {found}, this version reads schema {SCHEMA}; "
+            f"{source}: has schema {str(found)[:_SHOWN_CHARACTERS]}, this version reads schema {SCHEMA}; "
             "repeat the check, or use the version of aadm that wrote it"
         )
-    if "columns" not in document and "assignments" in document:
+    if "columns" not in keys and "assignments" in keys:
         raise ReportError(f"{source}: is a match.json; name the report.json of a check")
-    slip = _first_slip(document)
-    if slip is not None:
-        raise ReportError(f"{source}: {slip}; repeat the check")
-    return document
+    report = msgspec.json.decode(text, type=JobReport, dec_hook=_transform)
+    for said in _contradictions(report):
+        raise _slip(source, said)
+    return report
 
 
-def _mended(value: Any) -> Any:
-    """A document whose texts no file can hold, for half of a character is missing, with a question mark instead."""
-    if isinstance(value, dict):
-        return {_mended(key): _mended(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [_mended(item) for item in value]
-    return value.encode("utf-8", errors="replace").decode("utf-8") if isinstance(value, str) else value
+def _transform(kind: type, rows: object) -> Array:
+    """The one kind of array that a report holds: (4, 4)."""
+    found = np.array(rows, dtype=np.float64)
+    if found.shape != (4, 4):
+        raise ValueError("Expected four rows of four numbers")
+    return found
 
 
-def _first_slip(document: Any) -> str | None:
-    """Place and kind of what the schema does not allow: the innermost, which is why what holds it is not allowed."""
-    jsonschema: Any
-    try:
-        jsonschema = import_module("jsonschema")
-    except ImportError as error:
-        message = "reading report.json"
-        raise MissingDependencyError("jsonschema", message) from error
-    validator = jsonschema.Draft202012Validator(report_schema())
-    found = max(_slips(validator.iter_errors(document)), key=lambda slip: len(slip.absolute_path), default=None)
-    if found is None:
-        return None
-    place = ".".join(str(part) for part in found.absolute_path) or "the document"
-    said = found.message if len(found.message) <= _SHOWN_CHARACTERS else f"{found.message[:_SHOWN_CHARACTERS]}…"
-    return f"{place} is not what a report holds ({said})"
+def _slip(source: str, error: str) -> ReportError:
+    """A key that holds something else than its type, as msgspec says it: ``Expected … - at `$.columns[0].id```."""
+    said, _, place = error.partition(" - at `$")
+    keys = re.sub(r"\[(\w+)\]", r".\1", place.rstrip("`").replace("[...]", "")).strip(".")
+    said = said if len(said) <= _SHOWN_CHARACTERS else f"{said[:_SHOWN_CHARACTERS]}…"
+    return ReportError(f"{source}: {keys or 'the document'} is not what a report holds ({said}); repeat the check")
 
 
-def _slips(errors: Iterable[Any]) -> Iterator[Any]:
-    """Errors of a schema, and those that they consist of."""
-    for error in errors:
-        yield error
-        yield from _slips(error.context)
+def _contradictions(report: JobReport) -> Iterator[str]:
+    """What types alone do not tell: names that must be there, and verdicts and labels that must be such."""
+    for part, names in NAMED.items():
+        known = getattr(report, part)
+        for name in names if known is not None else ():
+            if name not in known:
+                yield f"Object missing required field `{name}` - at `$.{part}`"
+    if not report.columns:
+        yield "Expected a column or more - at `$.columns`"
+    for number, column in enumerate(report.columns):
+        yield from (f"{said} - at `$.columns[{number}].{key}`" for said, key in _of_column(column))
+
+
+def _of_column(column: ColumnReport) -> Iterator[tuple[str, str]]:
+    """The same of one column, each with its key."""
+    if column.verdict not in SUMMED:
+        yield f"Invalid enum value '{column.verdict}'", "verdict"
+    if not 0 < len(column.id) <= LONGEST_ID:
+        yield f"Expected up to {LONGEST_ID} characters", "id"
+    for kind in Kind:
+        for place, point in enumerate(column.points(kind)):
+            if not _LABEL[kind].fullmatch(point.label):
+                yield f"'{point.label}' is no label", f"{kind.plural}.points[{place}].label"

@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
+from aadm_workbench.camera.frame import RECORD_NAME
+from aadm_workbench.camera.record import Record, record_of
 from aadm_workbench.errors import CameraError, ScanError
 from aadm_workbench.model import Camera
 from aadm_workbench.scan.camera import (
@@ -88,6 +90,7 @@ def find_capture(folder: Path, name: str, declared: Declared) -> Capture:
     if texture is not None and camera is not None and _size(texture) != (camera.width, camera.height):
         notes.append(f"{texture.name} is left out: it is not of the size of the depth map")
         texture = None
+    notes += (record_of(folder) or Record()).notes
     return Capture(scan, replace(declared, camera=camera), texture, intrinsics, tuple(notes))
 
 
@@ -171,7 +174,7 @@ def _intrinsics(
     unread: list[str] = []
     size = _size_of_depths(scan) if scan.suffix.lower() in _PICTURES else None
     for path in _of(files, _INTRINSICS):
-        if path == scan or path.stat().st_size > LARGEST_INTRINSICS_BYTES:
+        if path == scan or path.name == RECORD_NAME or path.stat().st_size > LARGEST_INTRINSICS_BYTES:
             continue
         try:
             found.append((path, read_camera(path, size)))

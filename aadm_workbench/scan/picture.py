@@ -25,7 +25,12 @@ LARGEST_PIXEL_COUNT = 2**26
 
 _STANDARD_ERROR = 2  # its descriptor
 _TIFF_COMPRESSION, _TIFF_ROWS_PER_STRIP, _TIFF_PREDICTOR = 259, 278, 317  # tags of TIFF 6.0
-_TIFF_DEFLATE, _TIFF_NO_PREDICTOR, _TIFF_HORIZONTAL = 8, 1, 2  # values of the first and the last of them
+_TIFF_UNPACKED, _TIFF_DEFLATE, _TIFF_NO_PREDICTOR, _TIFF_HORIZONTAL = (
+    1,
+    8,
+    1,
+    2,
+)  # values of the first and the last of them
 
 
 def _opencv() -> Any:
@@ -111,6 +116,20 @@ def encode_tiff(pixels: npt.NDArray[np.uint16]) -> bytes:
     middle = pixels[len(pixels) // 2 :][:64]
     predictor = min((_TIFF_NO_PREDICTOR, _TIFF_HORIZONTAL), key=lambda choice: len(_encoded(middle, choice)))
     return _encoded(pixels, predictor)
+
+
+def encode_float_tiff(pixels: npt.NDArray[np.float32]) -> bytes:
+    """Return an (h, w) float32 array as a TIFF that is not packed: a camera does not wait, and depths pack badly."""
+    _, encoded = _opencv().imencode(".tiff", pixels, [_TIFF_COMPRESSION, _TIFF_UNPACKED])
+    content: bytes = encoded.tobytes()
+    return content
+
+
+def encode_png(pixels: npt.NDArray[np.uint8]) -> bytes:
+    """Return an (h, w) uint8 picture as PNG."""
+    _, encoded = _opencv().imencode(".png", pixels)
+    content: bytes = encoded.tobytes()
+    return content
 
 
 def _encoded(pixels: npt.NDArray[np.uint16], predictor: int) -> bytes:

@@ -16,7 +16,7 @@ import numpy as np
 
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.recognise.pattern import inline_design, label_order
-from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Json
 from aadm_workbench.scan.write import write_depth_tiff, write_pcd, write_ply
 from aadm_workbench.twin.camera import DEPTH_SCALE_MM, PRO_M, capture_tables
 from aadm_workbench.twin.filters import NO_FILTERS, Filters, filtered
@@ -127,7 +127,7 @@ def _column_id(setting: Setting) -> str:
     return f"{setting.name}-1"
 
 
-def _design_table(setting: Setting) -> dict[str, Any]:
+def _design_table(setting: Setting) -> dict[str, float | list[float] | list[list[float]]]:
     """What ``[columns.design]`` of the job says."""
     return {
         "sleeve_diameter": setting.sleeve_diameter,
@@ -152,7 +152,7 @@ def _truth(pair: Pair, seed: int) -> dict[str, Any]:
     return {"synthetic": True, "seed": seed, "setting": pair.setting.name, "columns": {pair.design.id: column}}
 
 
-def _scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, Any]:
+def _scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, Json]:
     """True centres of one scan, mm, in the column frame that it was made in and in the scan frame."""
     points = zip(scan.points, design, scan.points_scan(), strict=True)
     return {

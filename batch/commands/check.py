@@ -152,7 +152,7 @@ def _stopped(stop: BaseException, shown: ShownCheck, journal: Journal, events: E
 def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace) -> int:
     """Write and show what a check came to; the exit code."""
     from aadm_workbench.atomic import write_atomically
-    from aadm_workbench.report.json import encode, report_document, write_report
+    from aadm_workbench.report.json import encode, encoded_report, write_report
 
     from ..served_report import without_absolute_paths
     from ..shown.terminal import say, show_json
@@ -171,7 +171,7 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
         say(f"aadm: {error}")
         code = INTERNAL
     if options.json:
-        show_json(encode(report_document(report)))
+        show_json(encoded_report(report))
     elif not options.quiet and options.events != "-":
         from ..shown.verdict_table import show_verdicts
 
@@ -194,13 +194,13 @@ def _write_reports(folder: Path, options: argparse.Namespace) -> None:
 
 def _write_model(report: JobReport, job: Job, folder: Path, options: argparse.Namespace) -> int:
     """Write the model with the results; 0 where that went well."""
-    from aadm_workbench.report.json import report_document
+    from aadm_workbench.report.read import read_report
 
     from ..model_results import write_checked_model, written_lines
     from ..shown.terminal import say
 
     try:
-        written = write_checked_model(report_document(report), job, folder)
+        written = write_checked_model(read_report(folder / "report.json"), job, folder)
     except AadmError as error:
         say(f"aadm: {error}")
         return INTERNAL

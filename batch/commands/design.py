@@ -10,8 +10,9 @@ import argparse
 import re
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..exit_codes import ALL_PASS, UNDECIDED
 from ..switches import add_switches
@@ -20,8 +21,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from aadm_workbench.design.model_design import ModelDesign, NotTaken
-    from aadm_workbench.design.published import PublishedPoint
-    from aadm_workbench.model import AssemblyPoint, ColumnDesign
+    from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
 EXAMPLE = """\
 examples:
@@ -64,6 +64,7 @@ def run(options: argparse.Namespace) -> int:
     """Print a model's design; without any column the exit code is 11."""
     from aadm_workbench.inspection.as_designed import read_design, unforeseen_in
 
+    from ..shown.published_table import published_tables
     from ..shown.terminal import say, show
 
     wanted: str | None = options.column
@@ -101,87 +102,86 @@ def _warnings(model: ModelDesign, columns: Sequence[ColumnDesign]) -> Iterator[s
 def _print_json(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: bool, published: bool) -> None:
     from aadm_workbench.report.json import encode
 
+    from ..shown.published_table import published_entries
     from ..shown.terminal import show_json
 
-    document: dict[str, Any] = {
+    document = {
         "model": {"source": model.source, "sha256": model.sha256, "schema": model.schema},
-        "columns": [_column_entry(column, why=why) for column in columns],
+        "columns": [
+            {
+                "id": column.id,
+                "global_id": column.global_id,
+                "piece_mark": column.piece_mark,
+                "storey": column.storey,
+                "grid": column.grid,
+                "names": column.names,
+                "size_mm": column.size_mm,
+                "T_model_column": column.T_model_column,
+                "sleeves": [one.told() for one in _entries(column.sleeves, column.T_model_column, why=why)],
+                "rebars": [one.told() for one in _entries(column.rebars, column.T_model_column, why=why)],
+                "warnings": column.warnings,
+            }
+            for column in columns
+        ],
         "loose": {
-            "sleeves": [_point_entry(point, None, why=why) for point in model.loose_sleeves],
-            "rebars": [_point_entry(point, None, why=why) for point in model.loose_rebars],
+            "sleeves": [one.told() for one in _entries(model.loose_sleeves, None, why=why)],
+            "rebars": [one.told() for one in _entries(model.loose_rebars, None, why=why)],
         },
-        "warnings": list(model.warnings),
+        "warnings": model.warnings,
+        **({} if columns else {"hint": model.hint}),
+        **({"not_taken": [_left_out(left) for left in model.not_taken]} if why else {}),
+        **({"published": published_entries(columns)} if published else {}),
     }
-    if not columns:
-        document["hint"] = model.hint
-    if why:
-        document["not_taken"] = [_left_out_entry(left) for left in model.not_taken]
-    if published:
-        document["published"] = published_entries(columns)
     show_json(encode(document))
 
 
-def _left_out_entry(left: NotTaken) -> dict[str, Any]:
+def _left_out(left: NotTaken) -> dict[str, str | float | Array | None]:
     """An element that was left out; ``centre_mm`` is the upper end of a bar, the mouth of a sleeve."""
-    return {
-        "what": left.what,
-        "class": left.ifc_class,
-        "global_id": left.global_id,
-        "name": left.name,
-        "centre_mm": left.point,
-        "diameter_mm": left.diameter_mm,
-        "length_mm": left.length_mm,
-        "reason": left.reason,
-    }
+    names = ("what", "ifc_class", "global_id", "name", "point", "diameter_mm", "length_mm", "reason")
+    called = {"ifc_class": "class", "point": "centre_mm"}
+    return {called.get(name, name): getattr(left, name) for name in names}
 
 
-def _column_entry(column: ColumnDesign, *, why: bool) -> dict[str, Any]:
-    T = column.T_model_column
-    return {
-        "id": column.id,
-        "global_id": column.global_id,
-        "piece_mark": column.piece_mark,
-        "storey": column.storey,
-        "grid": column.grid,
-        "names": list(column.names),
-        "size_mm": column.size_mm,
-        "T_model_column": T,
-        "sleeves": [_point_entry(point, T, why=why) for point in column.sleeves],
-        "rebars": [_point_entry(point, T, why=why) for point in column.rebars],
-        "warnings": list(column.warnings),
-    }
-
-
-def _point_entry(point: AssemblyPoint, T_model_column: Any, *, why: bool) -> dict[str, Any]:
+@dataclass(frozen=True, eq=False)
+class _Entry:
     """A point in the frame of the model."""
-    centre, axis = point.centre, point.axis
-    if T_model_column is not None:
-        centre = T_model_column[:3, :3] @ centre + T_model_column[:3, 3]
-        axis = T_model_column[:3, :3] @ axis
-    entry = {
-        "label": point.label,
-        "global_id": point.global_id,
-        "centre_mm": centre,
-        "axis": axis,
-        "diameter_mm": point.diameter_mm,
-        "length_mm": point.length_mm,
-    }
-    if point.object_name is not None:
-        entry["object"] = point.object_name
-    return {**entry, "why": point.why} if why else entry
+
+    label: str
+    global_id: str | None
+    centre_mm: Array
+    axis: Array
+    diameter_mm: float
+    length_mm: float | None
+    object: str | None
+    why: str | None
+
+    def told(self) -> dict[str, str | float | Array | None]:
+        """What ``--json`` says of it; nothing of an object that there is not, or that nobody asked for."""
+        return {name: value for name, value in vars(self).items() if value is not None or name not in ("object", "why")}
+
+
+def _entries(points: Sequence[AssemblyPoint], T_model_column: Array | None, *, why: bool) -> list[_Entry]:
+    """Points in the frame of the model."""
+    found = []
+    for point in points:
+        centre, axis = point.centre, point.axis
+        if T_model_column is not None:
+            centre = T_model_column[:3, :3] @ centre + T_model_column[:3, 3]
+            axis = T_model_column[:3, :3] @ axis
+        named = (point.label, point.global_id, centre, axis, point.diameter_mm, point.length_mm, point.object_name)
+        found.append(_Entry(*named, point.why if why else None))
+    return found
 
 
 def _tables(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: bool, loose: bool) -> Iterator[Table | str]:
     for column in columns:
         yield _heading(column)
-        yield _point_table(
-            [_point_entry(p, column.T_model_column, why=True) for p in column.sleeves + column.rebars], why
-        )
+        yield _point_table(_entries(column.sleeves + column.rebars, column.T_model_column, why=why), why)
         yield ""
     left_over = model.loose_sleeves + model.loose_rebars if loose else ()
     if left_over:
         yield f"Loose: {len(model.loose_sleeves)} sleeves and {len(model.loose_rebars)} rebars belong to no column"
-        yield _point_table([_point_entry(point, None, why=True) for point in left_over], why)
+        yield _point_table(_entries(left_over, None, why=why), why)
         yield ""
     if why and model.not_taken:
         yield "Left out"
@@ -197,16 +197,16 @@ def _heading(column: ColumnDesign) -> str:
     return f"{column.id}: {', '.join(place)}" if place else column.id
 
 
-def _point_table(entries: Sequence[dict[str, Any]], why: bool) -> Table | str:
+def _point_table(entries: Sequence[_Entry], why: bool) -> Table | str:
     numbers = ("x mm", "y mm", "z mm", "Diameter", "Length")
     rows = [
         [
-            entry["label"] or "-",
-            *(f"{value:.2f}" for value in entry["centre_mm"]),
-            f"{entry['diameter_mm']:g}",
-            "" if entry["length_mm"] is None else f"{entry['length_mm']:g}",
-            entry["global_id"] or "",
-            *([entry["why"]] if why else []),
+            entry.label or "-",
+            *(f"{value:.2f}" for value in entry.centre_mm),
+            f"{entry.diameter_mm:g}",
+            "" if entry.length_mm is None else f"{entry.length_mm:g}",
+            entry.global_id or "",
+            *([entry.why or ""] if why else []),
         ]
         for entry in entries
     ]
@@ -238,62 +238,3 @@ def _table(headings: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequ
         return blank + line[place] if headings[place] in numbers else line[place] + blank
 
     return "\n".join("  ".join(padded(line, place) for place in range(len(headings))).rstrip() for line in lines)
-
-
-def published_tables(columns: Sequence[ColumnDesign]) -> Iterator[Table | str]:
-    """One table for each column, in the model's frame, with the distance in the plane from the exact centres."""
-    from rich.text import Text
-
-    from aadm_workbench.inspection.as_designed import published_route
-
-    from ..shown.terminal import new_table
-
-    numbers = ("x mm", "y mm", "z mm", "Edge points", "Difference mm")
-    for column in columns:
-        points = published_route(column)
-        table = new_table("Point", *numbers, numbers=numbers)
-        for point in points:
-            centre = _in_model(point, column)
-            difference_mm = point.difference_mm
-            found = ["", "", ""] if centre is None else [f"{value:.2f}" for value in centre]
-            away = "no points" if difference_mm is None else f"{difference_mm:.3f}"
-            table.add_row(*(Text(text) for text in (point.label, *found, str(point.edge_points), away)))
-        yield f"{column.id} by the published route: model, cloud, pass-through filter, mean of edge points"
-        yield table
-        yield f"Difference to the exact centres: {_summary(points)}"
-        yield ""
-
-
-def published_entries(columns: Sequence[ColumnDesign]) -> list[dict[str, Any]]:
-    """The same for ``--json``."""
-    from aadm_workbench.inspection.as_designed import published_route
-
-    return [
-        {
-            "id": column.id,
-            "points": [
-                {
-                    "label": point.label,
-                    "centre_mm": _in_model(point, column),
-                    "edge_points": point.edge_points,
-                    "difference_mm": point.difference_mm,
-                }
-                for point in published_route(column)
-            ],
-        }
-        for column in columns
-    ]
-
-
-def _in_model(point: PublishedPoint, column: ColumnDesign) -> Any:
-    T = column.T_model_column
-    if point.centre is None or T is None:
-        return point.centre
-    return T[:3, :3] @ point.centre + T[:3, 3]
-
-
-def _summary(points: Sequence[PublishedPoint]) -> str:
-    away_mm = [point.difference_mm for point in points if point.difference_mm is not None]
-    if not away_mm:
-        return "no points"
-    return f"{sum(away_mm) / len(away_mm):.3f} mm on average, {max(away_mm):.3f} mm at most, over {len(away_mm)} points"

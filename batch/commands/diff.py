@@ -13,7 +13,7 @@ import argparse
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..exit_codes import ALL_PASS, FAILS, UNDECIDED
 from ..switches import add_switches
@@ -50,20 +50,14 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         from aadm_workbench.report.json import encode
 
-        show_json(encode(_document(changes)))
+        trends = [{**asdict(change), "trend": change.trend} for change in changes.changed]
+        summed = {"any_change": changes.any_change, "any_worse": changes.any_worse}
+        show_json(encode({**asdict(changes), "changed": trends, **summed}))
     elif not options.quiet:
         show(*_parts(changes))
     if changes.any_worse:
         return WORSE
     return CHANGED if changes.any_change else NO_CHANGE
-
-
-def _document(changes: Changes) -> dict[str, Any]:
-    """The changes as --json prints them."""
-    document = asdict(changes)
-    for entry, change in zip(document["changed"], changes.changed, strict=True):
-        entry["trend"] = change.trend
-    return document | {"any_change": changes.any_change, "any_worse": changes.any_worse}
 
 
 def _parts(changes: Changes) -> Iterator[Table | str]:

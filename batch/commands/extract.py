@@ -6,8 +6,9 @@ Centres are in the frame of the scan, in mm; u is their standard uncertainty per
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..exit_codes import ALL_PASS, UNDECIDED
 from ..job.command import METHODS
@@ -64,7 +65,6 @@ def run(options: argparse.Namespace) -> int:
     from aadm_workbench.extract.file_axes import in_coordinates_of_the_file
     from aadm_workbench.extract.method import extract
     from aadm_workbench.model import Kind
-    from aadm_workbench.report.json import encode
 
     from ..shown.terminal import say, show, show_json
 
@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
     extraction = extract(scan, Kind(options.kind), options.diameter, options.method, np.random.default_rng(0))
     extraction = in_coordinates_of_the_file(extraction, scan)
     if options.json:
-        show_json(encode(_document(scan, extraction, options.expected)))
+        show_json(_encoded(scan, extraction, options.expected))
     elif not options.quiet:
         show(_table(extraction), "", _summary(scan, extraction, options.expected))
     found = len(extraction.points)
@@ -96,9 +96,23 @@ def _read(options: argparse.Namespace) -> Scan:
     return check_plausible(scan, _PATTERN_DIAMETERS * options.diameter)
 
 
-def _document(scan: Scan, extraction: Extraction, expected: int | None) -> dict[str, Any]:
+@dataclass(frozen=True, eq=False)
+class ExtractedPoint:
+    """A point as ``--json`` tells it, scan frame; ``scan_mm`` is ``centre_mm`` by the name that report.json has."""
+
+    centre_mm: Array
+    scan_mm: Array
+    axis: Array
+    diameter_mm: float
+    u_mm: float | None
+    evidence: str
+
+
+def _encoded(scan: Scan, extraction: Extraction, expected: int | None) -> bytes:
+    from aadm_workbench.report.json import encode
+
     plane = extraction.plane
-    return {
+    document = {
         "source": scan.source,
         "sha256": scan.sha256,
         "dropped_points": scan.dropped,
@@ -116,17 +130,12 @@ def _document(scan: Scan, extraction: Extraction, expected: int | None) -> dict[
         "points": [_entry(point, extraction.vertical) for point in extraction.points],
         "quality": extraction.quality,
     }
+    return encode(document)
 
 
-def _entry(point: AssemblyPoint, vertical: Array | None) -> dict[str, Any]:
-    return {
-        "centre_mm": point.centre,
-        "scan_mm": point.centre,
-        "axis": point.axis,
-        "diameter_mm": point.diameter_mm,
-        "u_mm": _uncertainty_mm(point, vertical),
-        "evidence": point.why,
-    }
+def _entry(point: AssemblyPoint, vertical: Array | None) -> ExtractedPoint:
+    u_mm = _uncertainty_mm(point, vertical)
+    return ExtractedPoint(point.centre, point.centre, point.axis, point.diameter_mm, u_mm, point.why)
 
 
 def _uncertainty_mm(point: AssemblyPoint, vertical: Array | None) -> float | None:

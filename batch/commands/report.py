@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,8 +21,8 @@ from ..switches import add_switches
 
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
+    from aadm_workbench.model import JobReport
     from aadm_workbench.report.pages.scan_card import ScanCard
-    from aadm_workbench.report.read import Report
 
 EXAMPLE = """\
 examples:
@@ -87,7 +88,7 @@ def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
     return {"scan_card": path}
 
 
-def only_columns(report: Report, ids: list[str], source: Path) -> Report:
+def only_columns(report: JobReport, ids: list[str], source: Path) -> JobReport:
     """A report of some of its columns alone; all of them where none is named.
 
     Raises
@@ -97,13 +98,11 @@ def only_columns(report: Report, ids: list[str], source: Path) -> Report:
     """
     from aadm_workbench.errors import ReportError, did_you_mean
 
-    known = [column["id"] for column in report["columns"]]
+    known = [column.id for column in report.columns]
     for name in ids:
         if name not in known:
             raise ReportError(f'{source} has no column "{name}" (--only); {did_you_mean(name, known)}')
-    kept = [column for column in report["columns"] if not ids or column["id"] in ids]
-    counted = {verdict: sum(column["verdict"] == verdict for column in kept) for verdict in report["summary"]}
-    return report | {"columns": kept, "summary": counted}
+    return replace(report, columns=tuple(column for column in report.columns if not ids or column.id in ids))
 
 
 def _folder(options: argparse.Namespace, otherwise: Path) -> Path:

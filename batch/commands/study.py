@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..exit_codes import ALL_PASS
 from ..job.command import METHODS
+from ..study_loop import add_loop_study
 from ..switches import add_switches, whole_number
 
 if TYPE_CHECKING:
@@ -62,11 +63,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_switches(methods, prints_json="the numbers")
     methods.set_defaults(run=_study_methods)
     _add_hoisting_studies(kinds)
+    add_loop_study(kinds, _prepare)
 
 
 def _study_methods(options: argparse.Namespace) -> int:
     _prepare(options)
-    from aadm_workbench.report.json import encode
     from aadm_workbench.twin.camera import PRO_M
     from aadm_workbench.twin.pair import SETTINGS
     from aadm_workbench.twin.study.methods import study_methods, thinned_camera
@@ -85,7 +86,7 @@ def _study_methods(options: argparse.Namespace) -> int:
             finished=progress.start(options.scenes * len(names)),
             camera=thinned_camera(PRO_M, 2) if options.quick else PRO_M,
         )
-    summary = encode(_document(study, quick=options.quick))
+    summary = _encoded(study, quick=options.quick)
     written = [] if options.out is None else _write(study, summary, options.out)
     if options.json:
         show_json(summary)
@@ -113,14 +114,15 @@ def _prepare(options: argparse.Namespace) -> None:
             raise AadmError(f"{options.out}: the folder cannot be made ({error.strerror})") from error
 
 
-def _document(study: MethodStudy, *, quick: bool) -> dict[str, Any]:
+def _encoded(study: MethodStudy, *, quick: bool) -> bytes:
     """The numbers of a study; lengths in mm, times in s."""
     from aadm_workbench.model import Kind
+    from aadm_workbench.report.json import encode
     from aadm_workbench.twin.study.published import TABLES
     from aadm_workbench.twin.study.scores import bare_seconds, scores
 
     rated = scores(study)
-    return {
+    document = {
         "synthetic": True,
         "seed": study.seed,
         "scenes": study.scenes,
@@ -134,6 +136,7 @@ def _document(study: MethodStudy, *, quick: bool) -> dict[str, Any]:
             for setting in study.settings
         },
     }
+    return encode(document)
 
 
 def _write(study: MethodStudy, summary: bytes, folder: Path) -> list[Path]:

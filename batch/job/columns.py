@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import DesignError
 from aadm_workbench.inspection.job import JobColumn
 from aadm_workbench.model import ColumnDesign, ControlPoint
+from aadm_workbench.model.reports import LONGEST_ID
 from aadm_workbench.scan.axes import AXES
 
 from .direction import near_corner, read_frames, up_deg
@@ -17,9 +16,6 @@ _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
 _COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "axes", "near", "design", "control_points")
 MOST_COLUMNS = 20_000
 """Ten shipments of the largest kind."""
-
-LONGEST_ID = 1024
-"""Four times what IFC allows a label to have (IfcLabel)."""
 
 _LENGTHS = ("embedded_length", "exposed_length")
 _SIZES = ("sleeve_diameter", "rebar_diameter", "rebar_outer_diameter")
@@ -107,8 +103,7 @@ def _design(column: JobTable, name: str) -> ColumnDesign | None:
             table.numbers(key, len(written))
         else:
             table.length(key)
-    design: dict[str, Any] = dict(table.values)
     try:
-        return inline_design(name, design)
+        return inline_design(name, dict(table.values))
     except DesignError as error:
         raise table.wrong(None, str(error)) from error

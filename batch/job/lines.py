@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 KeyPath: TypeAlias = tuple[str | int, ...]
 """Keys and, inside arrays, indices: ``("columns", 1, "id")``."""
@@ -128,5 +128,4 @@ class _Scanner:
 
 
 def _unquoted(key: str) -> str:
-    table: dict[str, Any] = tomllib.loads(f"key = {key}")
-    return str(table["key"])
+    return str(tomllib.loads(f"key = {key}")["key"])

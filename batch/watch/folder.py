@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from aadm_workbench.camera.frame import RECORD_NAME
+from aadm_workbench.camera.record import record_of
 from aadm_workbench.scan.read import supported_formats
 
 from ..job.direction import NEAR
@@ -29,9 +31,9 @@ class _Growth:
 class FolderWatch:
     """Tells which files of a folder are new and have stopped growing.
 
-    A camera that stands at another corner writes into a subfolder with that corner's name (``-x-y``). What counts is
-    which file was there, by name, size and time of change, never whether a time lies before another: clocks are set
-    back. What is known of files that are gone is forgotten.
+    A capture is a folder with a ``capture.json`` in it. A camera that stands at another corner writes into a subfolder
+    with that corner's name (``-x-y``). What counts is which file was there, by name, size and time of change, never
+    whether a time lies before another: clocks are set back. What is known of files that are gone is forgotten.
     """
 
     folder: Path
@@ -65,7 +67,8 @@ class FolderWatch:
                 growth.looks += 1
             else:
                 growth.size, growth.stamp_ns, growth.looks = size, stamp_ns, 1
-            if growth.looks >= _STEADY_LOOKS:
+            # a capture is put in its place when it is whole
+            if growth.looks >= _STEADY_LOOKS or (self.folder / name).is_dir():
                 found.append((stamp_ns, name))
         self._has_looked = True
         return [self.folder / name for _, name in sorted(found)]
@@ -75,7 +78,9 @@ class FolderWatch:
         growth = self._growing.get(self.name_of(path))
         if growth is None or growth.first_seen_ns is None:
             return None
-        return min(growth.stamp_ns, growth.first_seen_ns) / 1e9
+        record = record_of(path) if path.is_dir() else None
+        recorded_s = [] if record is None or record.captured_s is None else [record.captured_s]
+        return min(growth.stamp_ns / 1e9, growth.first_seen_ns / 1e9, *recorded_s)
 
     def done(self, path: Path) -> None:
         """Count a file as done, as it was when it was ready."""
@@ -91,17 +96,22 @@ class FolderWatch:
         present: dict[str, tuple[int, int]] = {}
         for path in self._frames():
             try:
-                status = path.stat()
+                whole = (path / RECORD_NAME if path.is_dir() else path).stat()
             except OSError:  # gone between listing and looking
                 continue
-            present[self.name_of(path)] = (status.st_size, status.st_mtime_ns)
+            present[self.name_of(path)] = (whole.st_size, whole.st_mtime_ns)
         return present
 
     def _frames(self) -> Iterator[Path]:
         formats = supported_formats()
         for path in self.folder.iterdir():
             inner = _listed(path) if path.name in NEAR else [path]
-            yield from (one for one in inner if one.suffix.lower() in formats and not one.name.startswith("."))
+            yield from (one for one in inner if not one.name.startswith(".") and _is_frame(one, formats))
+
+
+def _is_frame(path: Path, formats: tuple[str, ...]) -> bool:
+    """Whether something in the folder is a scan, or a capture that ``aadm capture`` or ``aadm watch`` wrote."""
+    return path.suffix.lower() in formats or (path / RECORD_NAME).is_file()
 
 
 def _listed(folder: Path) -> list[Path]:

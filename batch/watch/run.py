@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from time import monotonic, perf_counter, sleep
+from typing import Protocol
 
 import numpy as np
 
@@ -31,11 +32,21 @@ LOOK_EVERY_S = 0.15
 _PATIENCE_S = 3.0  # a file that is not whole by then is said to be broken
 
 
+class Live(Protocol):
+    """A camera that writes into the folder: it is asked for a frame before each look."""
+
+    ended: bool
+
+    def fault(self) -> str:
+        """Write the next frame if it is time; what kept it from being written, empty where nothing did."""
+
+
 @dataclass(frozen=True)
 class WatchOptions:
     """``frames`` and ``seconds``: when to stop (None: never); ``present``: begin with the frames that are there.
 
     ``near``: the corner of the camera that writes into the folder itself; None: that of the column in the job.
+    ``live``: that camera, where the watch asks it; None where another program does.
     """
 
     state: Path
@@ -43,6 +54,7 @@ class WatchOptions:
     seconds: float | None = None
     present: bool = False
     near: tuple[int, int] | None = None
+    live: Live | None = None
 
 
 class Watcher:
@@ -80,6 +92,8 @@ class Watcher:
             self._folder.skip_present()
         began = monotonic()
         while not self._enough(monotonic() - began):
+            if self._no_more_comes():
+                break
             try:
                 ready = self._folder.ready()
             except OSError as error:
@@ -90,6 +104,16 @@ class Watcher:
                     break
             wait(LOOK_EVERY_S)
         return self.verdict
+
+    def _no_more_comes(self) -> bool:
+        """Ask the camera, if there is one, for a frame; one that it lost is a bad one. Whether it has no more."""
+        live = self.options.live
+        if live is None:
+            return False
+        began, fault = perf_counter(), live.fault()
+        if fault:
+            self._keep(_bad("camera", fault), self.options.near, self._now_ns() / 1e9, perf_counter() - began)
+        return live.ended
 
     def _enough(self, seconds: float) -> bool:
         frames, limit = self.options.frames, self.options.seconds
@@ -133,7 +157,7 @@ class Watcher:
         """Whether a frame that cannot be read may still be written: for some seconds it may."""
         now = monotonic()
         first = self._first_tries.setdefault(self._folder.name_of(path), now)
-        if now - first >= _PATIENCE_S or not path.exists():
+        if now - first >= _PATIENCE_S or not path.exists() or path.is_dir():
             return False
         self._folder.wait_for(path)
         return True

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from aadm_workbench.hoisting.motion import Motion, Running
-from aadm_workbench.model import HoistingReport, Verdict
+from aadm_workbench.model import Array, HoistingReport, Json, Verdict
 from aadm_workbench.report.hoisting_fitness import VALID_FOR_S, Fitness, fitness_of, stamp_of
 from aadm_workbench.report.json import encode
 
@@ -37,7 +36,7 @@ class Frame:
     limit_mm: float | None
 
 
-def state_document(column: str, frame: Frame) -> tuple[dict[str, Any], Fitness]:
+def state_document(column: str, frame: Frame) -> tuple[dict[str, Json], Fitness]:
     """The state after a frame, as its file holds it, and its fitness as it was measured; lengths in mm.
 
     ``frame`` is the frame as report.json would hold it; ``running`` combines the frames since the column last moved;
@@ -63,9 +62,9 @@ def state_document(column: str, frame: Frame) -> tuple[dict[str, Any], Fitness]:
         "frame": frame.report,
         "running": None if running is None else _running(frame.report, running),
     }
-    plain: dict[str, Any] = json.loads(encode(state))
+    plain: dict[str, Json] = json.loads(encode(state))
     fitness = fitness_of(plain, frame.measured_s)
-    ready = {"ready": fitness.ready, "reason": fitness.reason, "shows_move": fitness.shows_move}
+    ready: dict[str, Json] = {"ready": fitness.ready, "reason": fitness.reason, "shows_move": fitness.shows_move}
     return plain | ready | {"move": plain["move"] if fitness.shows_move else None}, fitness
 
 
@@ -86,15 +85,16 @@ def _move(report: HoistingReport, motion: Motion | None) -> dict[str, float | No
     return move
 
 
-def _running(report: HoistingReport, running: Running) -> dict[str, Any]:
-    u_mm = running.u_mm
-    pairs = [
+def _running(
+    report: HoistingReport, running: Running
+) -> dict[str, float | list[dict[str, str | float | Array]] | None]:
+    pairs: list[dict[str, str | float | Array]] = [
         {
             "sleeve": pair.sleeve,
             "rebar": pair.rebar,
-            "offset_mm": running.offsets_mm[k].tolist(),
+            "offset_mm": running.offsets_mm[k],
             "distance_mm": float(running.distances_mm[k]),
-            "u_mm": float(u_mm[k]),
+            "u_mm": float(running.u_mm[k]),
         }
         for k, pair in enumerate(report.pairs)
     ]
@@ -103,7 +103,7 @@ def _running(report: HoistingReport, running: Running) -> dict[str, Any]:
         "moved": running.moved_mm is not None,
         "moved_mm": running.moved_mm,
         "max_mm": float(running.distances_mm.max()),
-        "u_mm": float(np.median(u_mm)),
+        "u_mm": float(np.median(running.u_mm)),
         "pairs": pairs,
     }
 

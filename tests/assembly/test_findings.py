@@ -273,7 +273,7 @@ def test_sound_groups_of_any_size_and_scatter_have_no_finding() -> None:
 
 def passing(name_of: str, foot: str = "a", bars: str = "b") -> ColumnReport:
     groups = [
-        GroupReport(kind, f"{name}.ply", name and f"{name:0<64}", "refined", 12, 12, Verdict.PASS, (), (), None)
+        GroupReport(f"{name}.ply", name and f"{name:0<64}", "refined", 12, 12, Verdict.PASS, (), (), None)
         for kind, name in ((Kind.SLEEVE, foot), (Kind.REBAR, bars))
     ]
     trial = TrialReport(Verdict.PASS)

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from typing_extensions import TypeAliasType
 
 from aadm_workbench.model import Array, ColumnReport, JobReport, Verdict
 from batch.job.file import read_job
@@ -59,7 +58,7 @@ def test_every_bit_comes_back() -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["{}", "[]", "3", '{"inner": [], "number": 1, "more": 2}', '{"inner": 3, "number": 1}']
+    "text", ["{}", "[]", "3", '{"number": 1, "more": 2}', '{"inner": 3, "number": 1}', '{"inner": [{}]}']
 )
 def test_another_versions_text_is_refused(text: str) -> None:
     with pytest.raises(ValueError, match=r"Outer|Inner"):
@@ -67,8 +66,8 @@ def test_another_versions_text_is_refused(text: str) -> None:
 
 
 def test_what_cannot_be_kept_is_said() -> None:
-    with pytest.raises(TypeError, match="set cannot be kept"):
-        to_exact_json({"a": {1}})
+    with pytest.raises(TypeError, match="complex cannot be kept"):
+        to_exact_json({"a": 1j})
 
 
 def test_every_noun_of_a_report_can_be_kept() -> None:
@@ -98,15 +97,3 @@ def test_the_sample_comes_back_equal() -> None:
         again = from_exact_json(ColumnReport, text)
         assert to_exact_json(again) == text
         assert [item.name for item in fields(again)] == [item.name for item in fields(column)]
-
-
-def test_a_name_of_a_type_statement_stands_for_its_type() -> None:
-    """numpy 2.5 makes NDArray such a name; the statement itself is younger than Python 3.11."""
-    named = TypeAliasType("named", tuple[float, ...])
-
-    @dataclass(frozen=True)
-    class Noun:
-        values: named  # type: ignore[valid-type]
-
-    Noun.__annotations__["values"] = named
-    assert from_exact_json(Noun, '{"values":[1.5,2.5]}') == Noun((1.5, 2.5))

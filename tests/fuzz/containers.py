@@ -24,6 +24,7 @@ from aadm_workbench.errors import AadmError
 from aadm_workbench.report.bcf.topics import write_bcf
 from batch.runner.journal import Journal
 from tests.report.checked_floor import CASES, floor_report
+from tests.report.typed import typed
 
 from .zips import Entry, harmed, harmed_text
 
@@ -54,7 +55,7 @@ def bcf() -> Container:
     pictures = {str(column["id"]): b"\x89PNG" for column in report["columns"]}
 
     def read(path: Path) -> object:
-        return write_bcf(report, path.with_suffix(".new"), existing=path, snapshots=pictures)
+        return write_bcf(typed(report), path.with_suffix(".new"), existing=path, snapshots=pictures)
 
     with tempfile.TemporaryDirectory() as folder:
         sound = Path(folder) / "sound.bcf"

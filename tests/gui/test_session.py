@@ -174,7 +174,7 @@ def test_results_are_written(session: dict[str, Any]) -> None:
     assert session["said_by_report"] == []
     assert session["report"] == "fail"
     assert session["picture_of_report"]
-    assert read_report(session["folder"] / "report" / "report.json")["summary"]["fail"] == 1
+    assert read_report(session["folder"] / "report" / "report.json").summary()["fail"] == 1
 
 
 def test_document_comes_back(session: dict[str, Any]) -> None:

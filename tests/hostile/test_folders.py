@@ -24,6 +24,7 @@ from batch.runner.journal import Journal
 from batch.runner.record import read_record
 from batch.runner.run import _column
 from tests.report.checked_floor import CASES, floor_report
+from tests.report.typed import typed
 
 from .test_pipeline import column
 from .test_texts import write_job
@@ -222,12 +223,12 @@ def floor() -> dict[str, Any]:
 @pytest.mark.parametrize("name", BCF)
 def test_bcf_files_that_mean_harm_are_refused_and_stay(floor: dict[str, Any], tmp_path: Path, name: str) -> None:
     path = tmp_path / "report.bcf"
-    write_bcf(floor, path)
+    write_bcf(typed(floor), path)
     with zipfile.ZipFile(path) as written:
         guid = next(entry.partition("/")[0] for entry in written.namelist() if entry.endswith("markup.bcf"))
     path.write_bytes(content := BCF[name](guid))
     with pytest.raises(ReportError, match=r"start (without it|a new)"):
-        write_bcf(floor, path, existing=path)
+        write_bcf(typed(floor), path, existing=path)
     assert path.read_bytes() == content
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import os
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
@@ -178,7 +179,7 @@ def test_short_names_do_not_touch_other_words(tmp_path: Path) -> None:
     report = ColumnReport("C-1", Verdict.ERROR, Verdict.NOT_ASSESSED, reasons)
     served = without_absolute_paths(report, job)
     assert served.reasons == (reasons[0], "T: there is no such file", "x.ply: is empty", "and/or")
-    assert vars(served) | {"reasons": ()} == vars(report) | {"reasons": ()}
+    assert asdict(served) | {"reasons": ()} == asdict(report) | {"reasons": ()}
 
 
 def test_what_holds_no_path_is_the_same_report(tmp_path: Path) -> None:

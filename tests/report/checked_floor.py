@@ -15,7 +15,7 @@ from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.inspection import check
 from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
 from aadm_workbench.model import Array, AssemblyPoint, ColumnReport, Extraction, JobReport, Kind, Scan, Verdict
-from aadm_workbench.report.json import encode, report_document
+from aadm_workbench.report.json import encoded_report
 from aadm_workbench.twin.parts import ring
 
 PROFILE = load_profile("cn")
@@ -112,7 +112,7 @@ def floor_report(*cases: Case) -> dict[str, Any]:
         columns,
         assess_moulds(columns, PROFILE),
     )
-    document: dict[str, Any] = json.loads(encode(report_document(report)))
+    document: dict[str, Any] = json.loads(encoded_report(report))
     return document
 
 

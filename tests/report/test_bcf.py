@@ -19,8 +19,8 @@ import pytest
 
 from aadm_workbench.errors import ReportError
 from aadm_workbench.report.bcf.topics import write_bcf
-from aadm_workbench.report.read import Report
 from tests.report.floor_schemas import made_report
+from tests.report.typed import typed
 
 FLOOR = Path(__file__).resolve().parents[2] / "samples" / "floor" / "floor3.ifc"
 HOSTILE = "C'1\"<script>alert(1)</script>\x01灌浆😀 =1+1"
@@ -53,14 +53,14 @@ VIEWPOINT = {
 
 
 @pytest.fixture(scope="module")
-def made() -> Report:
+def made() -> dict[str, Any]:
     return made_report(FLOOR, only=("C-301", "C-302", "C-303"))
 
 
 @pytest.fixture
-def report(made: Report) -> Report:
+def report(made: dict[str, Any]) -> dict[str, Any]:
     """Three columns: the first fails, the second fails too, the third passes."""
-    found: Report = copy.deepcopy(made)
+    found: dict[str, Any] = copy.deepcopy(made)
     found["columns"][2]["verdict"] = "pass"
     for kind in ("sleeves", "rebars"):
         for point in found["columns"][2][kind]["points"]:
@@ -93,9 +93,9 @@ def assert_in_order(element: ElementTree.Element, schema: dict[str, str]) -> Non
 
 
 @pytest.mark.parametrize("per", ["column", "pair"])
-def test_every_topic_has_what_viewers_ask_for(per: Any, report: Report, tmp_path: Path) -> None:
+def test_every_topic_has_what_viewers_ask_for(per: Any, report: dict[str, Any], tmp_path: Path) -> None:
     path = tmp_path / "report.bcf"
-    done = write_bcf(report, path, per=per)
+    done = write_bcf(typed(report), path, per=per)
     held = files(path)
     assert 'VersionId="2.1"' in held["bcf.version"].decode()
     expected = ["C-301", "C-302"] if per == "column" else [f"C-30{c} S{k}/R{k}" for c in (1, 2) for k in (1, 2)]
@@ -120,10 +120,10 @@ def test_every_topic_has_what_viewers_ask_for(per: Any, report: Report, tmp_path
         assert {row["column"] for row in rows} == {topic.findtext("Topic/Title").split()[0]}
 
 
-def test_bcf_client_reads_it(report: Report, tmp_path: Path) -> None:
+def test_bcf_client_reads_it(report: dict[str, Any], tmp_path: Path) -> None:
     bcfxml = pytest.importorskip("bcf.bcfxml")
     path = tmp_path / "report.bcf"
-    write_bcf(report, path)
+    write_bcf(typed(report), path)
     loaded = bcfxml.load(path)
     assert loaded.version.version_id == "2.1"
     assert loaded.project.name == report["job"]["name"]
@@ -151,9 +151,9 @@ def test_bcf_client_reads_it(report: Report, tmp_path: Path) -> None:
     assert colours[report["columns"][0]["global_id"]] == by_verdict["fail"]
 
 
-def test_the_camera_is_under_the_foot_and_looks_at_it(report: Report, tmp_path: Path) -> None:
+def test_the_camera_is_under_the_foot_and_looks_at_it(report: dict[str, Any], tmp_path: Path) -> None:
     path = tmp_path / "report.bcf"
-    write_bcf(report, path)
+    write_bcf(typed(report), path)
     view = ElementTree.fromstring(files(path)[f"{guids(path)[1]}/viewpoint.bcfv"])
     camera = view.find("PerspectiveCamera")
     position, direction, up = (
@@ -171,29 +171,29 @@ def test_the_camera_is_under_the_foot_and_looks_at_it(report: Report, tmp_path: 
     assert 45.0 <= float(camera.findtext("FieldOfView")) <= 60.0
 
 
-def test_a_repeated_run_changes_nothing(report: Report, tmp_path: Path) -> None:
+def test_a_repeated_run_changes_nothing(report: dict[str, Any], tmp_path: Path) -> None:
     path = tmp_path / "report.bcf"
-    write_bcf(report, path)
+    write_bcf(typed(report), path)
     first = path.read_bytes()
     report["capture"]["date"] = "2026-12-24"
-    done = write_bcf(report, path, existing=path)
+    done = write_bcf(typed(report), path, existing=path)
     assert done.unchanged == ("C-301", "C-302")
     assert path.read_bytes() == first
     report["capture"]["date"] = "2026-11-20"
-    write_bcf(report, tmp_path / "again.bcf")
+    write_bcf(typed(report), tmp_path / "again.bcf")
     assert (tmp_path / "again.bcf").read_bytes() == first, "the date is the capture's"
 
 
-def test_a_later_run_updates_closes_and_opens_again(report: Report, tmp_path: Path) -> None:
+def test_a_later_run_updates_closes_and_opens_again(report: dict[str, Any], tmp_path: Path) -> None:
     path = tmp_path / "report.bcf"
-    write_bcf(report, path, written=DAY)
+    write_bcf(typed(report), path, written=DAY)
     first, second = guids(path)
     later = copy.deepcopy(report)
     later["columns"][0]["reasons"] = ["S5 is off"]
     later["columns"][1]["verdict"] = "pass"
     later["columns"][1]["reasons"] = []
     later["columns"][2] |= {"verdict": "error", "reasons": ["the scan is missing"]}
-    done = write_bcf(later, path, existing=path, written=DAY.replace(day=21))
+    done = write_bcf(typed(later), path, existing=path, written=DAY.replace(day=21))
     assert (done.updated, done.closed, done.opened) == (("C-301",), ("C-302",), ("C-303",))
     assert guids(path)[:2] == [first, second]
     changed = markup(path, first)
@@ -206,16 +206,16 @@ def test_a_later_run_updates_closes_and_opens_again(report: Report, tmp_path: Pa
     closed = markup(path, second)
     assert closed.find("Topic").get("TopicStatus") == "Closed"
     assert "passes now" in closed.findall("Comment")[-1].findtext("Comment")
-    assert write_bcf(later, path, existing=path).unchanged == ("C-301", "C-302", "C-303")
-    write_bcf(report, path, existing=path, written=DAY.replace(day=22))
+    assert write_bcf(typed(later), path, existing=path).unchanged == ("C-301", "C-302", "C-303")
+    write_bcf(typed(report), path, existing=path, written=DAY.replace(day=22))
     assert markup(path, second).find("Topic").get("TopicStatus") == "Open"
     for guid in guids(path):
         assert_in_order(markup(path, guid), MARKUP)
 
 
-def test_what_people_wrote_stays(report: Report, tmp_path: Path) -> None:
+def test_what_people_wrote_stays(report: dict[str, Any], tmp_path: Path) -> None:
     path = tmp_path / "report.bcf"
-    write_bcf(report, path)
+    write_bcf(typed(report), path)
     first, _ = guids(path)
     root = markup(path, first)
     topic = root.find("Topic")
@@ -231,7 +231,7 @@ def test_what_people_wrote_stays(report: Report, tmp_path: Path) -> None:
         for name, content in held.items():
             archive.writestr(name, content)
     report["columns"][0]["reasons"] = ["S5 is off"]
-    write_bcf(report, path, existing=path)
+    write_bcf(typed(report), path, existing=path)
     after = markup(path, first)
     assert after.find("Topic").get("TopicStatus") == "In Progress"
     assert after.findtext("Topic/AssignedTo") == "li@yard.cn"
@@ -241,18 +241,18 @@ def test_what_people_wrote_stays(report: Report, tmp_path: Path) -> None:
     assert foreign.items() <= files(path).items()
 
 
-def test_a_pair_that_could_not_be_seen_again_stays_open(report: Report, tmp_path: Path) -> None:
+def test_a_pair_that_could_not_be_seen_again_stays_open(report: dict[str, Any], tmp_path: Path) -> None:
     path = tmp_path / "report.bcf"
-    write_bcf(report, path, per="pair")
+    write_bcf(typed(report), path, per="pair")
     report["columns"][0] |= {"verdict": "error", "reasons": ["no scan"], "sleeves": None, "rebars": None}
-    done = write_bcf(report, path, per="pair", existing=path)
+    done = write_bcf(typed(report), path, per="pair", existing=path)
     assert done.opened == ("C-301",), "nothing to blame but the column"
     assert done.closed == ()
     statuses = [markup(path, guid).find("Topic").get("TopicStatus") for guid in guids(path)]
     assert statuses == ["Open"] * 5
 
 
-def test_hostile_names_and_columns_without_a_model(report: Report, tmp_path: Path) -> None:
+def test_hostile_names_and_columns_without_a_model(report: dict[str, Any], tmp_path: Path) -> None:
     path = tmp_path / "report.bcf"
     report["job"]["name"] = HOSTILE
     report["model"] = None
@@ -261,7 +261,7 @@ def test_hostile_names_and_columns_without_a_model(report: Report, tmp_path: Pat
     for kind in ("sleeves", "rebars"):
         for point in column[kind]["points"]:
             point["global_id"] = None
-    write_bcf(report, path)
+    write_bcf(typed(report), path)
     topic = markup(path, guids(path)[0])
     assert topic.findtext("Topic/Title").startswith("C'1\"<script>alert(1)</script>\ufffd灌浆😀 =1+1 fails")
     assert_in_order(topic, MARKUP)
@@ -270,18 +270,45 @@ def test_hostile_names_and_columns_without_a_model(report: Report, tmp_path: Pat
     assert view.find("Components") is None
 
 
-def test_a_file_that_is_no_bcf_is_refused(report: Report, tmp_path: Path) -> None:
+def test_a_file_that_is_no_bcf_is_refused(report: dict[str, Any], tmp_path: Path) -> None:
     broken, newer = tmp_path / "broken.bcf", tmp_path / "newer.bcf"
     broken.write_bytes(b"PK but no archive")
     with zipfile.ZipFile(newer, "w") as archive:
         archive.writestr("bcf.version", '<Version VersionId="3.0"/>')
     with pytest.raises(ReportError, match="cannot be read as a BCF file"):
-        write_bcf(report, tmp_path / "a.bcf", existing=broken)
+        write_bcf(typed(report), tmp_path / "a.bcf", existing=broken)
     with pytest.raises(ReportError, match=r"is of BCF version 3\.0"):
-        write_bcf(report, tmp_path / "a.bcf", existing=newer)
+        write_bcf(typed(report), tmp_path / "a.bcf", existing=newer)
     with zipfile.ZipFile(newer, "w") as archive:
         archive.writestr("bcf.version", '<Version VersionId="2.0"><DetailedVersion>2.0 RC</DetailedVersion></Version>')
         archive.writestr("5a0f/markup.bcf", "<Markup/>")
     with pytest.raises(ReportError, match=r"is of BCF version 2\.0.*save it as BCF 2\.1"):
-        write_bcf(report, tmp_path / "a.bcf", existing=newer)
+        write_bcf(typed(report), tmp_path / "a.bcf", existing=newer)
     assert not (tmp_path / "a.bcf").exists()
+
+
+def pictures(report: dict[str, Any], path: Path) -> list[np.ndarray]:
+    write_bcf(typed(report), path)
+    held = [content for name, content in files(path).items() if name.endswith("snapshot.png")]
+    return [cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_GRAYSCALE) for content in held]
+
+
+def test_names_in_chinese_can_be_read_in_the_picture(report: dict[str, Any], tmp_path: Path) -> None:
+    """Two signs of a name are two drawings, of about as much ink as letters have; the foot below is the same."""
+    drawn = {}
+    for name in ("柱-307", "梁-307", "C-307"):
+        report["columns"][0] |= {"id": name}
+        drawn[name] = pictures(report, tmp_path / f"{len(drawn)}.bcf")[0]
+    first, second, letters = drawn.values()
+    ink = [int((picture[20:70, 20:56] < 200).sum()) for picture in (first, second, letters)]
+    assert np.abs(first[20:70, 20:56].astype(int) - second[20:70, 20:56]).max() > 100
+    assert min(ink[:2]) > 0.7 * ink[2] > 0
+    assert (first[110:] == second[110:]).all()
+
+
+def test_a_pair_is_ringed_in_its_own_picture(report: dict[str, Any], tmp_path: Path) -> None:
+    write_bcf(typed(report), tmp_path / "pairs.bcf", per="pair")
+    held = [content for name, content in files(tmp_path / "pairs.bcf").items() if name.endswith("snapshot.png")]
+    found = [cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_COLOR)[110:] for content in held]
+    blue = [(picture[..., 0].astype(int) - picture[..., 2] > 100).sum() for picture in found]
+    assert min(blue) > 200

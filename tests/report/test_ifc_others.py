@@ -18,6 +18,7 @@ from aadm_workbench.report.ifc.read import read_ifc_results
 from tests.design.authoring import Author
 from tests.report.floor_schemas import made_report
 from tests.report.ifc_models import one_column
+from tests.report.typed import typed
 
 
 def shared(name: str) -> Callable[[Author, list[Any]], None]:
@@ -46,7 +47,7 @@ def test_a_shared_property_set_is_unshared_first(name: str, tmp_path: Path) -> N
     kept = [point["global_id"] for point in points if point["global_id"] in ids][-1]
     for point in points:  # one of the four was not checked
         point["global_id"] = None if point["global_id"] == kept else point["global_id"]
-    done = write_ifc(report, model, out)
+    done = write_ifc(typed(report), model, out)
     assert f"{next(p['label'] for p in points if p['global_id'] is None)} of column C-1" in done.missing
     file = ifcopenshell.open(out)
     psets = {global_id: ifcopenshell.util.element.get_psets(file.by_guid(global_id)) for global_id in ids}
@@ -59,7 +60,7 @@ def test_a_shared_property_set_is_unshared_first(name: str, tmp_path: Path) -> N
     for global_id in measured:
         assert psets[global_id][name]["Comment"] == 7.0, "what is not ours stays with the element"
         assert psets[global_id]["AADM_SleeveCheck"]["Label"].startswith("S")
-    again = write_ifc(report, out, out)
+    again = write_ifc(typed(report), out, out)
     assert again.changed is False
     remove_ifc(out, out)
     assert out.read_bytes() == model.read_bytes()
@@ -67,7 +68,7 @@ def test_a_shared_property_set_is_unshared_first(name: str, tmp_path: Path) -> N
 
 def test_a_tolerance_that_the_engineer_wrote_stays(tmp_path: Path) -> None:
     model, out = one_column(tmp_path, "IFC4X3", then=shared("Pset_Tolerance")), tmp_path / "out.ifc"
-    done = write_ifc(made_report(model), model, out)
+    done = write_ifc(typed(made_report(model)), model, out)
     assert "Pset_Tolerance of 4 elements was in the model already and was left as it is" in done.notes
     assert set(model.read_text().splitlines()) <= set(out.read_text().splitlines())
 
@@ -76,7 +77,7 @@ def test_copies_made_of_an_element_keep_what_they_were_given(tmp_path: Path) -> 
     """Another program copies a checked sleeve with its property set: the next check changes the original alone."""
     model, out = one_column(tmp_path), tmp_path / "out.ifc"
     report = made_report(model)
-    write_ifc(report, model, out)
+    write_ifc(typed(report), model, out)
     file = ifcopenshell.open(out)
     sleeve = file.by_guid(report["columns"][0]["sleeves"]["points"][0]["global_id"])
     copied = ifcopenshell.util.element.copy(file, sleeve)
@@ -86,8 +87,8 @@ def test_copies_made_of_an_element_keep_what_they_were_given(tmp_path: Path) -> 
     file.write(str(out))
     later = made_report(model, seed=5)
     later["columns"][0]["sleeves"]["points"][0]["offset_mm"] = [0.5, 0.25]
-    write_ifc(later, out, out, force=True)
-    write_ifc(later, out, out, force=True)
+    write_ifc(typed(later), out, out, force=True)
+    write_ifc(typed(later), out, out, force=True)
     found = read_ifc_results(out)
     assert found[copied.GlobalId]["AADM_SleeveCheck"]["OffsetX"] == 2.5
     assert found[sleeve.GlobalId]["AADM_SleeveCheck"]["OffsetX"] == 0.5
@@ -98,7 +99,7 @@ def test_copies_made_of_an_element_keep_what_they_were_given(tmp_path: Path) -> 
 
 def test_results_go_after_another_program_has_saved_the_model(tmp_path: Path) -> None:
     model, out = one_column(tmp_path), tmp_path / "out.ifc"
-    write_ifc(made_report(model), model, out)
+    write_ifc(typed(made_report(model)), model, out)
     file = ifcopenshell.open(out)
     wall = file.create_entity("IfcWall", ifcopenshell.guid.new(), Name="new")
     group = file.create_entity("IfcGroup", ifcopenshell.guid.new(), Name="theirs")
@@ -121,7 +122,7 @@ def test_a_shared_set_is_shared_again_with_those_who_joined(tmp_path: Path) -> N
     """Another program puts a sleeve of its own into the relation that was altered."""
     model, out = one_column(tmp_path, then=shared("AADM_SleeveCheck")), tmp_path / "out.ifc"
     (sharing,) = ifcopenshell.open(model).by_type("IfcRelDefinesByProperties")
-    write_ifc(made_report(model), model, out)
+    write_ifc(typed(made_report(model)), model, out)
     file = ifcopenshell.open(out)
     joined = ifcopenshell.util.element.copy(file, file.by_type("IfcDiscreteAccessory")[0])
     joined.GlobalId = ifcopenshell.guid.new()

@@ -16,6 +16,7 @@ from aadm_workbench.report.ifc.read import read_ifc_results
 from tests.design.authoring import Author
 from tests.report.floor_schemas import made_report
 from tests.report.ifc_models import CORNERS
+from tests.report.typed import typed
 
 
 def two_columns(folder: Path, *, one_bar_element: bool = False, same_column_id: bool = False) -> Path:
@@ -45,7 +46,7 @@ def two_columns(folder: Path, *, one_bar_element: bool = False, same_column_id: 
 def test_one_element_may_draw_the_bars_of_two_columns(tmp_path: Path) -> None:
     model, out = two_columns(tmp_path, one_bar_element=True), tmp_path / "out.ifc"
     report = made_report(model)
-    done = write_ifc(report, model, out)
+    done = write_ifc(typed(report), model, out)
     assert done.missing == ()
     file = ifcopenshell.open(out)
     (bars,) = file.by_type("IfcReinforcingBar")
@@ -58,7 +59,7 @@ def test_one_element_may_draw_the_bars_of_two_columns(tmp_path: Path) -> None:
             assert (held["Column"], held["Label"], held["Verdict"]) == (column["id"], point["label"], point["verdict"])
     worst = sets["AADM_RebarCheck"]
     assert any(held["Verdict"] == worst["Verdict"] and held["Label"] == worst["Label"] for held in own.values())
-    assert write_ifc(report, out, out).changed is False
+    assert write_ifc(typed(report), out, out).changed is False
     remove_ifc(out, out)
     assert out.read_bytes() == model.read_bytes()
 
@@ -67,13 +68,13 @@ def test_columns_of_one_global_id_are_told_by_their_names(tmp_path: Path) -> Non
     model, out = two_columns(tmp_path, same_column_id=True), tmp_path / "out.ifc"
     report = made_report(model)
     assert len({column["global_id"] for column in report["columns"]}) == 1
-    write_ifc(report, model, out)
+    write_ifc(typed(report), model, out)
     file = ifcopenshell.open(out)
     for element in file.by_type("IfcColumn"):
         held = ifcopenshell.util.element.get_psets(element)["AADM_ColumnCheck"]
         (column,) = (entry for entry in report["columns"] if entry["id"] == element.Tag)
         assert (held["Verdict"], held["GoesOn"]) == (column["verdict"], column["goes_on"])
-    assert len({topic_guid(report, column) for column in report["columns"]}) == 2
+    assert len({topic_guid(typed(report), column) for column in typed(report).columns}) == 2
 
 
 def test_points_of_one_global_id_get_nothing_and_are_named(tmp_path: Path) -> None:
@@ -83,7 +84,7 @@ def test_points_of_one_global_id_get_nothing_and_are_named(tmp_path: Path) -> No
     second.GlobalId = first.GlobalId
     file.write(str(author_model))
     report = made_report(author_model)
-    done = write_ifc(report, author_model, out)
+    done = write_ifc(typed(report), author_model, out)
     assert len(done.missing) == 2
     assert any("1 GlobalIds are those of several elements" in note and first.GlobalId in note for note in done.notes)
     written = ifcopenshell.open(out)
@@ -99,7 +100,7 @@ def test_a_global_id_of_something_else_is_no_obstacle(tmp_path: Path) -> None:
     column = file.by_type("IfcColumn")[0]
     file.create_entity("IfcGroup", column.GlobalId, Name="same id")
     file.write(str(model))
-    done = write_ifc(made_report(model), model, out)
+    done = write_ifc(typed(made_report(model)), model, out)
     assert len(done.columns) == 2
     written = ifcopenshell.open(out)
     assert ifcopenshell.util.element.get_psets(written.by_type("IfcColumn")[0])["AADM_ColumnCheck"]
@@ -111,7 +112,7 @@ def test_a_report_that_names_a_column_twice_is_refused(tmp_path: Path) -> None:
     twice = {**report["columns"][0], "id": report["columns"][0]["global_id"]}
     report["columns"].append(twice)
     with pytest.raises(ReportError, match=r"columns C-0 and .* are one element"):
-        write_ifc(report, model, tmp_path / "out.ifc")
+        write_ifc(typed(report), model, tmp_path / "out.ifc")
 
 
 def test_archives_are_not_written_into(tmp_path: Path) -> None:
@@ -129,7 +130,7 @@ def test_names_in_a_code_page_survive_the_write_back(tmp_path: Path) -> None:
     raw = raw.replace("'\\X2\\704C6D4659577B52\\X0\\ GTQ4Z-20'", "'灌浆套筒 20'")
     model.write_bytes(raw.encode("gb18030"))
     report = made_report(model)
-    done = write_ifc(report, model, out)
+    done = write_ifc(typed(report), model, out)
     assert done.missing == ()
     assert set(model.read_bytes().splitlines()) <= set(out.read_bytes().splitlines())
     assert len(read_ifc_results(out)) >= 10

@@ -11,13 +11,14 @@ import pypdf
 import pytest
 
 from aadm_workbench.design.recognise.pattern import inline_design
-from aadm_workbench.model import Camera
+from aadm_workbench.model import Camera, Kind
 from aadm_workbench.report.drawing.sketch import Label
 from aadm_workbench.report.pages.scan_card import CardDesign, ScanCard, corner_of, design_cards, scan_cards, top_side
 from aadm_workbench.report.pages.scan_card_page import picture_sketch, write_scan_cards
 from batch.commands.report import job_cards
 from batch.job.file import read_job
 from tests.report.checked_floor import DESIGN, HOSTILE
+from tests.report.typed import typed
 
 SAMPLE = Path(__file__).resolve().parents[2] / "samples" / "floor"
 
@@ -36,7 +37,7 @@ def test_card_shows_what_the_virtual_camera_saw(sample_cards: dict[str, ScanCard
     drawn = {
         shape.text: shape.at for shape in picture_sketch(card, card.parts[part]).shapes if isinstance(shape, Label)
     }
-    truth = json.loads((SAMPLE / "truth.json").read_text())["columns"][name][card.parts[part].part]
+    truth = json.loads((SAMPLE / "truth.json").read_text())["columns"][name][card.parts[part].part.plural]
     seen = {point["label"]: np.array([point["scan_mm"][0], -point["scan_mm"][1]]) for point in truth}
     places = np.array([drawn[label] for label in seen])
     expected = np.array(list(seen.values()))
@@ -65,10 +66,10 @@ def test_distance_fills_the_picture() -> None:
 
 
 def test_card_from_a_report_keeps_the_way_of_the_last_scan(floor: dict[str, Any]) -> None:
-    cards = {card.id: card for card in scan_cards(floor)}
+    cards = {card.id: card for card in scan_cards(typed(floor))}
     assert [part.up_deg for part in cards["C-1"].parts] == [90.0, 90.0]
     assert cards["C-1"].parts[0].last_distance_m == pytest.approx(1.3, abs=0.2)
-    assert [part.part for part in cards["C-6"].parts] == ["sleeves"]
+    assert [part.part for part in cards["C-6"].parts] == [Kind.SLEEVE]
     assert cards["C-5"].parts == ()
 
 
@@ -82,13 +83,13 @@ def test_card_from_a_report_on_a_cloud_in_the_axes_of_opengl(floor: dict[str, An
             point["scan_mm"] = [x, -y, -z]
         for row in group["fit"]["T_design_scan"]:
             row[1:3] = [-row[1], -row[2]]
-    parts = {card.id: card for card in scan_cards(turned)}["C-1"].parts
+    parts = {card.id: card for card in scan_cards(typed(turned))}["C-1"].parts
     assert [part.up_deg for part in parts] == [90.0, 90.0]
     assert parts[0].last_distance_m == pytest.approx(1.3, abs=0.2)
 
 
 def test_pages(floor: dict[str, Any], tmp_path: Path) -> None:
-    write_scan_cards(scan_cards(floor), tmp_path / "cards.pdf", title="Floor 3")
+    write_scan_cards(scan_cards(typed(floor)), tmp_path / "cards.pdf", title="Floor 3")
     pages = [re.sub(r"\s+", "", page.extract_text()) for page in pypdf.PdfReader(tmp_path / "cards.pdf").pages]
     assert len(pages) == len(floor["columns"])
     page = next(text for text in pages if text.startswith("C-1"))

@@ -44,9 +44,11 @@ def diameter_findings(group: SeenGroup) -> Iterator[Finding]:
     ):
         return  # it is open which size was meant where
     measured = [(target, point) for target, point in group.placed() if _is_known(point)]
-    quality = group.extraction.quality
-    edges_mm = EDGE_U_PITCHES * float(quality.get("point_pitch_mm", 0.0))
-    shared_u_mm = max(edges_mm, float(quality.get("diameter_u_mm", 0.0)))
+    pitch_mm, diameter_u_mm = (
+        float(value) if isinstance(value := group.extraction.quality.get(name), int | float) else 0.0
+        for name in ("point_pitch_mm", "diameter_u_mm")
+    )
+    shared_u_mm = max(EDGE_U_PITCHES * pitch_mm, diameter_u_mm)
     for of_size in _by_size(measured):
         design_mm = float(np.median([target.diameter_mm for target, _ in of_size]))
         low_mm, high_mm = allowed_mm(group.kind, design_mm)

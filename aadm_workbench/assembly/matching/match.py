@@ -24,7 +24,7 @@ from aadm_workbench.assembly.matching.pattern_search import (
 )
 from aadm_workbench.assembly.matching.symmetry import is_its_own_mirror
 from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar, plane_basis, upright_transform, wrap
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Orientation
 
 DECLARED_WITHIN_RAD = math.radians(44.0)
 """A declared direction chooses the nearest turn within this; half of the 90° between the turns of a square."""
@@ -92,7 +92,7 @@ class Match:
     Parameters
     ----------
     orientation
-        ``declared``, ``resolved`` or ``ambiguous``.
+        ``declared``, ``resolved`` or ``ambiguous``; says nothing without a placement.
     extra
         The measured points that belong to no design point.
     contradiction
@@ -108,7 +108,7 @@ class Match:
     """
 
     placements: tuple[Placement, ...] = ()
-    orientation: str = ""
+    orientation: Orientation = "resolved"
     reason: str = ""
     extra: tuple[int, ...] = ()
     contradiction: str = ""

@@ -35,7 +35,7 @@ from aadm_workbench.extract.published.pass_through import (
     tops_range_mm,
 )
 from aadm_workbench.extract.published.ransac_plane import open3d_for, ransac_plane
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, FloatArray, Kind, Plane, Scan
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, Figures, FloatArray, Kind, Plane, Scan
 
 INLIER_DISTANCE_MM = 50.0  # as published (2.1.1)
 ITERATIONS = 500  # as published (2.1.1)
@@ -160,10 +160,10 @@ def _extraction(
         AssemblyPoint("", kind, centre, vertical, float(diameter), why="Hough circle in the binary image")
         for centre, diameter in zip(centres, diameters_mm, strict=True)
     )
-    quality = {
+    quality: Figures = {
         "pixel_mm": flat.image.pixel_mm,
         "plane_residual_mm": plane.residual_mm,
-        "z_range_mm": list(flat.z_range_mm),
+        "z_range_mm": flat.z_range_mm,
     }
     reason = "" if points else "the binary image shows no circle of the expected size"
     return Extraction(kind, "fusion", points, plane, vertical, source, quality=quality, reason=reason)

@@ -3,16 +3,10 @@
 from __future__ import annotations
 
 import uuid
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
 
-from aadm_workbench.model import Verdict, worst
-from aadm_workbench.report.read import Report
-from aadm_workbench.report.shown_pose import shown_pose
-
-Document: TypeAlias = Mapping[str, Any]
-"""A part of report.json as ``json.loads`` gives it."""
+from aadm_workbench.model import ColumnReport, JobReport, Kind, PairResult, PointResult, Verdict, worst
 
 _TOPICS = uuid.UUID("b2b1b1de-53d5-5f0b-8a5e-0c7c6b3f9a41")
 _TITLE_LENGTH = 200  # a line in the lists of viewers; the description has all
@@ -34,7 +28,7 @@ class Finding:
     """
 
     guid: str
-    column: Document
+    column: ColumnReport
     number: int | None
     verdict: Verdict
     reasons: tuple[str, ...]
@@ -48,7 +42,7 @@ class Finding:
     @property
     def name(self) -> str:
         """``C-301``, or ``C-301 S7/R7``."""
-        called = str(self.column["id"])
+        called = self.column.id
         return called if self.number is None else f"{called} S{self.number}/R{self.number}"
 
     @property
@@ -66,7 +60,7 @@ class Finding:
         return tuple(k for k in pair_numbers(self.column) if _pair_verdict(self.column, k) not in _SETTLED)
 
 
-def findings(report: Report, per: str) -> Iterator[Finding]:
+def findings(report: JobReport, per: str) -> Iterator[Finding]:
     """Every topic that this report opens, keeps open or may close.
 
     Parameters
@@ -77,7 +71,7 @@ def findings(report: Report, per: str) -> Iterator[Finding]:
         ``"column"`` or ``"pair"``. A column that is not a pass without a pair to blame (its scan is missing, say) has
         a topic of its own in either case.
     """
-    for column in report["columns"]:
+    for column in report.columns:
         whole = _of_column(report, column)
         if per == "column":
             yield whole
@@ -88,90 +82,73 @@ def findings(report: Report, per: str) -> Iterator[Finding]:
             yield whole
 
 
-def pair_numbers(column: Document) -> list[int]:
+def pair_numbers(column: ColumnReport) -> list[int]:
     """Numbers of a column's sleeves and bars, as far as they were looked for."""
-    labels = [point["label"] for group in groups(column) for point in group["points"]]
-    return sorted({int(label[1:]) for label in labels})
+    return sorted({int(point.label[1:]) for kind in Kind for point in column.points(kind)})
 
 
-def groups(column: Document) -> list[Document]:
-    """The sleeves and the rebars of a column, as far as it was checked for them."""
-    return [column[kind] for kind in ("sleeves", "rebars") if column[kind]]
-
-
-def points_of(column: Document, number: int) -> list[Document]:
+def points_of(column: ColumnReport, number: int) -> list[PointResult]:
     """The sleeve and the bar with a number."""
-    return [point for group in groups(column) for point in group["points"] if point["label"][1:] == str(number)]
+    return [point for kind in Kind for point in column.points(kind) if point.label[1:] == str(number)]
 
 
-def pair_of(column: Document, number: int) -> Document | None:
-    """The pair with the number of its sleeve, at the best pose; None where no trial assembly was made."""
-    trial = column["trial_assembly"]
-    pose = shown_pose(trial)
-    return next((pair for pair in (pose or {"pairs": ()})["pairs"] if pair["sleeve"] == f"S{number}"), None)
-
-
-def topic_guid(report: Report, column: Document, number: int | None = None) -> str:
+def topic_guid(report: JobReport, column: ColumnReport, number: int | None = None) -> str:
     """The GUID of a topic: the same in every run, for the GlobalId of a column is, or its job's name and its id."""
-    key = column["global_id"] or f"{report['job']['name']}/{column['id']}"
-    if column["global_id"] and _shares_its_id(report, column):
-        key = f"{column['global_id']}/{column['id']}"
+    key = column.global_id or f"{report.job['name']}/{column.id}"
+    if column.global_id and _shares_its_id(report, column):
+        key = f"{column.global_id}/{column.id}"
     return str(uuid.uuid5(_TOPICS, key if number is None else f"{key}/{number}"))
 
 
-def _shares_its_id(report: Report, column: Document) -> bool:
+def _shares_its_id(report: JobReport, column: ColumnReport) -> bool:
     """Whether another element of the model, or another column of the report, has the GlobalId of a column."""
-    found = (finding for finding in column.get("findings", ()) if finding["code"] == "duplicate_global_id")
-    if any("column" in finding["about"] for finding in found):
+    found = (finding for finding in column.findings if finding.code == "duplicate_global_id")
+    if any("column" in finding.about for finding in found):
         return True
-    return [other["global_id"] for other in report["columns"]].count(column["global_id"]) > 1
+    return [other.global_id for other in report.columns].count(column.global_id) > 1
 
 
-def _of_column(report: Report, column: Document) -> Finding:
-    verdict = Verdict(column["verdict"])
+def _of_column(report: JobReport, column: ColumnReport) -> Finding:
+    speaking = [kind.plural for kind, group in column.groups.items() if group.verdict not in _SETTLED]
     return Finding(
         guid=topic_guid(report, column),
         column=column,
         number=None,
-        verdict=verdict,
-        reasons=tuple(column["reasons"]),
-        labels=_labels(column, verdict, [kind for kind in ("sleeves", "rebars") if _speaks(column[kind])]),
+        verdict=column.verdict,
+        reasons=column.reasons,
+        labels=_labels(column, column.verdict, speaking),
     )
 
 
-def _of_pair(report: Report, column: Document, number: int) -> Finding:
+def _of_pair(report: JobReport, column: ColumnReport, number: int) -> Finding:
     verdict = _pair_verdict(column, number)
-    unsettled = [entry for entry in _judged(column, number) if Verdict(entry["verdict"]) not in _SETTLED]
-    blamed = {"S": "sleeves", "R": "rebars"}
+    unsettled = [entry for entry in _judged(column, number) if entry.verdict not in _SETTLED]
+    blamed = {kind.letter: kind.plural for kind in Kind}
     return Finding(
         guid=topic_guid(report, column, number),
         column=column,
         number=number,
         verdict=verdict,
-        reasons=tuple(entry["reason"] for entry in unsettled if entry["reason"]),
-        labels=_labels(column, verdict, [blamed[entry["label"][0]] for entry in unsettled if "label" in entry]),
+        reasons=tuple(entry.reason for entry in unsettled if entry.reason),
+        labels=_labels(column, verdict, [blamed[e.label[0]] for e in unsettled if isinstance(e, PointResult)]),
     )
 
 
-def _judged(column: Document, number: int) -> list[Document]:
-    """A sleeve, its bar and their pair, as far as the report has them."""
-    pair = pair_of(column, number)
-    return [*points_of(column, number), *([pair] if pair else [])]
+def _judged(column: ColumnReport, number: int) -> list[PointResult | PairResult]:
+    """A sleeve, its bar and their pair at the pose that is shown, as far as the report has them."""
+    pairs = [pair for pair in column.pairs if pair.sleeve == f"S{number}"]
+    return [*points_of(column, number), *pairs[:1]]
 
 
-def _pair_verdict(column: Document, number: int) -> Verdict:
+def _pair_verdict(column: ColumnReport, number: int) -> Verdict:
     """The worst of a sleeve, its bar and their pair; a pass only where something was judged."""
-    verdicts = {Verdict(entry["verdict"]) for entry in _judged(column, number)} - {Verdict.NOT_ASSESSED}
+    verdicts = {entry.verdict for entry in _judged(column, number)} - {Verdict.NOT_ASSESSED}
     return worst(verdicts) if verdicts else Verdict.NOT_ASSESSED
 
 
-def _labels(column: Document, verdict: Verdict, kinds: Sequence[str]) -> tuple[str, ...]:
-    trial = column["trial_assembly"]
-    trial_speaks = trial is not None and Verdict(trial["verdict"]) not in _SETTLED
-    places = [column["storey"], column["grid"], column["piece_mark"]]
+def _labels(column: ColumnReport, verdict: Verdict, kinds: Sequence[str]) -> tuple[str, ...]:
+    trial = column.trial_assembly
+    trial_speaks = trial is not None and trial.verdict not in _SETTLED
+    places = [column.storey, column.grid, column.piece_mark]
     named = ["AADM", verdict.value.replace("_", " "), *kinds, *(["trial assembly"] if trial_speaks else [])]
     return tuple(dict.fromkeys([*named, *(place for place in places if place)]))
-
-
-def _speaks(group: Document | None) -> bool:
-    return group is not None and Verdict(group["verdict"]) not in _SETTLED

@@ -10,11 +10,10 @@ import uuid
 import xml.etree.ElementTree as ElementTree
 from pathlib import PurePath
 
-from aadm_workbench.model import Verdict
+from aadm_workbench.model import JobReport, Verdict
 from aadm_workbench.report.bcf.findings import Finding
 from aadm_workbench.report.bcf.viewpoint import viewpoint_guid
 from aadm_workbench.report.column_view import declared_up
-from aadm_workbench.report.read import Report
 
 AUTHOR = "AADM workbench"
 TABLE = "table.csv"
@@ -45,11 +44,11 @@ _TOPIC_ORDER = (
 _MARKUP_ORDER = ("Header", "Topic", "Comment", "Viewpoints")
 
 
-def new_markup(report: Report, finding: Finding, date: str) -> ElementTree.Element:
+def new_markup(report: JobReport, finding: Finding, date: str) -> ElementTree.Element:
     """A topic that was not there before; ``date`` in ISO 8601 with its offset."""
     root = ElementTree.Element("Markup")
-    if report["model"] is not None:
-        source = str(report["model"]["source"])
+    if report.model is not None:
+        source = str(report.model["source"])
         file = ElementTree.SubElement(ElementTree.SubElement(root, "Header"), "File", isExternal="true")
         _put(file, "Filename", PurePath(source.replace("\\", "/")).name)
         _put(file, "Reference", source)
@@ -66,7 +65,7 @@ def new_markup(report: Report, finding: Finding, date: str) -> ElementTree.Eleme
     return root
 
 
-def write_finding(root: ElementTree.Element, report: Report, finding: Finding, date: str) -> None:
+def write_finding(root: ElementTree.Element, report: JobReport, finding: Finding, date: str) -> None:
     """Put this report's finding into a topic; a finding that a comment holds already is not repeated."""
     topic = _topic(root)
     status = topic.get("TopicStatus", "")
@@ -81,14 +80,14 @@ def write_finding(root: ElementTree.Element, report: Report, finding: Finding, d
     _in_order(root)
 
 
-def close(root: ElementTree.Element, finding: Finding, report: Report, date: str) -> bool:
+def close(root: ElementTree.Element, finding: Finding, report: JobReport, date: str) -> bool:
     """Close the topic of what passes now; False where it was closed already."""
     topic = _topic(root)
     if topic.get("TopicStatus", "").lower() == _CLOSED.lower():
         return False
     topic.set("TopicStatus", _CLOSED)
     _put(topic, "Title", finding.title)
-    said = f"{finding.name} passes now (job {report['job']['name']}, {str(report['job']['sha256'])[:12]})."
+    said = f"{finding.name} passes now (job {report.job['name']}, {str(report.job['sha256'])[:12]})."
     _comment(root, finding, said, date, viewpoint=False)
     stamp(root, date)
     return True
@@ -114,24 +113,23 @@ def xml_text(text: str) -> str:
     return _NOT_IN_XML.sub("\ufffd", text)
 
 
-def _description(report: Report, finding: Finding) -> str:
+def _description(report: JobReport, finding: Finding) -> str:
     column = finding.column
-    places = [f"{name} {column[key]}" for key, name in (("storey", "storey"), ("grid", "grid")) if column[key]]
+    places = [f"{name} {place}" for name, place in (("storey", column.storey), ("grid", column.grid)) if place]
     said = [
-        f"Column {column['id']}" + (f" ({', '.join(places)})" if places else ""),
-        f"Goes on its bars: {str(column['goes_on']).replace('_', ' ')}",
-        f"Tolerances: {report['profile']['title'] or report['profile']['name']}",
+        f"Column {column.id}" + (f" ({', '.join(places)})" if places else ""),
+        f"Goes on its bars: {column.goes_on.replace('_', ' ')}",
+        f"Tolerances: {report.profile.title or report.profile.name}",
     ]
-    scans = [(kind, finding.column[kind]) for kind in ("sleeves", "rebars")]
-    said += [f"Scan of the {kind}: {group['source']}" for kind, group in scans if group]
+    said += [f"Scan of the {kind.plural}: {group.source}" for kind, group in column.groups.items()]
     return "\n".join(said)
 
 
 def _said(finding: Finding) -> str:
     """The comment: every reason, and the advice where the trial assembly did not pass."""
-    repair = finding.column.get("repair")
-    advice = [f"Advice: {repair['advice']}"] if repair else []
-    up = declared_up(dict(finding.column))
+    repair = finding.column.repair
+    advice = [f"Advice: {repair.advice}"] if repair else []
+    up = declared_up(finding.column)
     declared = [f"As declared: {up}"] if up is not None and (finding.reasons or advice) else []
     return "\n".join([*finding.reasons, *advice, *declared]) or finding.title
 

@@ -19,10 +19,10 @@ from typing import Literal
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.bounded import ArchiveBounds, BoundsError, check_xml, entry_bytes, opened_archive
 from aadm_workbench.errors import ReportError
+from aadm_workbench.model import JobReport
 from aadm_workbench.report.bcf import markup as bcf_markup
 from aadm_workbench.report.bcf.findings import Finding, findings
 from aadm_workbench.report.bcf.viewpoint import viewpoint
-from aadm_workbench.report.read import Report
 from aadm_workbench.report.sheets.csv import csv_content
 
 _VERSION = (
@@ -55,7 +55,7 @@ class BcfOutcome:
 
 
 def write_bcf(
-    report: Report,
+    report: JobReport,
     path: Path,
     *,
     existing: Path | None = None,
@@ -94,14 +94,16 @@ def write_bcf(
     files = {"bcf.version": _VERSION, "project.bcfp": _project(report)} if existing is None else _files(existing)
     done: dict[str, list[str]] = {"opened": [], "updated": [], "closed": [], "unchanged": []}
     for finding in findings(report, per):
-        outcome = _apply(files, report, finding, date, (snapshots or {}).get(str(finding.column["id"])))
+        outcome = _apply(files, report, finding, date, (snapshots or {}).get(finding.column.id))
         if outcome:
             done[outcome].append(finding.name)
     write_atomically(path, _zip(files))
     return BcfOutcome(**{name: tuple(names) for name, names in done.items()})
 
 
-def _apply(files: dict[str, bytes], report: Report, finding: Finding, date: str, picture: bytes | None) -> str | None:
+def _apply(
+    files: dict[str, bytes], report: JobReport, finding: Finding, date: str, picture: bytes | None
+) -> str | None:
     """Put one finding into the files; how its topic came out, or None where it has none."""
     place = f"{finding.guid}/{_MARKUP}"
     was_there = place in files
@@ -125,7 +127,7 @@ def _apply(files: dict[str, bytes], report: Report, finding: Finding, date: str,
     return "updated" if was_there else "opened"
 
 
-def _attachments(report: Report, finding: Finding, picture: bytes | None) -> dict[str, bytes]:
+def _attachments(report: JobReport, finding: Finding, picture: bytes | None) -> dict[str, bytes]:
     """The files of a topic's folder beside its markup."""
     # OpenCV takes longer to import than everything else here takes to run.
     from aadm_workbench.report.bcf.snapshot import foot_picture
@@ -133,13 +135,13 @@ def _attachments(report: Report, finding: Finding, picture: bytes | None) -> dic
     content = {
         bcf_markup.VIEWPOINT: viewpoint(finding),
         bcf_markup.SNAPSHOT: picture or foot_picture(finding),
-        bcf_markup.TABLE: csv_content(report, [dict(finding.column)]),
+        bcf_markup.TABLE: csv_content(report, [finding.column]),
     }
     return {f"{finding.guid}/{name}": held for name, held in content.items()}
 
 
-def _project(report: Report) -> bytes:
-    name = bcf_markup.xml_text(str(report["job"]["name"]))
+def _project(report: JobReport) -> bytes:
+    name = bcf_markup.xml_text(str(report.job["name"]))
     root = ElementTree.Element("ProjectExtension")
     project = ElementTree.SubElement(root, "Project", ProjectId=str(uuid.uuid5(_PROJECTS, name)))
     ElementTree.SubElement(project, "Name").text = name
@@ -148,10 +150,10 @@ def _project(report: Report) -> bytes:
     return written
 
 
-def _capture_date(report: Report) -> datetime:
+def _capture_date(report: JobReport) -> datetime:
     """The day of the capture, so that the same report gives the same file; else now."""
     try:
-        taken = datetime.fromisoformat(str(report["capture"].get("date", "")))
+        taken = datetime.fromisoformat(report.capture.get("date", ""))
     except ValueError:
         return datetime.now(tz=UTC)
     return taken if taken.tzinfo else taken.replace(tzinfo=UTC)

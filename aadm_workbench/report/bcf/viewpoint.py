@@ -8,8 +8,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from aadm_workbench.model import Array
-from aadm_workbench.report.bcf.findings import Document, Finding, groups, points_of
+from aadm_workbench.model import Array, ColumnReport, Kind, PointResult
+from aadm_workbench.report.bcf.findings import Finding, points_of
 from aadm_workbench.report.words.labels import COLOUR
 
 _METRES = 1e-3  # BCF has metres alone
@@ -40,11 +40,13 @@ def viewpoint_guid(finding: Finding) -> str:
     return str(uuid.uuid5(uuid.UUID(finding.guid), "viewpoint"))
 
 
-def _camera(column: Document) -> tuple[Array, Array, Array]:
+def _camera(column: ColumnReport) -> tuple[Array, Array, Array]:
     """Position, direction and up (each (3,), m, model frame): under the foot, looking up, the column's y upwards."""
-    T_model_column = np.array(column["T_model_column"] or np.eye(4))
-    drawn = [point["design_mm"] for group in groups(column) for point in group["points"]]
-    size_mm = max([_SMALLEST_FOOT_MM, *(column["size_mm"] or ()), *np.ptp(np.array(drawn or [[0.0] * 3]), axis=0)[:2]])
+    T_model_column = np.eye(4) if column.T_model_column is None else column.T_model_column
+    drawn = [point.design_mm for kind in Kind for point in column.points(kind)]
+    size_mm = max(
+        [_SMALLEST_FOOT_MM, *(column.size_mm or ()), *np.ptp(np.array(drawn or [(0.0, 0.0, 0.0)]), axis=0)[:2]]
+    )
     seen_from_mm = size_mm * np.array([0.0, -_ASIDE_IN_FOOT_SIZES, -_DISTANCE_IN_FOOT_SIZES])
     rotation = T_model_column[:3, :3]
     direction = rotation @ (-seen_from_mm / np.linalg.norm(seen_from_mm))
@@ -56,21 +58,20 @@ def _camera(column: Document) -> tuple[Array, Array, Array]:
 
 def _components(root: ElementTree.Element, finding: Finding) -> None:
     """Select what the topic is about, show the column with its sleeves and bars alone, colour them by verdict."""
-    points = [point for group in groups(finding.column) for point in group["points"]]
-    column_id = finding.column["global_id"]
-    shown = _ids([{"global_id": column_id}, *points])
+    points = [point for kind in Kind for point in finding.column.points(kind)]
+    shown = _ids([finding.column, *points])
     if not shown:
         return
     blamed = [point for number in finding.numbers for point in points_of(finding.column, number)]
     components = ElementTree.SubElement(root, "Components")
-    _list(ElementTree.SubElement(components, "Selection"), _ids(blamed) or _ids([{"global_id": column_id}]) or shown)
+    _list(ElementTree.SubElement(components, "Selection"), _ids(blamed) or _ids([finding.column]) or shown)
     visibility = ElementTree.SubElement(components, "Visibility", DefaultVisibility="false")
     _list(ElementTree.SubElement(visibility, "Exceptions"), shown)
     coloring = ElementTree.SubElement(components, "Coloring")
     for verdict, colour in COLOUR.items():
-        coloured = _ids(point for point in points if point["verdict"] == verdict)
-        if finding.verdict == verdict and column_id:
-            coloured.append(column_id)
+        coloured = _ids(point for point in points if point.verdict == verdict)
+        if finding.verdict == verdict:
+            coloured += _ids([finding.column])
         if coloured:
             _list(ElementTree.SubElement(coloring, "Color", Color=_opaque(colour)), coloured)
 
@@ -80,8 +81,8 @@ def _opaque(colour: str) -> str:
     return f"FF{colour.removeprefix('#').upper()}"
 
 
-def _ids(entries: Iterable[Document]) -> list[str]:
-    return list(dict.fromkeys(entry["global_id"] for entry in entries if entry["global_id"]))
+def _ids(entries: Iterable[ColumnReport | PointResult]) -> list[str]:
+    return list(dict.fromkeys(entry.global_id for entry in entries if entry.global_id))
 
 
 def _list(parent: ElementTree.Element, global_ids: Iterable[str]) -> None:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
+from aadm_workbench.model import ColumnReport, GroupReport, Kind
 from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow, rectangle
 
 SIDE = 200.0
@@ -38,37 +38,33 @@ class FootSketch:
     limit_mm: float | None
 
 
-def group_marks(group: dict[str, Any]) -> list[Mark]:
+def group_marks(group: GroupReport) -> list[Mark]:
     """The points of sleeves or of rebars, measured minus design."""
     return [
         Mark(
-            point["label"],
-            (point["design_mm"][0], point["design_mm"][1]),
-            None if point["offset_mm"] is None else (point["offset_mm"][0], point["offset_mm"][1]),
-            point["limit_mm"],
-            point["verdict"],
+            point.label,
+            (point.design_mm[0], point.design_mm[1]),
+            point.offset_mm,
+            point.limit_mm,
+            point.verdict,
         )
-        for point in group["points"]
+        for point in group.points
     ]
 
 
-def pair_marks(column: dict[str, Any], pairs: Sequence[dict[str, Any]]) -> list[Mark]:
-    """Bars against their sleeves, rebar minus sleeve, drawn at the sleeve."""
-    places = {p["label"]: p["design_mm"] for p in (column["sleeves"] or {}).get("points", ())}
+def pair_marks(column: ColumnReport) -> list[Mark]:
+    """Bars against their sleeves at the pose that is shown, rebar minus sleeve, drawn at the sleeve."""
+    places = {point.label: (point.design_mm[0], point.design_mm[1]) for point in column.points(Kind.SLEEVE)}
     return [
-        Mark(
-            pair["sleeve"],
-            (places[pair["sleeve"]][0], places[pair["sleeve"]][1]),
-            (pair["offset_mm"][0], pair["offset_mm"][1]),
-            pair["limit_mm"],
-            pair["verdict"],
-        )
-        for pair in pairs
-        if pair["sleeve"] in places
+        Mark(pair.sleeve, places[pair.sleeve], pair.offset_mm, pair.limit_mm, pair.verdict)
+        for pair in column.pairs
+        if pair.sleeve in places
     ]
 
 
-def foot_sketch(marks: Sequence[Mark], size_mm: Sequence[float] | None, diameter_mm: float) -> FootSketch:
+def foot_sketch(
+    marks: Sequence[Mark], size_mm: Sequence[float] | None, diameter_mm: float, marked: Collection[str] = ()
+) -> FootSketch:
     """Outline, points, rings of the limit and arrows, seen from above with +y at the top.
 
     Parameters
@@ -77,6 +73,8 @@ def foot_sketch(marks: Sequence[Mark], size_mm: Sequence[float] | None, diameter
         Of the cross-section; where unknown the outline is left out.
     diameter_mm
         Of the points as they are drawn.
+    marked
+        Labels of the points that get a ring more.
     """
     reach = _reach(marks, size_mm)
     scale = (SIDE - 2.0 * _MARGIN) / (2.0 * reach)
@@ -91,6 +89,9 @@ def foot_sketch(marks: Sequence[Mark], size_mm: Sequence[float] | None, diameter
     radius = max(2.2, diameter_mm / 2.0 * scale)
     for mark in marks:
         shapes += _mark(mark, scale, factor, radius, ring)
+        if mark.label in marked:
+            at = (SIDE / 2 + mark.design_mm[0] * scale, SIDE / 2 + mark.design_mm[1] * scale)
+            shapes.append(Circle(at, max(radius, ring) + 4.5, "ring-named"))
     shapes.sort(key=_layer)
     return FootSketch(Sketch(SIDE, SIDE, tuple(shapes)), factor, limit_mm)
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
-
+from aadm_workbench.model import MouldDrift
 from aadm_workbench.report.drawing.sketch import Label, Polyline, Shape, Sketch, rectangle
 
 # the usual bounds of process capability (ISO 22514-2): not capable, capable; where bars end
@@ -12,11 +11,9 @@ _ROW = 15.0  # a line of letters
 _LEFT, _RIGHT = 40.0, 380.0  # room for a label on the left, and for a number on the right
 
 
-def mould_sketch(mould: dict[str, Any]) -> Sketch:
+def mould_sketch(mould: MouldDrift) -> Sketch:
     """One row a sleeve, two bars a row; a Cpk above 3 ends at the edge."""
-    rows = [
-        (sleeve["label"], {item["axis"]: item["cpk"] for item in sleeve["capability"]}) for sleeve in mould["sleeves"]
-    ]
+    rows = [(sleeve.label, {item.axis: item.cpk for item in sleeve.capability}) for sleeve in mould.sleeves]
     height = _ROW * len(rows) + 24.0
     shapes: list[Shape] = []
     for value, style in ((_LOW_CPK, "fail"), (_GOOD_CPK, "pass")):

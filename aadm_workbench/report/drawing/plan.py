@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
+from aadm_workbench.model import Array, ColumnReport
 from aadm_workbench.report.drawing.sketch import Label, Link, Point, Polyline, Shape, Sketch, rectangle
 from aadm_workbench.report.words.labels import SIGN
 
@@ -26,7 +26,7 @@ class Plan:
     sketch: Sketch
 
 
-def floor_plans(columns: Sequence[dict[str, Any]], anchors: dict[str, str]) -> list[Plan]:
+def floor_plans(columns: Sequence[ColumnReport], anchors: dict[str, str]) -> list[Plan]:
     """A plan for each storey, and one of tiles for columns without a place.
 
     Parameters
@@ -34,30 +34,29 @@ def floor_plans(columns: Sequence[dict[str, Any]], anchors: dict[str, str]) -> l
     anchors
         Where a click on a column leads, by its id.
     """
-    storeys: dict[str, list[dict[str, Any]]] = defaultdict(list)
+    storeys: dict[str, list[ColumnReport]] = defaultdict(list)
     tiles = []
     for column in columns:
-        if column["T_model_column"] is None:
+        if column.T_model_column is None:
             tiles.append(column)
         else:
-            storeys[column["storey"] or ""].append(column)
+            storeys[column.storey or ""].append(column)
     plans = [Plan(storey, True, _placed(storeys[storey], anchors)) for storey in sorted(storeys)]
     return plans + ([Plan("", False, _tiles(tiles, anchors))] if tiles else [])
 
 
-def place_mm(column: dict[str, Any]) -> Point:
-    """Where a column stands in the plan of the model, mm."""
-    T = column["T_model_column"]
+def place_mm(T: Array) -> Point:
+    """Where a column with that ``T_model_column`` stands in the plan of the model, mm."""
     return float(T[0][3]), float(T[1][3])
 
 
-def grid_tags(column: dict[str, Any]) -> tuple[str, ...]:
+def grid_tags(column: ColumnReport) -> tuple[str, ...]:
     """The axes that a column stands on: ``C/3`` gives C and 3."""
-    return tuple(tag for tag in (column["grid"] or "").split("/") if tag)
+    return tuple(tag for tag in (column.grid or "").split("/") if tag)
 
 
-def _placed(columns: Sequence[dict[str, Any]], anchors: dict[str, str]) -> Sketch:
-    places = [place_mm(column) for column in columns]
+def _placed(columns: Sequence[ColumnReport], anchors: dict[str, str]) -> Sketch:
+    places = [place_mm(column.T_model_column) for column in columns if column.T_model_column is not None]
     low = (min(x for x, _ in places), min(y for _, y in places))
     span = (max(x for x, _ in places) - low[0], max(y for _, y in places) - low[1])
     scale = min((WIDTH - 2 * _MARGIN) / max(span[0], 1.0), (_HIGHEST - 2 * _MARGIN) / max(span[1], 1.0))
@@ -82,7 +81,7 @@ def _nearest(places: Sequence[Point]) -> float:
     return min(found, default=WIDTH)
 
 
-def _tiles(columns: Sequence[dict[str, Any]], anchors: dict[str, str]) -> Sketch:
+def _tiles(columns: Sequence[ColumnReport], anchors: dict[str, str]) -> Sketch:
     in_row = min(len(columns), 10)
     step = WIDTH / max(in_row, 5)
     rows = -(-len(columns) // in_row)
@@ -94,20 +93,20 @@ def _tiles(columns: Sequence[dict[str, Any]], anchors: dict[str, str]) -> Sketch
     return Sketch(WIDTH, height, tuple(shapes))
 
 
-def _column(column: dict[str, Any], at: Point, half: float, anchors: dict[str, str]) -> Link:
-    verdict = column["verdict"]
+def _column(column: ColumnReport, at: Point, half: float, anchors: dict[str, str]) -> Link:
+    verdict = column.verdict
     low, high = (at[0] - half, at[1] - half), (at[0] + half, at[1] + half)
     size = min(15.0, max(8.0, half * 0.8))
-    name = column["id"] if len(column["id"]) <= 16 else f"{column['id'][:15]}…"
+    name = column.id if len(column.id) <= 16 else f"{column.id[:15]}…"
     shapes = (
         rectangle(low, high, f"fill-{verdict}"),
         Label(at, SIGN[verdict], half * 1.4, "text", bold=True),
         Label((at[0], at[1] - half - size * 0.75), name, size, "text-fail" if verdict == "fail" else "text", bold=True),
     )
-    return Link(anchors[column["id"]], column["id"], shapes)
+    return Link(anchors[column.id], column.id, shapes)
 
 
-def _grid_lines(columns: Sequence[dict[str, Any]], at: Sequence[Point]) -> Iterator[Shape]:
+def _grid_lines(columns: Sequence[ColumnReport], at: Sequence[Point]) -> Iterator[Shape]:
     """A line through the columns of each axis that at least two of them stand on."""
     members: dict[str, list[Point]] = defaultdict(list)
     for column, place in zip(columns, at, strict=True):

@@ -54,6 +54,7 @@ STYLES: dict[str, Style] = {
     "text-faint": Style(None, FAINT),
     "text-light": Style(None, "#ffffff"),
     "text-move": Style(None, MOVE),
+    "ring-named": Style(MOVE, None, 1.6),
 }
 
 

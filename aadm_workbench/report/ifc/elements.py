@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from aadm_workbench.design.ifc.columns import names
 from aadm_workbench.design.ifc.ids import elements_by_id
 from aadm_workbench.errors import ReportError
+from aadm_workbench.model import ColumnDesign, ColumnReport, PointResult
 
 
 class Elements:
@@ -16,25 +17,25 @@ class Elements:
     def __init__(self, file: Any) -> None:
         self._by_id = elements_by_id(file)
 
-    def column(self, column: dict[str, Any]) -> Any:
+    def column(self, column: ColumnReport | ColumnDesign) -> Any:
         """The element of a column; of several with its GlobalId the one that is called like it, else None."""
-        found = self._by_id.get(column["global_id"] or "", [])
+        found = self._by_id.get(column.global_id or "", [])
         if len(found) > 1:
-            found = [element for element in found if column["id"] in names(element)]
+            found = [element for element in found if column.id in names(element)]
         return found[0] if len(found) == 1 else None
 
-    def point(self, point: dict[str, Any]) -> Any:
+    def point(self, point: PointResult) -> Any:
         """The element of a sleeve or a bar; None where there is none, or several have its GlobalId."""
-        found = self._by_id.get(point["global_id"] or "", [])
+        found = self._by_id.get(point.global_id or "", [])
         return found[0] if len(found) == 1 else None
 
     def is_shared(self, global_id: str | None) -> bool:
         """Whether several elements have a GlobalId."""
         return len(self._by_id.get(global_id or "", ())) > 1
 
-    def notes(self, entries: list[dict[str, Any]]) -> Iterator[str]:
+    def notes(self, entries: Iterable[ColumnReport | PointResult]) -> Iterator[str]:
         """What to say of those columns and points that nothing was written to because of their GlobalIds."""
-        shared = {entry["global_id"] for entry in entries if self.is_shared(entry["global_id"])}
+        shared = {entry.global_id or "" for entry in entries if self.is_shared(entry.global_id)}
         if shared:
             shown = ", ".join(sorted(shared)[:_SHOWN]) + (", …" if len(shared) > _SHOWN else "")
             yield (
@@ -46,7 +47,7 @@ class Elements:
 _SHOWN = 4  # names in a message
 
 
-def check_named_once(of_column: dict[str, Any]) -> None:
+def check_named_once(of_column: Mapping[str, Any]) -> None:
     """Refuse a report in which two columns are one element: the second would overwrite the first.
 
     Parameters

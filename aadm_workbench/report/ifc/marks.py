@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, ColumnReport, Kind, PointResult
 from aadm_workbench.report.ifc.addition import Addition
 from aadm_workbench.report.words.labels import COLOUR
 
@@ -25,9 +25,19 @@ _ARROW_MM = 100.0
 # per cent of its length: a shaft, and a head of 30
 _ARROW = ((0.0, -3.0), (70.0, -3.0), (70.0, -11.0), (100.0, 0.0), (70.0, 11.0), (70.0, 3.0), (0.0, 3.0))
 _SHORTEST_MM = 0.01  # an arrow shorter than this has no direction
-_LAYERS = {"sleeves": "AADM as-built sleeves", "rebars": "AADM as-built bars"}
-_BELOW = {"sleeves": -_THICKNESS_MM, "rebars": 0.0}
+_LAYERS = {Kind.SLEEVE: "AADM as-built sleeves", Kind.REBAR: "AADM as-built bars"}
+_BELOW = {Kind.SLEEVE: -_THICKNESS_MM, Kind.REBAR: 0.0}
 """Marks of sleeves hang below the foot face, those of bars lie on their tops: outside of concrete and steel."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """A point that was measured: its offset, mm, and where its mark stands in the frame of its storey."""
+
+    kind: Kind
+    point: PointResult
+    offset_mm: tuple[float, float]
+    T_parent_mark: Array
 
 
 @dataclass
@@ -41,17 +51,20 @@ class Marks:
     _maps: dict[tuple[str, ...], Any] = field(default_factory=dict)
     _once: dict[str, Any] = field(default_factory=dict)
 
-    def draw(self, column: dict[str, Any], element: Any, T_model_column: Array) -> None:
+    def draw(self, column: ColumnReport, element: Any, T_model_column: Array) -> None:
         """Mark every measured centre of a column; ``T_model_column`` (4, 4), mm, world coordinate system included."""
         from ifcopenshell.util.element import get_container
 
         container = get_container(element)
         context = _context_of(element, self.addition.file)
         T_parent_column = _relative(self._frame_of(container, context), T_model_column)
-        for kind in ("sleeves", "rebars"):
-            for point in (column[kind] or {"points": ()})["points"]:
-                if point["aligned_mm"] is not None and point["offset_mm"] is not None:
-                    mark = self._mark(column, element, kind, point, T_parent_column, container, context)
+        for kind in Kind:
+            for point in column.points(kind):
+                if point.aligned_mm is not None and point.offset_mm is not None:
+                    T_parent_mark = T_parent_column.copy()
+                    T_parent_mark[:3, 3] += T_parent_column[:3, :3] @ np.array(point.aligned_mm)
+                    seen = _Seen(kind, point, point.offset_mm, T_parent_mark)
+                    mark = self._mark(column, element, seen, container, context)
                     self.drawn.append(mark)
                     if container is not None:
                         self._contained.setdefault(container.id(), (container, []))[1].append(mark)
@@ -92,37 +105,33 @@ class Marks:
 
     def _mark(
         self,
-        column: dict[str, Any],
+        column: ColumnReport,
         element: Any,
-        kind: str,
-        point: dict[str, Any],
-        T_parent_column: Array,
+        seen: _Seen,
         container: Any,
         context: Any,
     ) -> Any:
-        add, (dx, dy) = self.addition, point["offset_mm"]
-        T_parent_mark = T_parent_column.copy()
-        T_parent_mark[:3, 3] += T_parent_column[:3, :3] @ np.array(point["aligned_mm"])
+        add, point = self.addition, seen.point
         placement = add.new(
             "IfcLocalPlacement",
             PlacementRelTo=getattr(container, "ObjectPlacement", None),
-            RelativePlacement=add.axes(T_parent_mark),
+            RelativePlacement=add.axes(seen.T_parent_mark),
         )
         shapes = [
-            self._shape(context, "Body", "MappedRepresentation", list(self._solids(kind, point, context))),
-            self._shape(context, "Annotation", "GeometricCurveSet", [self._curves(dx, dy)]),
+            self._shape(context, "Body", "MappedRepresentation", list(self._solids(seen, context))),
+            self._shape(context, "Annotation", "GeometricCurveSet", [self._curves(*seen.offset_mm)]),
         ]
-        self._shapes.setdefault(_LAYERS[kind], []).extend(shapes)
+        self._shapes.setdefault(_LAYERS[seen.kind], []).extend(shapes)
         said = (
-            f"Column {column['id']}: measured centre of {point['label']}, {point['deviation_mm'] or 0.0:.2f} mm from "
-            f"design, {point['verdict'].replace('_', ' ')}. The arrow starts at the designed centre and is "
+            f"Column {column.id}: measured centre of {point.label}, {point.deviation_mm or 0.0:.2f} mm from "
+            f"design, {point.verdict.replace('_', ' ')}. The arrow starts at the designed centre and is "
             f"{MAGNIFIED:g} times as long as the deviation."
         )
         attributes = {"PredefinedType": "USERDEFINED"} if add.is_4x3 else {}
         return add.rooted(
             "IfcAnnotation",
-            (element.GlobalId, point["label"]),
-            f"{point['label']} as-built",
+            (element.GlobalId, point.label),
+            f"{point.label} as-built",
             Description=said,
             ObjectType="AADM as-built centre",
             ObjectPlacement=placement,
@@ -139,12 +148,12 @@ class Marks:
             Items=items,
         )
 
-    def _solids(self, kind: str, point: dict[str, Any], context: Any) -> Iterator[Any]:
+    def _solids(self, seen: _Seen, context: Any) -> Iterator[Any]:
         """A disk at the measured centre, and the arrow from the designed one."""
-        add, (dx, dy) = self.addition, point["offset_mm"]
+        add, (dx, dy) = self.addition, seen.offset_mm
         length_mm = float(np.hypot(dx, dy))
         in_place = add.new("IfcCartesianTransformationOperator3D", LocalOrigin=add.point(0.0, 0.0, 0.0))
-        yield add.new("IfcMappedItem", MappingSource=self._map("disk", kind, point, context), MappingTarget=in_place)
+        yield add.new("IfcMappedItem", MappingSource=self._map("disk", seen, context), MappingTarget=in_place)
         if length_mm > _SHORTEST_MM:
             target = add.new(
                 "IfcCartesianTransformationOperator3D",
@@ -153,15 +162,15 @@ class Marks:
                 LocalOrigin=add.point(-dx, -dy, 0.0),
                 Scale=MAGNIFIED * length_mm / _ARROW_MM,
             )
-            yield add.new("IfcMappedItem", MappingSource=self._map("arrow", kind, point, context), MappingTarget=target)
+            yield add.new("IfcMappedItem", MappingSource=self._map("arrow", seen, context), MappingTarget=target)
 
-    def _map(self, what: str, kind: str, point: dict[str, Any], context: Any) -> Any:
+    def _map(self, what: str, seen: _Seen, context: Any) -> Any:
         """A disk or an arrow of one colour, drawn once and used by all marks."""
-        key = (what, kind, point["verdict"], str(context.id()))
+        key = (what, seen.kind, seen.point.verdict, str(context.id()))
         if key not in self._maps:
             add = self.addition
             lower = np.eye(4)
-            lower[2, 3] = _BELOW[kind]
+            lower[2, 3] = _BELOW[seen.kind]
             solid = add.new(
                 "IfcExtrudedAreaSolid",
                 SweptArea=self._profile(what),
@@ -169,7 +178,7 @@ class Marks:
                 ExtrudedDirection=add.direction(np.array([0.0, 0.0, 1.0])),
                 Depth=add.length(_THICKNESS_MM),
             )
-            add.new("IfcStyledItem", Item=solid, Styles=[self._style(point["verdict"])])
+            add.new("IfcStyledItem", Item=solid, Styles=[self._style(seen.point.verdict)])
             shape = self._shape(context, "Body", "SweptSolid", [solid])
             self._maps[key] = add.new(
                 "IfcRepresentationMap", MappingOrigin=add.axes(np.eye(4)), MappedRepresentation=shape

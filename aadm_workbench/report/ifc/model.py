@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,7 +21,7 @@ from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc.text.step import step_text
 from aadm_workbench.errors import ReportError
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, ColumnReport, JobReport, PointResult
 from aadm_workbench.own_files import is_there
 from aadm_workbench.report.ifc import sets as ifc_sets
 from aadm_workbench.report.ifc.addition import Addition
@@ -31,7 +31,6 @@ from aadm_workbench.report.ifc.marks import Marks
 from aadm_workbench.report.ifc.points import write_points
 from aadm_workbench.report.ifc.records import add_records, add_report_link
 from aadm_workbench.report.ifc.removal import Stripped, keep_book, without_results
-from aadm_workbench.report.read import Report
 
 _SHORT_HASH = 12  # 48 bits: no two states of a model share them
 
@@ -61,7 +60,7 @@ def ids_path() -> Path:
 
 
 def write_ifc(
-    report: Report, model: Path, out: Path, *, report_location: str | None = None, force: bool = False
+    report: JobReport, model: Path, out: Path, *, report_location: str | None = None, force: bool = False
 ) -> WriteBack:
     """Write the results of a check into an IFC model.
 
@@ -94,9 +93,7 @@ def write_ifc(
     if not same and not force:
         raise ReportError(_not_the_same(report, model, stripped))
     elements = Elements(opened.file)
-    of_column = {
-        column["id"]: element for column in report["columns"] if (element := elements.column(column)) is not None
-    }
+    of_column = {column.id: element for column in report.columns if (element := elements.column(column)) is not None}
     if not of_column:
         raise ReportError(_no_column(report, model, elements))
     check_named_once(of_column)
@@ -104,10 +101,10 @@ def write_ifc(
     text = step_text(stripped.content)
     addition = Addition(opened, text)
     assigner, marks = Assigner(addition), Marks(addition)
-    missing = [f"column {column['id']}" for column in report["columns"] if column["id"] not in of_column]
-    checked = [column for column in report["columns"] if column["id"] in of_column]
+    missing = [f"column {column.id}" for column in report.columns if column.id not in of_column]
+    checked = [column for column in report.columns if column.id in of_column]
     for column in checked:
-        element = of_column[column["id"]]
+        element = of_column[column.id]
         assigner.assign(element, ifc_sets.COLUMN_SET, ifc_sets.column_properties(report, column))
         if element.id() in frames:
             marks.draw(column, element, frames[element.id()])
@@ -116,7 +113,7 @@ def write_ifc(
     marks.finish()
     if report_location:
         add_report_link(addition, report_location, list(of_column.values()))
-    checked_sha256 = str((report["model"] or {}).get("sha256", ""))
+    checked_sha256 = (report.model or {}).get("sha256", "")
     keep_book(addition, text, checked_sha256, ifc_sets.write_back_properties(report))
     replaced = {number: _line(opened.file, number) for number in addition.altered}
     content = text.edited(replaced=replaced, appended=addition.lines())
@@ -130,7 +127,7 @@ def write_ifc(
         property_sets=assigner.assigned,
         annotations=len(marks.drawn),
         missing=tuple(missing),
-        notes=(*stripped.notes, *_notes(assigner), *elements.notes(list(_entries(report)))),
+        notes=(*stripped.notes, *_notes(assigner), *elements.notes(_entries(report))),
         backup=backup,
     )
 
@@ -186,35 +183,35 @@ def _check_writable(model: Path) -> None:
             raise ReportError(f"{model}: is written in UTF-16, into which no line of STEP fits; export it again")
 
 
-def _is_same_model(report: Report, model: Path, stripped: Stripped) -> bool:
-    if report["model"] is None:
+def _is_same_model(report: JobReport, model: Path, stripped: Stripped) -> bool:
+    if report.model is None:
         return False
     known = {_sha256(model.read_bytes()), _sha256(stripped.content)}
     if stripped.exact:
         known.add(stripped.checked_sha256)
-    return str(report["model"]["sha256"]) in known
+    return report.model["sha256"] in known
 
 
-def _not_the_same(report: Report, model: Path, stripped: Stripped) -> str:
-    if report["model"] is None:
+def _not_the_same(report: JobReport, model: Path, stripped: Stripped) -> str:
+    if report.model is None:
         return (
             f"{model}: the columns of this report were checked against designs in the job, not against a model, so no "
             "element is theirs. Check them with [model] in the job"
         )
-    now, checked = _sha256(stripped.content), str(report["model"]["sha256"])
+    now, checked = _sha256(stripped.content), report.model["sha256"]
     return (
-        f"{model} is not the model that was checked ({report['model']['source']}), or has changed since: its sha256 "
+        f"{model} is not the model that was checked ({report.model['source']}), or has changed since: its sha256 "
         f"begins with {now[:_SHORT_HASH]}, that of the report with {checked[:_SHORT_HASH]}. Repeat the check; or write "
         "into it as it is, columns found by GlobalId (--force)"
     )
 
 
-def _frames(report: Report, of_column: dict[str, Any]) -> dict[int, Array]:
+def _frames(report: JobReport, of_column: Mapping[str, Any]) -> dict[int, Array]:
     """``T_model_column`` (4, 4), mm, by the number of the column's element, as it was when the column was checked."""
     return {
-        of_column[column["id"]].id(): np.array(column["T_model_column"], dtype=float)
-        for column in report["columns"]
-        if column["T_model_column"] is not None and column["id"] in of_column
+        of_column[column.id].id(): np.array(column.T_model_column, dtype=float)
+        for column in report.columns
+        if column.T_model_column is not None and column.id in of_column
     }
 
 
@@ -227,17 +224,16 @@ def _frames_now(content: bytes, elements: Elements) -> dict[int, Array]:
     return {
         element.id(): np.array(column.T_model_column, dtype=float)
         for column in columns
-        if column.T_model_column is not None
-        and (element := elements.column({"id": column.id, "global_id": column.global_id})) is not None
+        if column.T_model_column is not None and (element := elements.column(column)) is not None
     }
 
 
-def _entries(report: Report) -> Iterator[dict[str, Any]]:
+def _entries(report: JobReport) -> Iterator[ColumnReport | PointResult]:
     """Columns and points of a report: whatever has a GlobalId."""
-    for column in report["columns"]:
+    for column in report.columns:
         yield column
         for kind in ifc_sets.POINT_SETS:
-            yield from (column[kind] or {"points": ()})["points"]
+            yield from column.points(kind)
 
 
 def _line(file: Any, number: int) -> bytes:
@@ -246,10 +242,10 @@ def _line(file: Any, number: int) -> bytes:
     return line_of(file.by_id(number))
 
 
-def _no_column(report: Report, model: Path, elements: Elements) -> str:
-    if notes := list(elements.notes(report["columns"])):
+def _no_column(report: JobReport, model: Path, elements: Elements) -> str:
+    if notes := list(elements.notes(report.columns)):
         return f"{model}: {notes[0]}"
-    ids = [str(column["id"]) for column in report["columns"]]
+    ids = [str(column.id) for column in report.columns]
     shown = ", ".join(ids[:5]) + (", …" if len(ids) > 5 else "")
     return f"{model} holds none of the report's columns ({shown}): no element has their GlobalIds. Name another model"
 

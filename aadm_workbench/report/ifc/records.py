@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 from urllib.parse import quote
 
+from aadm_workbench.model import ColumnReport, JobReport
 from aadm_workbench.report.ifc.addition import Addition, label, readable
-from aadm_workbench.report.read import Report
 
 _STATUS = {"pass": "Requested", "fail": "Not Approved"}
 """A measurement asks for the engineer's approval of what passes; it never gives it."""
@@ -18,12 +18,12 @@ _LEVEL = "Column, before hoisting"
 _NAME = "AADM column check"
 
 
-def add_records(addition: Addition, report: Report, column: dict[str, Any], element: Any) -> None:
+def add_records(addition: Addition, report: JobReport, column: ColumnReport, element: Any) -> None:
     """An inspection task that was carried out on a column, and its approval.
 
     IFC2X3 cannot hold an approval without a date: there it is left out where the capture has none.
     """
-    said = "; ".join(column["reasons"]) or "passes"
+    said = "; ".join(column.reasons) or "passes"
     task = _task(addition, column, element, said)
     key = (element.GlobalId,)
     addition.rooted("IfcRelAssignsToProcess", key, _NAME, RelatedObjects=[element], RelatingProcess=task)
@@ -45,19 +45,19 @@ def add_report_link(addition: Addition, location: str, elements: Sequence[Any]) 
     )
 
 
-def _task(addition: Addition, column: dict[str, Any], element: Any, said: str) -> Any:
-    identifier = label(f"AADM {column['id']}")
+def _task(addition: Addition, column: ColumnReport, element: Any, said: str) -> Any:
+    identifier = label(f"AADM {column.id}")
     if addition.is_2x3:
-        attributes: dict[str, Any] = {"TaskId": identifier}
+        attributes = {"TaskId": identifier}
         described = said
     else:
         kind = "INSPECTION" if addition.is_4x3 else "USERDEFINED"
         attributes = {"Identification": identifier, "LongDescription": readable(said), "PredefinedType": kind}
-        described = f"Sleeves and connecting rebars of column {column['id']}"
+        described = f"Sleeves and connecting rebars of column {column.id}"
     return addition.rooted(
         "IfcTask",
         (element.GlobalId,),
-        f"{_NAME} {column['id']}",
+        f"{_NAME} {column.id}",
         Description=readable(described),
         ObjectType="INSPECTION",
         Status="COMPLETED",
@@ -66,10 +66,10 @@ def _task(addition: Addition, column: dict[str, Any], element: Any, said: str) -
     )
 
 
-def _approval(addition: Addition, report: Report, column: dict[str, Any], said: str) -> Any:
+def _approval(addition: Addition, report: JobReport, column: ColumnReport, said: str) -> Any:
     day = _day(report)
-    status = _STATUS.get(column["verdict"], _UNDECIDED)
-    identifier, name = label(f"AADM {column['id']}"), label(f"Hoisting of column {column['id']}")
+    status = _STATUS.get(column.verdict, _UNDECIDED)
+    identifier, name = label(f"AADM {column.id}"), label(f"Hoisting of column {column.id}")
     if not addition.is_2x3:
         return addition.new(
             "IfcApproval",
@@ -79,7 +79,7 @@ def _approval(addition: Addition, report: Report, column: dict[str, Any], said: 
             TimeOfApproval=f"{day.isoformat()}T00:00:00" if day else None,
             Status=status,
             Level=_LEVEL,
-            Qualifier=label(f"measured: {column['verdict'].replace('_', ' ')}"),
+            Qualifier=label(f"measured: {column.verdict.replace('_', ' ')}"),
         )
     if day is None:
         return None
@@ -92,12 +92,12 @@ def _approval(addition: Addition, report: Report, column: dict[str, Any], said: 
         ApprovalDateTime=date,
         ApprovalStatus=status,
         ApprovalLevel=_LEVEL,
-        ApprovalQualifier=label(f"measured: {column['verdict'].replace('_', ' ')}"),
+        ApprovalQualifier=label(f"measured: {column.verdict.replace('_', ' ')}"),
     )
 
 
-def _day(report: Report) -> datetime.date | None:
+def _day(report: JobReport) -> datetime.date | None:
     try:
-        return datetime.date.fromisoformat(str(report["capture"].get("date", ""))[:10])
+        return datetime.date.fromisoformat(report.capture.get("date", "")[:10])
     except ValueError:
         return None

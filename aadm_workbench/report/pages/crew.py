@@ -9,12 +9,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
+from aadm_workbench.model import (
+    CameraMove,
+    ColumnReport,
+    Correction,
+    HoistingReport,
+    JobReport,
+    Kind,
+    PointResult,
+    RepairReport,
+    RepairStep,
+)
 from aadm_workbench.report.directions import SMALLEST_MM, Compass, compass_of
 from aadm_workbench.report.hoist import Hoist, hoist_of
-from aadm_workbench.report.read import Report
-from aadm_workbench.report.shown_pose import shown_pose
 from aadm_workbench.report.words.labels import Phrase, phrase
 from aadm_workbench.report.words.reasons import in_both_languages
 
@@ -53,48 +62,49 @@ class CrewAdvice:
     compass: Compass
 
 
-def crew_advice(report: Report, column: dict[str, Any]) -> CrewAdvice:
+def crew_advice(report: JobReport, column: ColumnReport) -> CrewAdvice:
     """What to do with a column.
 
     Where a frame was taken while the column hung over its bars, the last one says where to move it; before that the
     check says whether it may be hoisted, and what has to be done first.
     """
-    hoist, compass = hoist_of(column), compass_of(report, column)
-    frame = next((frame for frame in reversed(column["hoisting"]) if frame["correction"] is not None), None)
-    if frame is not None and column["verdict"] != "fail" and column["goes_on"] != "fail":
-        return _hanging(column, frame, hoist, compass)
-    repair = column.get("repair")
+    hoist, compass = hoist_of(column), compass_of(report.columns, column)
+    for frame in reversed(column.hoisting):
+        if frame.correction is not None and column.verdict != "fail" and column.goes_on != "fail":
+            return _hanging(column, frame, frame.correction, hoist, compass)
+    repair = column.repair
     if hoist.state == "yes":
         steps = [*_turned(column), Step(phrase("crew.nothing_to_do")), *_room(column)]
         return CrewAdvice("green", phrase("crew.go"), tuple(steps), (), 0.0, hoist, compass)
-    failed = column["verdict"] == "fail"
+    failed = column.verdict == "fail"
     light: Light = "red" if failed else "amber"
     headline = phrase("crew.stop" if failed else "crew.wait")
     shifts = tuple(_bends(repair)) if failed and repair is not None else ()
     return CrewAdvice(light, headline, tuple(_first(column, repair, compass)), shifts, 0.0, hoist, compass)
 
 
-def _hanging(column: dict[str, Any], frame: dict[str, Any], hoist: Hoist, compass: Compass) -> CrewAdvice:
-    move = frame["correction"]
-    vector = (move["dx_mm"], move["dy_mm"])
-    steps = [*_turn(column, move["yaw_deg"]), *_move(vector, compass, _beside_camera(move.get("camera")))]
-    passed = frame["verdict"] == "pass"
-    if frame["column_tilt_deg"] is not None and frame["column_tilt_deg"] >= _NOTICED_TILT_DEG:
-        steps.insert(0, Step(phrase("crew.tilted", deg=f"{frame['column_tilt_deg']:.1f}")))
+def _hanging(
+    column: ColumnReport, frame: HoistingReport, move: Correction, hoist: Hoist, compass: Compass
+) -> CrewAdvice:
+    vector = (move.dx_mm, move.dy_mm)
+    steps = [*_turn(column, move.yaw_deg), *_move(vector, compass, _beside_camera(move.camera))]
+    passed = frame.verdict == "pass"
+    if frame.column_tilt_deg is not None and frame.column_tilt_deg >= _NOTICED_TILT_DEG:
+        steps.insert(0, Step(phrase("crew.tilted", deg=f"{frame.column_tilt_deg:.1f}")))
     if not steps:
         steps = [Step(phrase("crew.lower"))]
     else:
         steps.append(Step(phrase("crew.then_lower" if passed else "crew.measure_again")))
     light: Light = "green" if passed else "amber"
     headline = phrase("crew.moved_go" if passed else "crew.moved_wait")
-    return CrewAdvice(light, headline, tuple(steps), (Shift("", vector),), move["yaw_deg"], hoist, compass)
+    return CrewAdvice(light, headline, tuple(steps), (Shift("", vector),), move.yaw_deg, hoist, compass)
 
 
-def _turn(column: dict[str, Any], yaw_deg: float) -> Iterator[Step]:
+def _turn(column: ColumnReport, yaw_deg: float) -> Iterator[Step]:
     """Counter-clockwise from above where the yaw is above zero."""
     if abs(yaw_deg) < _SMALLEST_TURN_DEG:
         return
-    size = column["size_mm"] or _extent(column)
+    size = column.size_mm or _extent(column)
     corner_mm = math.radians(abs(yaw_deg)) * math.hypot(*size) / 2.0
     word = "crew.turn_left" if yaw_deg > 0.0 else "crew.turn_right"
     yield Step(phrase(word, deg=f"{abs(yaw_deg):.2f}", mm=f"{corner_mm:.1f}"))
@@ -107,13 +117,13 @@ def _move(vector_mm: Sequence[float], compass: Compass, beside_camera: Phrase) -
         yield Step(Phrase(told.en + beside_camera.en, told.zh + beside_camera.zh))
 
 
-def _beside_camera(seen: dict[str, Any] | None) -> Phrase:
+def _beside_camera(seen: CameraMove | None) -> Phrase:
     """The same displacement for whoever stands at the camera; empty where the report does not know it."""
     if seen is None:
         return Phrase("", "")
     ways = [
         phrase(f"crew.camera_{ahead if value > 0.0 else back}", mm=f"{abs(value):.1f}")
-        for value, ahead, back in ((seen["right_mm"], "right", "left"), (seen["away_mm"], "away", "near"))
+        for value, ahead, back in ((seen.right_mm, "right", "left"), (seen.away_mm, "away", "near"))
         if abs(value) >= SMALLEST_MM
     ]
     if not ways:
@@ -127,26 +137,26 @@ def _with_way(name: str, way: Phrase, **values: object) -> Phrase:
     return Phrase(text.en.format(way=way.en, **values), text.zh.format(way=way.zh, **values))
 
 
-def _extent(column: dict[str, Any]) -> tuple[float, float]:
+def _extent(column: ColumnReport) -> tuple[float, float]:
     """Width of the pattern along x and y, mm, where the size of the cross-section is not known."""
-    points: list[dict[str, Any]] = next((column[kind]["points"] for kind in ("sleeves", "rebars") if column[kind]), [])
-    across = [[abs(point["design_mm"][axis]) for point in points] for axis in (0, 1)]
+    points = next((group.points for group in column.groups.values()), ())
+    across = [[abs(point.design_mm[axis]) for point in points] for axis in (0, 1)]
     return 2.0 * max(across[0], default=0.0), 2.0 * max(across[1], default=0.0)
 
 
-def _first(column: dict[str, Any], repair: dict[str, Any] | None, compass: Compass) -> Iterator[Step]:
+def _first(column: ColumnReport, repair: RepairReport | None, compass: Compass) -> Iterator[Step]:
     """What has to be done before the column may be hoisted."""
-    verdict = column["verdict"]
+    verdict = column.verdict
     if verdict == "error":
         yield Step(phrase("crew.scan_or_copy"))
         return
     if verdict == "pass":
-        yield from (Step(phrase(f"crew.scan_{part}")) for part, kind in _PARTS if column[kind] is None)
+        yield from (Step(phrase(f"crew.scan_{part}")) for kind, part in _PARTS.items() if kind not in column.groups)
         return
-    in_the_way = (column["trial_assembly"] or {}).get("in_the_way", ())
-    if in_the_way:
-        yield Step(phrase("crew.in_the_way", labels=", ".join(in_the_way)))
-    held = [finding["text"] for finding in column.get("findings", ()) if finding["holds_back"]]
+    trial = column.trial_assembly
+    if trial is not None and trial.in_the_way:
+        yield Step(phrase("crew.in_the_way", labels=", ".join(trial.in_the_way)))
+    held = [finding.text for finding in column.findings if finding.holds_back]
     yield from (Step(in_both_languages(text)) for text in held)
     if verdict == "not_measured" and held:
         return  # what was scanned is not what was to be: its points are not looked for one by one
@@ -156,117 +166,110 @@ def _first(column: dict[str, Any], repair: dict[str, Any] | None, compass: Compa
     elif verdict == "fail":
         yield from _refused(column)
     elif verdict == "inconclusive" and not held:
-        told = any("declare up" in reason or "how the column is turned" in reason for reason in column["reasons"])
+        told = any("declare up" in reason or "how the column is turned" in reason for reason in column.reasons)
         yield Step(phrase("crew.say_up" if told else "crew.scan_closer"))
     elif not held and not any(_missing(column)):
         yield Step(phrase("crew.scan_closer"))
 
 
-_PARTS = (("foot", "sleeves"), ("bars", "rebars"))
+_PARTS = {Kind.SLEEVE: "foot", Kind.REBAR: "bars"}
 
 
-def _refused(column: dict[str, Any]) -> Iterator[Step]:
-    if column["goes_on"] == "pass":
-        labels = [p["label"] for k in ("sleeves", "rebars") for p in (column[k] or {}).get("points", ()) if _fails(p)]
-        apart = [s for k in ("sleeves", "rebars") for s in (column[k] or {}).get("spacing", ()) if _fails(s)]
-        named = labels or ["–".join(spacing["between"]) for spacing in apart]
+def _refused(column: ColumnReport) -> Iterator[Step]:
+    if column.goes_on == "pass":
+        groups = column.groups.values()
+        labels = [point.label for group in groups for point in group.points if point.verdict == "fail"]
+        apart = [spacing for group in groups for spacing in group.spacing if spacing.verdict == "fail"]
+        named = labels or ["–".join(spacing.between) for spacing in apart]
         if named:
             yield Step(phrase("crew.goes_on_but", labels=", ".join(named)))
             return
     yield Step(phrase("crew.call_engineer"))
 
 
-def _fails(result: dict[str, Any]) -> bool:
-    return bool(result["verdict"] == "fail")
-
-
-def _missing(column: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    for kind in ("sleeves", "rebars"):
-        for point in (column[kind] or {}).get("points", ()):
-            if point["verdict"] == "not_measured":
-                yield point
+def _missing(column: ColumnReport) -> Iterator[PointResult]:
+    for kind in Kind:
+        yield from (point for point in column.points(kind) if point.verdict == "not_measured")
 
 
 _CURES = (("plugged", "open_sleeve"), ("outside", "into_picture"), ("no bar stands there", "look_at_bar"))
 
 
-def _unseen(column: dict[str, Any]) -> Iterator[Step]:
+def _unseen(column: ColumnReport) -> Iterator[Step]:
     """What to do about points that were not measured, those of one cure together."""
     by_cure: dict[str, list[str]] = {}
     for point in _missing(column):
-        said = point["reason"]
+        said = point.reason
         cure = next((name for sign, name in _CURES if sign in said), "scan_label_again")
-        by_cure.setdefault(cure, []).append(point["label"])
+        by_cure.setdefault(cure, []).append(point.label)
     for cure, labels in by_cure.items():
         yield Step(phrase(f"crew.{cure}", labels=", ".join(labels)))
 
 
-def _repair(column: dict[str, Any], repair: dict[str, Any], compass: Compass) -> Iterator[Step]:
-    action = repair["action"]
+def _repair(column: ColumnReport, repair: RepairReport, compass: Compass) -> Iterator[Step]:
+    action = repair.action
     if action == "rescan":
         yield _scan_closer(column)
     elif action == "reposition":
         way = compass.in_words(_reposition_mm(column, repair))
         yield Step(_with_way("crew.set_down", way) if way.en else phrase("crew.call_engineer"), release=True)
-    elif action == "disposal_plan" or not repair["steps"]:
+    elif action == "disposal_plan" or not repair.steps:
         yield Step(phrase("crew.disposal_plan"))
     else:
-        if column["verdict"] == "inconclusive":
+        if column.verdict == "inconclusive":
             yield _scan_closer(column)
-        yield from (_of_pair(step, compass) for step in repair["steps"])
+        yield from (_of_pair(step, compass) for step in repair.steps)
         yield Step(phrase("crew.scan_bars_again"))
 
 
-def _scan_closer(column: dict[str, Any]) -> Step:
-    labels = (column["trial_assembly"] or {}).get("rescan", ())
+def _scan_closer(column: ColumnReport) -> Step:
+    labels = () if column.trial_assembly is None else column.trial_assembly.rescan
     return Step(phrase("crew.scan_label_again", labels=", ".join(labels)) if labels else phrase("crew.scan_closer"))
 
 
-def _of_pair(step: dict[str, Any], compass: Compass) -> Step:
-    if step["action"] == "reject_sleeve":
-        text = phrase("crew.reject_sleeve", sleeve=step["sleeve"], mm=f"{step['sleeve_off_mm']:.1f}")
+def _of_pair(step: RepairStep, compass: Compass) -> Step:
+    if step.action == "reject_sleeve":
+        text = phrase("crew.reject_sleeve", sleeve=step.sleeve, mm=f"{step.sleeve_off_mm:.1f}")
         return Step(text, release=True)
-    way = compass.in_words(step["bend_mm"] or (0.0, 0.0))
+    way = compass.in_words(step.bend_mm or (0.0, 0.0))
     if not way.en:
-        name = "crew.upright" if step["upright"] else "crew.call_engineer"
-        return Step(phrase(name).filled(rebar=step["rebar"]), release=True)
-    name = "crew.bend_upright" if step["upright"] else "crew.bend"
-    return Step(_with_way(name, way, rebar=step["rebar"]), release=True)
+        name = "crew.upright" if step.upright else "crew.call_engineer"
+        return Step(phrase(name).filled(rebar=step.rebar), release=True)
+    name = "crew.bend_upright" if step.upright else "crew.bend"
+    return Step(_with_way(name, way, rebar=step.rebar), release=True)
 
 
-def _reposition_mm(column: dict[str, Any], repair: dict[str, Any]) -> tuple[float, float]:
+def _reposition_mm(column: ColumnReport, repair: RepairReport) -> tuple[float, float]:
     """How far from the pose of the least distance the column goes in: what moves the bars moves it the other way."""
-    pose = (column["trial_assembly"] or {}).get("minimax")
-    if pose is None or repair["after"] is None:
+    pose = None if column.trial_assembly is None else column.trial_assembly.minimax
+    if pose is None or repair.after is None:
         return 0.0, 0.0
-    least, after = pose["T_sleeves_rebars"], repair["after"]["T_sleeves_rebars"]
-    return least[0][3] - after[0][3], least[1][3] - after[1][3]
+    least, after = pose.T_sleeves_rebars, repair.after.T_sleeves_rebars
+    return float(least[0][3] - after[0][3]), float(least[1][3] - after[1][3])
 
 
-def _bends(repair: dict[str, Any]) -> Iterator[Shift]:
-    if repair["action"] == "disposal_plan":
+def _bends(repair: RepairReport) -> Iterator[Shift]:
+    if repair.action == "disposal_plan":
         return
-    for step in repair["steps"]:
-        if step["action"] == "bend" and step["bend_mm"] is not None:
-            yield Shift(step["rebar"], (step["bend_mm"][0], step["bend_mm"][1]))
+    for step in repair.steps:
+        if step.action == "bend" and step.bend_mm is not None:
+            yield Shift(step.rebar, step.bend_mm)
 
 
-def _turned(column: dict[str, Any]) -> Iterator[Step]:
+def _turned(column: ColumnReport) -> Iterator[Step]:
     """Where the trial found the column to go on turned by its symmetry: S1 does not go on R1."""
-    pairs = (shown_pose(column["trial_assembly"]) or {}).get("pairs", ())
-    rebar = next((pair["rebar"] for pair in pairs if pair["sleeve"] == "S1"), "R1")
+    rebar = next((pair.rebar for pair in column.pairs if pair.sleeve == "S1"), "R1")
     if rebar != "R1":
         yield Step(phrase("crew.set_turned", rebar=rebar))
 
 
-def _room(column: dict[str, Any]) -> Iterator[Step]:
+def _room(column: ColumnReport) -> Iterator[Step]:
     """How far the column may be off its best position, whichever way: no bar then passes its limit or touches.
 
     The feasible window is larger, for it lets the column give way in the other coordinates; a crew cannot do that.
     """
-    pairs = (shown_pose(column["trial_assembly"]) or {}).get("pairs", ())
-    rooms = [pair["limit_mm"] - pair["distance_mm"] for pair in pairs if pair["limit_mm"] is not None]
-    rooms += [pair["clearance_mm"] for pair in pairs if pair["clearance_mm"] is not None]
+    rooms = [pair.limit_mm - pair.distance_mm for pair in column.pairs if pair.limit_mm is not None]
+    rooms += [pair.clearance_mm for pair in column.pairs if pair.clearance_mm is not None]
     room_mm = math.floor(10.0 * min(rooms, default=0.0)) / 10.0
     if room_mm >= SMALLEST_MM:
         yield Step(phrase("crew.lower_middle", mm=f"{room_mm:.1f}"))

@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from aadm_workbench.model import ColumnReport, JobReport, Kind
 from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.pages.crew import CrewAdvice, Step, crew_advice
 from aadm_workbench.report.pages.crew_sketch import crew_sketch, sleeves_from_below
 from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, lines_of, pages, reportlab, write, write_lines
-from aadm_workbench.report.read import Report
 from aadm_workbench.report.words.labels import COLOUR, FAINT, HEAD, INK, WARN, Language, phrase
 
 _LIGHT = {"green": COLOUR["pass"], "amber": "#e0a100", "red": COLOUR["fail"]}
@@ -19,7 +19,7 @@ _LEFT, _RIGHT = 15.0 * MM, 195.0 * MM  # margins of 15 mm on A4: printers reach 
 _WIDTH = _RIGHT - _LEFT
 
 
-def write_crew_pages(report: Report, path: Path, language: Language = "zh") -> None:
+def write_crew_pages(report: JobReport, path: Path, language: Language = "zh") -> None:
     """Write crew.pdf, whole or not at all; both languages are on every page, ``language`` stands first and larger.
 
     Raises
@@ -29,7 +29,7 @@ def write_crew_pages(report: Report, path: Path, language: Language = "zh") -> N
     AadmError
         Where the file cannot be written.
     """
-    title = f"{report['job']['name']}: {phrase('crew.do_this').en}"
+    title = f"{report.job['name']}: {phrase('crew.do_this').en}"
     with pages(path, title, "crew.pdf") as canvas:
         for finding in findings(report):
             _Page(canvas, language).draw(report, finding)
@@ -45,7 +45,7 @@ class _Page:
         self.second: Language = "en" if language == "zh" else "zh"
         self.y = A4[1]
 
-    def draw(self, report: Report, finding: Finding) -> None:
+    def draw(self, report: JobReport, finding: Finding) -> None:
         """The whole page."""
         column, advice = finding.column, crew_advice(report, finding.column)
         self._band(column, advice)
@@ -53,7 +53,7 @@ class _Page:
         self._reasons(finding)
         self._foot(report, column, advice)
 
-    def _band(self, column: dict[str, Any], advice: CrewAdvice) -> None:
+    def _band(self, column: ColumnReport, advice: CrewAdvice) -> None:
         """The traffic light, the column's name and what to do, across the page."""
         canvas, colors = self.canvas, reportlab("lib.colors")
         height = 62.0 * MM
@@ -62,9 +62,9 @@ class _Page:
         self._lamps(advice.light, A4[1] - height)
         ink = _ON_LIGHT[advice.light]
         x, wide = _LEFT + 30.0 * MM, _WIDTH - 30.0 * MM
-        place = " · ".join(str(part) for part in (column["grid"], column["storey"], column["piece_mark"]) if part)
-        size = next((s for s in (40.0, 30.0, 22.0) if len(lines_of(column["id"], s, wide)) == 1), 16.0)
-        write_lines(canvas, (x, A4[1] - 21.0 * MM), column["id"], size, wide, colour=ink, bold=True, most=1)
+        place = " · ".join(str(part) for part in (column.grid, column.storey, column.piece_mark) if part)
+        size = next((s for s in (40.0, 30.0, 22.0) if len(lines_of(column.id, s, wide)) == 1), 16.0)
+        write_lines(canvas, (x, A4[1] - 21.0 * MM), column.id, size, wide, colour=ink, bold=True, most=1)
         write_lines(canvas, (x, A4[1] - 29.0 * MM), place, 14.0, wide, colour=ink, most=1)
         said = advice.headline
         write(canvas, (x, A4[1] - 44.0 * MM), said.in_language(self.first), 30.0, colour=ink, bold=True)
@@ -130,19 +130,19 @@ class _Page:
         if finding.more:
             write(self.canvas, (_LEFT, self.y), f"+ {finding.more}", 10.0, colour=FAINT)
 
-    def _foot(self, report: Report, column: dict[str, Any], advice: CrewAdvice) -> None:
+    def _foot(self, report: JobReport, column: ColumnReport, advice: CrewAdvice) -> None:
         """The sketch in the lower half, beside it the foot from below and the box for the engineer's signature."""
         canvas = self.canvas
         low = 20.0 * MM
         side = max(60.0 * MM, min(112.0 * MM, self.y - low - 16.0 * MM))
         beside, narrow = _LEFT + side + 6.0 * MM, _WIDTH - side - 6.0 * MM
         below = sleeves_from_below(column)
-        bars_matter = any(point["verdict"] != "pass" for point in (column["rebars"] or {}).get("points", ()))
+        bars_matter = any(point.verdict != "pass" for point in column.points(Kind.REBAR))
         if below is not None and not bars_matter and not advice.shifts:
             self._caption("crew.from_below", (_LEFT, low + side + 3.0 * MM), side)
             draw_sketch(canvas, below, (_LEFT, low), side)
-        elif column["rebars"] or column["sleeves"]:
-            shown = "crew.from_above" if column["rebars"] else "crew.sleeves_from_above"
+        elif column.rebars or column.sleeves:
+            shown = "crew.from_above" if column.rebars else "crew.sleeves_from_above"
             self._caption(shown, (_LEFT, low + side + 3.0 * MM), side)
             draw_sketch(canvas, crew_sketch(column, advice, self.first), (_LEFT, low), side)
             if below is not None:
@@ -156,9 +156,9 @@ class _Page:
             word = phrase("ui.as_declared")
             said = f"{word.in_language(self.first)} / {word.in_language(self.second)}: {up}"
             write_lines(canvas, (_LEFT, 15.5 * MM), said, 9.0, 0.7 * _WIDTH, bold=True, most=1)
-        job = f"{report['job']['name']} · {report['capture'].get('date', '')}".rstrip(" ·")
+        job = f"{report.job['name']} · {report.capture.get('date', '')}".rstrip(" ·")
         write_lines(canvas, (_LEFT, 11.0 * MM), f"{job} · report.json", 8.0, 0.7 * _WIDTH, colour=FAINT, most=1)
-        number = f"{report['job']['sha256'][:12]}"
+        number = f"{report.job['sha256'][:12]}"
         write(canvas, (_RIGHT, 11.0 * MM), number, 8.0, colour=FAINT, anchor="end")
 
     def _caption(self, name: str, at: tuple[float, float], width: float) -> None:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterator, Sequence
 
+from aadm_workbench.model import ColumnReport, Kind, PointResult
 from aadm_workbench.report.directions import Compass
 from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow
 from aadm_workbench.report.pages.crew import CrewAdvice, Shift
@@ -19,12 +19,12 @@ _MOVE = 52.0  # the arrow of the whole column: twice those of bars
 _TURN_RADIUS = 30.0  # of the bow that shows a turn: within the innermost bars
 
 
-def crew_sketch(column: dict[str, Any], advice: CrewAdvice, language: Language) -> Sketch:
+def crew_sketch(column: ColumnReport, advice: CrewAdvice, language: Language) -> Sketch:
     """Bars (sleeves, where no bars were scanned), seen from above, turned as the plan lies.
 
     Arrows are not to scale: they show where to, and the number beside them how far.
     """
-    points = _points(column)
+    points = column.points(Kind.REBAR) or column.points(Kind.SLEEVE)
     frame = _Frame(column, points, advice.compass.turn_deg)
     shifts = {shift.label: shift for shift in advice.shifts}
     shapes = [*_outline(column, frame), *_edge_names(advice.compass, language), *_marked(points, frame, shifts)]
@@ -33,21 +33,21 @@ def crew_sketch(column: dict[str, Any], advice: CrewAdvice, language: Language) 
     return Sketch(SIDE, SIDE, tuple(shapes))
 
 
-def sleeves_from_below(column: dict[str, Any]) -> Sketch | None:
+def sleeves_from_below(column: ColumnReport) -> Sketch | None:
     """The foot as one sees it who stands below it, y upwards; None where every sleeve was measured and none fails."""
-    points = (column["sleeves"] or {}).get("points", [])
-    if all(point["verdict"] in ("pass", "not_assessed") for point in points):
+    points = column.points(Kind.SLEEVE)
+    if all(point.verdict in ("pass", "not_assessed") for point in points):
         return None
     frame = _Frame(column, points, 0.0, mirrored=True)
     return Sketch(SIDE, SIDE, (*_outline(column, frame), *_marked(points, frame, {})))
 
 
-def _marked(points: list[dict[str, Any]], frame: _Frame, shifts: dict[str, Shift]) -> Iterator[Shape]:
+def _marked(points: Sequence[PointResult], frame: _Frame, shifts: dict[str, Shift]) -> Iterator[Shape]:
     """Every point with its name; those that fail or have to be moved are ringed."""
     for point in points:
-        at = frame.place(point["design_mm"])
-        shift = shifts.get(point["label"])
-        alarming = shift is not None or point["verdict"] in ("fail", "not_measured")
+        at = frame.place(point.design_mm)
+        shift = shifts.get(point.label)
+        alarming = shift is not None or point.verdict in ("fail", "not_measured")
         yield from _dot(point, at)
         if alarming:
             yield Circle(at, 10.5, "ring-fail")
@@ -60,21 +60,21 @@ class _Frame:
     """From the column frame, mm, to the sketch: scaled, and turned so that the plan's top is at the top."""
 
     def __init__(
-        self, column: dict[str, Any], points: list[dict[str, Any]], turn_deg: float, *, mirrored: bool = False
+        self, column: ColumnReport, points: Sequence[PointResult], turn_deg: float, *, mirrored: bool = False
     ) -> None:
-        ends = [abs(value) for point in points for value in point["design_mm"][:2]]
-        reach = max([*ends, *(side / 2.0 for side in column["size_mm"] or ()), 1.0])
+        ends = [abs(value) for point in points for value in point.design_mm[:2]]
+        reach = max([*ends, *(side / 2.0 for side in column.size_mm or ()), 1.0])
         angle = math.radians(turn_deg)
         self.cosine, self.sine = math.cos(angle), math.sin(angle)
         self.mirror = -1.0 if mirrored else 1.0
         # Turned by 45 degrees the outline is wider by that factor.
         spread = abs(self.cosine) + abs(self.sine)
         self.scale = (SIDE / 2.0 - _MARGIN) / (reach * spread)
-        x, y = column["size_mm"] or (0.0, 0.0)
+        x, y = column.size_mm or (0.0, 0.0)
         sine, cosine = abs(self.sine), abs(self.cosine)
         self.half = ((cosine * x + sine * y) / 2.0 * self.scale, (sine * x + cosine * y) / 2.0 * self.scale)
 
-    def place(self, mm: Any) -> Point:
+    def place(self, mm: Sequence[float]) -> Point:
         """Where a point of the column frame lies in the sketch."""
         x, y = self.turned((mm[0], mm[1]))
         return SIDE / 2.0 + x * self.scale, SIDE / 2.0 + y * self.scale
@@ -85,29 +85,21 @@ class _Frame:
         return self.mirror * across, self.sine * vector[0] + self.cosine * vector[1]
 
 
-def _points(column: dict[str, Any]) -> list[dict[str, Any]]:
-    for kind in ("rebars", "sleeves"):
-        if column[kind] is not None and column[kind]["points"]:
-            found: list[dict[str, Any]] = column[kind]["points"]
-            return found
-    return []
-
-
-def _outline(column: dict[str, Any], frame: _Frame) -> Iterator[Shape]:
-    if column["size_mm"] is not None:
-        x, y = (side / 2.0 for side in column["size_mm"])
+def _outline(column: ColumnReport, frame: _Frame) -> Iterator[Shape]:
+    if column.size_mm is not None:
+        x, y = (side / 2.0 for side in column.size_mm)
         yield Polyline(tuple(frame.place(c) for c in ((-x, -y), (x, -y), (x, y), (-x, y))), "outline", closed=True)
 
 
-def _dot(point: dict[str, Any], at: Point) -> Iterator[Shape]:
-    missing = point["verdict"] == "not_measured"
-    style = f"fill-{point['verdict']}" if point["verdict"] in ("fail", "inconclusive", "not_measured") else "bar"
+def _dot(point: PointResult, at: Point) -> Iterator[Shape]:
+    missing = point.verdict == "not_measured"
+    style = f"fill-{point.verdict}" if point.verdict in ("fail", "inconclusive", "not_measured") else "bar"
     yield Circle(at, 5.5, style)
     if missing:
         yield Label(at, "?", 9.0, bold=True)
 
 
-def _name(point: dict[str, Any], at: Point, frame: _Frame, shift: Shift | None, *, alarming: bool) -> Label:
+def _name(point: PointResult, at: Point, frame: _Frame, shift: Shift | None, *, alarming: bool) -> Label:
     """Outside of the pattern, where no arrow of the column stands; on the other side where the bar's own arrow does."""
     outwards = (at[0] - SIDE / 2.0, at[1] - SIDE / 2.0)
     straight = (math.copysign(1.0, outwards[0]), 0.0)
@@ -119,7 +111,7 @@ def _name(point: dict[str, Any], at: Point, frame: _Frame, shift: Shift | None, 
             straight = (-straight[0], -straight[1])
     apart = _apart(at, straight, frame, 19.0 if alarming else 13.5)
     place = (at[0] + straight[0] * apart, at[1] + straight[1] * apart)
-    return Label(place, point["label"], 11.0 if alarming else 9.0, "text-fail" if alarming else "text", bold=alarming)
+    return Label(place, point.label, 11.0 if alarming else 9.0, "text-fail" if alarming else "text", bold=alarming)
 
 
 def _apart(at: Point, straight: Point, frame: _Frame, least: float) -> float:

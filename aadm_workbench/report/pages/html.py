@@ -9,32 +9,33 @@ from __future__ import annotations
 import base64
 import hashlib
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import MissingDependencyError
-from aadm_workbench.model import SUMMED, Verdict
+from aadm_workbench.model import SUMMED, JobReport, MouldDrift, Verdict
+from aadm_workbench.report.column_view import column_facts, trial_facts, window_text
 from aadm_workbench.report.drawing.mould import mould_sketch
-from aadm_workbench.report.drawing.plan import floor_plans
+from aadm_workbench.report.drawing.plan import Plan, floor_plans
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.hoist import headline
 from aadm_workbench.report.pages.fonts import embedded_font_css
-from aadm_workbench.report.pages.html_column import column_entry, view_of
+from aadm_workbench.report.pages.html_column import column_entry
 from aadm_workbench.report.pages.svg import svg_of, svg_styles
-from aadm_workbench.report.read import Report
 from aadm_workbench.report.sheets.numbers import is_number, number_text
 from aadm_workbench.report.sheets.sheets import MOULD, mould_rows, profile_table
-from aadm_workbench.report.sheets.tables import narrowed
+from aadm_workbench.report.sheets.tables import Heading, Row, narrowed
 from aadm_workbench.report.words.labels import Language, Phrase, all_words, phrase, resource_folder, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
 _VERDICTS = tuple(verdict.value for verdict in (*SUMMED, Verdict.NOT_ASSESSED))
 
 
-def write_html(report: Report, path: Path, language: Language = "en") -> None:
+def write_html(report: JobReport, path: Path, language: Language = "en") -> None:
     """Write report.html, whole or not at all; ``language`` is the one that it opens in.
 
     Raises
@@ -47,7 +48,7 @@ def write_html(report: Report, path: Path, language: Language = "en") -> None:
     write_atomically(path, html_text(report, language).encode("utf-8", errors="replace"))
 
 
-def html_text(report: Report, language: Language = "en") -> str:
+def html_text(report: JobReport, language: Language = "en") -> str:
     """The document; the same report gives the same text."""
     found = findings(report)
     sentences: dict[Phrase, int] = {}
@@ -88,9 +89,9 @@ def _raw(text: str) -> Any:
     return import_module("markupsafe").Markup(text)
 
 
-def _context(report: Report, found: list[Finding], language: Language) -> dict[str, Any]:
-    items = [_with_raw_drawings(column_entry(report, finding)) for finding in found]
-    by_state = {state: [i for i in items if i["hoist"].state == state] for state in ("no", "not_yet", "yes")}
+def _context(report: JobReport, found: list[Finding], language: Language) -> dict[str, Any]:
+    items = [column_entry(report, finding, _raw) for finding in found]
+    by_state = {state: [i for i in items if i.finding.hoist.state == state] for state in ("no", "not_yet", "yes")}
     words = all_words()
     return {
         "report": report,
@@ -102,12 +103,16 @@ def _context(report: Report, found: list[Finding], language: Language) -> dict[s
         "not_yet_line": phrase("headline.not_yet", number=len(by_state["not_yet"])),
         "yes_line": phrase("headline.yes", number=len(by_state["yes"])),
         "plans": _plans(report, found),
-        "legend": [name for name in _VERDICTS if any(item["verdict"] == name for item in items)],
-        "moulds": [_mould(mould, language) for mould in report.get("mould_drift", ())],
+        "legend": [name for name in _VERDICTS if any(item.column.verdict == name for item in items)],
+        "moulds": [_mould(mould, language) for mould in report.mould_drift],
         "profile": profile_table(report),
         "inputs": _inputs(report),
-        "views": {f.anchor: view_of(f.column) for f in found if f.column["sleeves"] or f.column["rebars"]},
+        "views": {item.finding.anchor: asdict(item.view) for item in items if item.column.groups},
         "verdict_words": verdict_words,
+        "column_facts": column_facts,
+        "trial_facts": trial_facts,
+        "window_text": window_text,
+        "view_note": lambda factor: phrase("ui.view_3d_note", factor=factor),
         "is_number": is_number,
         "number": number_text,
         "sentence": in_both_languages,
@@ -115,7 +120,7 @@ def _context(report: Report, found: list[Finding], language: Language) -> dict[s
     }
 
 
-def _dictionary(sentences: Iterable[Phrase]) -> dict[str, Any]:
+def _dictionary(sentences: Iterable[Phrase]) -> dict[str, dict[str, list[str]] | list[list[str]]]:
     """What the language switch needs; sentences by the number that the document calls them by."""
     shown = ("ui.", "cause.", "state.")
     return {
@@ -125,44 +130,44 @@ def _dictionary(sentences: Iterable[Phrase]) -> dict[str, Any]:
     }
 
 
-def _with_raw_drawings(item: dict[str, Any]) -> dict[str, Any]:
-    for sketch in item["sketches"]:
-        sketch["svg"] = _raw(sketch["svg"])
-    if item["trial"] is not None:
-        item["trial"]["window_svg"] = _raw(item["trial"]["window_svg"])
-    return item
+def _plans(report: JobReport, found: list[Finding]) -> list[tuple[Plan, str]]:
+    """Each plan, and as SVG."""
+    anchors = {finding.column.id: finding.anchor for finding in found}
+    plans = floor_plans(report.columns, anchors)
+    return [(plan, _raw(svg_of(plan.sketch, label="plan", css_class="plan"))) for plan in plans]
 
 
-def _plans(report: Report, found: list[Finding]) -> list[dict[str, Any]]:
-    anchors = {finding.column["id"]: finding.anchor for finding in found}
-    return [
-        {"storey": plan.storey, "placed": plan.placed, "svg": _raw(svg_of(plan.sketch, label="plan", css_class="plan"))}
-        for plan in floor_plans(report["columns"], anchors)
-    ]
+class _Mould(NamedTuple):
+    """A mould as the template shows it."""
+
+    name: str
+    columns: str
+    conclusion: Phrase
+    note: Phrase
+    svg: str
+    headings: Sequence[Heading]
+    rows: Sequence[Row]
 
 
-def _mould(mould: dict[str, Any], language: Language) -> dict[str, Any]:
-    headings, rows = narrowed(MOULD, list(mould_rows(mould, language)))
-    limit = "–" if mould["axis_limit_mm"] is None else f"{mould['axis_limit_mm']:.2f}"
-    of: Phrase = phrase("ui.of_columns", number=len(mould["columns"]))
-    return {
-        "name": mould["piece_mark"] or mould["columns"][0],
-        "columns": of.in_language(language),
-        "conclusion": in_both_languages(mould["conclusion"]),
-        "note": phrase("ui.mould_note", limit=limit),
-        "svg": _raw(svg_of(mould_sketch(mould), label="Cpk", css_class="bars")),
-        "headings": headings,
-        "rows": rows,
-    }
+def _mould(mould: MouldDrift, language: Language) -> _Mould:
+    limit = "–" if mould.axis_limit_mm is None else f"{mould.axis_limit_mm:.2f}"
+    return _Mould(
+        mould.name,
+        phrase("ui.of_columns", number=len(mould.columns)).in_language(language),
+        in_both_languages(mould.conclusion),
+        phrase("ui.mould_note", limit=limit),
+        _raw(svg_of(mould_sketch(mould), label="Cpk", css_class="bars")),
+        *narrowed(MOULD, list(mould_rows(mould, language))),
+    )
 
 
-def _inputs(report: Report) -> list[tuple[str, str, str]]:
-    job, model = report["job"], report["model"]
+def _inputs(report: JobReport) -> list[tuple[str, str, str]]:
+    job, model = report.job, report.model
     lines = [("ui.job", job["name"], job["sha256"])]
     if model is not None:
         lines.append(("ui.model", model["source"], model["sha256"]))
     rest = [f"{key} {value}" for key, value in job.items() if key not in ("name", "sha256")]
-    versions = [f"{key} {value}" for key, value in report["tool"].items() if key not in ("name", "version")]
+    versions = [f"{key} {value}" for key, value in report.tool.items() if key not in ("name", "version")]
     lines.append(("ui.settings", ", ".join(rest), ""))
-    lines.append(("ui.made_by", ", ".join([f"{report['tool']['name']} {report['tool']['version']}", *versions]), ""))
+    lines.append(("ui.made_by", ", ".join([f"{report.tool['name']} {report.tool['version']}", *versions]), ""))
     return lines

@@ -221,7 +221,7 @@ def _draw(canvas: Any, shape: Shape) -> None:
 def _draw_line(canvas: Any, line: Polyline, *, filled: bool) -> None:
     _path(canvas, line.points, closed=line.closed, filled=filled and line.closed)
     if line.head > 0.0:
-        _path(canvas, arrowhead(line), closed=True, filled=True)
+        _path(canvas, arrowhead(line), closed=True, filled=filled)
 
 
 def _path(canvas: Any, points: Sequence[tuple[float, float]], *, closed: bool, filled: bool) -> None:

@@ -5,26 +5,26 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from aadm_workbench.model import ColumnReport, JobReport
 from aadm_workbench.report.column_view import column_facts, foot_sketches, trial_facts, window_sketch, window_text
 from aadm_workbench.report.findings import Finding
 from aadm_workbench.report.pages.pdf_parts import band, beside, drawing, paragraph
 from aadm_workbench.report.pages.pdf_tables import table_flowable
-from aadm_workbench.report.read import Report
 from aadm_workbench.report.sheets.column_tables import column_blocks
 from aadm_workbench.report.words.labels import COLOUR, FAINT, INK, Language, phrase, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
 
-def column_flowables(report: Report, finding: Finding, width: float, language: Language) -> Iterator[Any]:
+def column_flowables(report: JobReport, finding: Finding, width: float, language: Language) -> Iterator[Any]:
     """All that the report says of one column."""
     column = finding.column
-    verdict = verdict_words(column["verdict"], language)
+    verdict = verdict_words(column.verdict, language)
     state = phrase(f"state.{finding.hoist.state}").in_language(language)
-    yield paragraph(column["id"], 1.0, colour="#ffffff", outline=0, bookmark=finding.anchor, after=0.0)
+    yield paragraph(column.id, 1.0, colour="#ffffff", outline=0, bookmark=finding.anchor, after=0.0)
     cause = finding.hoist.cause.in_language(language)
-    yield band(f"{column['id']}   {verdict} – {cause}", column["verdict"], width)
+    yield band(f"{column.id}   {verdict} – {cause}", column.verdict, width)
     facts = [f"{phrase(name).in_language(language)} {value}" for name, value in column_facts(column)]
-    goes_on = f"{phrase('ui.goes_on').in_language(language)}: {verdict_words(column['goes_on'], language)}"
+    goes_on = f"{phrase('ui.goes_on').in_language(language)}: {verdict_words(column.goes_on, language)}"
     yield paragraph(" · ".join([*facts, goes_on, state]), 8.5, colour=FAINT, after=5.0)
     for reason in finding.hoist.reasons:
         yield paragraph(f"· {reason.in_language(language)}", 9.0, after=1.0)
@@ -43,19 +43,19 @@ def column_flowables(report: Report, finding: Finding, width: float, language: L
     yield paragraph("", 3.0, after=3.0)
 
 
-def _repair(column: dict[str, Any], language: Language) -> Iterator[Any]:
-    repair = column.get("repair")
+def _repair(column: ColumnReport, language: Language) -> Iterator[Any]:
+    repair = column.repair
     if repair is None:
         return
     yield paragraph(phrase("ui.repair").in_language(language), 10.0, bold=True, colour="#0b4a80", keep=True)
-    yield paragraph(in_both_languages(repair["advice"]).in_language(language), 9.5, bold=True, indent=8.0)
-    if repair["subject_to"] not in repair["advice"]:
+    yield paragraph(in_both_languages(repair.advice).in_language(language), 9.5, bold=True, indent=8.0)
+    if repair.subject_to not in repair.advice:
         yield paragraph(phrase("ui.release").in_language(language), 8.5, indent=8.0)
-    for note in repair["notes"]:
+    for note in repair.notes:
         yield paragraph(in_both_languages(note).in_language(language), 8.5, indent=8.0)
 
 
-def _sketches(column: dict[str, Any], width: float, language: Language) -> Iterator[Any]:
+def _sketches(column: ColumnReport, width: float, language: Language) -> Iterator[Any]:
     found = list(foot_sketches(column))
     if found:
         third = width / 3.0
@@ -70,18 +70,17 @@ def _sketches(column: dict[str, Any], width: float, language: Language) -> Itera
         yield beside(cells, third * len(cells))
 
 
-def _trial(column: dict[str, Any], width: float, language: Language) -> Iterator[Any]:
-    trial = column["trial_assembly"]
+def _trial(column: ColumnReport, width: float, language: Language) -> Iterator[Any]:
+    trial = column.trial_assembly
     if trial is None:
         return
-    title = f"{phrase('ui.trial').in_language(language)}   {verdict_words(trial['verdict'], language)}"
-    yield paragraph(title, 10.0, bold=True, colour=COLOUR[trial["verdict"]], keep=True)
+    title = f"{phrase('ui.trial').in_language(language)}   {verdict_words(trial.verdict, language)}"
+    yield paragraph(title, 10.0, bold=True, colour=COLOUR[trial.verdict], keep=True)
     facts = [f"{phrase(name).in_language(language)}: {value}" for name, value in trial_facts(trial)]
-    for name in ("best", "minimax", "least_squares"):
-        if trial.get(name) is not None:
-            said = phrase(f"ui.{name}").in_language(language)
-            largest = phrase("ui.largest_distance").in_language(language)
-            facts.append(f"{said}: {largest} {trial[name]['max_mm']:.2f} mm")
+    for name, pose in trial.poses.items():
+        said = phrase(f"ui.{name}").in_language(language)
+        largest = phrase("ui.largest_distance").in_language(language)
+        facts.append(f"{said}: {largest} {pose.max_mm:.2f} mm")
     yield paragraph(" · ".join(facts), 8.5)
     window = window_sketch(trial)
     label = phrase("ui.window").in_language(language)

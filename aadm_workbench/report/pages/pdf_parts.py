@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from aadm_workbench.report.drawing.sketch import Sketch
@@ -45,9 +46,9 @@ def paragraph(
             fit = int((height - after) / (size * 1.35))
             if fit < 1 or fit >= len(self.lines):
                 return []
-            style: dict[str, Any] = {"colour": colour, "bold": bold, "indent": indent}
-            first = paragraph("\n".join(self.lines[:fit]), size, after=0.0, outline=outline, bookmark=bookmark, **style)
-            return [first, paragraph("\n".join(self.lines[fit:]), size, after=after, **style)]
+            part = partial(paragraph, size=size, colour=colour, bold=bold, indent=indent)
+            first = part("\n".join(self.lines[:fit]), after=0.0, outline=outline, bookmark=bookmark)
+            return [first, part("\n".join(self.lines[fit:]), after=after)]
 
         def draw(self) -> None:
             y = (len(self.lines) - 1) * size * 1.35 + after + 0.25 * size

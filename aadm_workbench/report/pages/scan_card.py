@@ -10,16 +10,24 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
 
-from aadm_workbench.model import OPENGL_AXES, AssemblyPoint, Camera, ColumnDesign
+from aadm_workbench.model import (
+    OPENGL_AXES,
+    AssemblyPoint,
+    Camera,
+    ColumnDesign,
+    ColumnReport,
+    GroupReport,
+    JobReport,
+    Kind,
+    PointResult,
+    Verdict,
+)
+from aadm_workbench.report.column_view import typical_diameter_mm
 from aadm_workbench.report.directions import Compass, compass_of, side_labels
 from aadm_workbench.report.drawing.sketch import Point
 from aadm_workbench.report.hoist import worst_first
-from aadm_workbench.report.read import Report
 from aadm_workbench.report.words.labels import Phrase, phrase
-
-Part: TypeAlias = Literal["sleeves", "rebars"]
 
 DEFAULT_UP_DEG = 90.0
 """+y, where nobody says otherwise."""
@@ -44,7 +52,7 @@ class CardPoint:
 class CardPart:
     """One picture to take: its points, which way is up, how far away, and from how far the last one was taken."""
 
-    part: Part
+    part: Kind
     points: tuple[CardPoint, ...]
     up_deg: float
     distance_m: float
@@ -62,7 +70,7 @@ class ScanCard:
     compass: Compass | None = None
 
 
-def scan_cards(report: Report) -> list[ScanCard]:
+def scan_cards(report: JobReport) -> list[ScanCard]:
     """The cards of a job that was checked before, for the next scan: in the report's order of the worst first."""
     return [_card(report, column) for column in worst_first(report)]
 
@@ -89,17 +97,13 @@ def design_cards(columns: Sequence[CardDesign], camera: Camera | None = None) ->
     likenesses = [_likeness(column) for column in columns]
     cards = []
     for column, likeness in zip(columns, likenesses, strict=True):
-        ups: tuple[tuple[Part, float | None], ...] = (
-            ("sleeves", column.sleeves_up_deg),
-            ("rebars", column.rebars_up_deg),
-        )
         parts = []
-        for part, up_deg in ups:
-            points = tuple(_card_point(point) for point in getattr(column.design, part))
+        for kind, up_deg in ((Kind.SLEEVE, column.sleeves_up_deg), (Kind.REBAR, column.rebars_up_deg)):
+            points = tuple(_card_point(point) for point in column.design.points(kind))
             if points:
                 distance_m = distance_to_fill_m(column.design.size_mm, points, view)
-                parts.append(CardPart(part, points, DEFAULT_UP_DEG if up_deg is None else up_deg, distance_m))
-        compass = compass_of({"columns": likenesses}, likeness)
+                parts.append(CardPart(kind, points, DEFAULT_UP_DEG if up_deg is None else up_deg, distance_m))
+        compass = compass_of(likenesses, likeness)
         cards.append(ScanCard(column.id, _place(likeness), column.design.size_mm, tuple(parts), compass))
     return cards
 
@@ -108,63 +112,60 @@ def _card_point(point: AssemblyPoint) -> CardPoint:
     return CardPoint(point.label, (float(point.centre[0]), float(point.centre[1])), point.diameter_mm)
 
 
-def _likeness(column: CardDesign) -> dict[str, Any]:
+def _likeness(column: CardDesign) -> ColumnReport:
     """What report.json will say of the column that its design knows already."""
-    design = column.design
-    T = None if design.T_model_column is None else design.T_model_column.tolist()
-    likeness: dict[str, Any] = {name: getattr(design, name) for name in ("grid", "storey", "piece_mark")}
-    for part in ("sleeves", "rebars"):
-        points = [{"label": p.label, "design_mm": p.centre.tolist()} for p in getattr(design, part)]
-        likeness[part] = {"points": points} if points else None
-    return likeness | {"T_model_column": T}
-
-
-def _place(column: dict[str, Any]) -> str:
-    return " · ".join(str(part) for part in (column["grid"], column["storey"], column["piece_mark"]) if part)
-
-
-def _card(report: Report, column: dict[str, Any]) -> ScanCard:
-    size = column["size_mm"]
-    kinds: tuple[Part, ...] = ("sleeves", "rebars")
-    parts = [_part(column, kind) for kind in kinds if column[kind] is not None and column[kind]["points"]]
-    return ScanCard(
-        column["id"],
-        _place(column),
-        None if size is None else (size[0], size[1]),
-        tuple(parts),
-        compass_of(report, column),
+    design, unknown = column.design, Verdict.NOT_ASSESSED
+    return ColumnReport(
+        column.id,
+        unknown,
+        unknown,
+        sleeves=_unmeasured(design.sleeves),
+        rebars=_unmeasured(design.rebars),
+        piece_mark=design.piece_mark,
+        storey=design.storey,
+        grid=design.grid,
+        T_model_column=design.T_model_column,
     )
 
 
-def _part(column: dict[str, Any], kind: Part) -> CardPart:
-    group = column[kind]
-    nominal_mm = _typical_mm([point["diameter_mm"] for point in group["points"]], 36.0 if kind == "sleeves" else 20.0)
+def _unmeasured(points: Sequence[AssemblyPoint]) -> GroupReport | None:
+    unknown, nothing = Verdict.NOT_ASSESSED, (None,) * 8
+    places = [(float(point.centre[0]), float(point.centre[1]), float(point.centre[2])) for point in points]
+    found = [PointResult(p.label, None, place, *nothing, unknown) for p, place in zip(points, places, strict=True)]
+    return GroupReport("", "", "", len(points), 0, unknown, tuple(found), (), None) if found else None
+
+
+def _place(column: ColumnReport) -> str:
+    return " · ".join(str(part) for part in (column.grid, column.storey, column.piece_mark) if part)
+
+
+def _card(report: JobReport, column: ColumnReport) -> ScanCard:
+    parts = [_part(column, kind, group) for kind, group in column.groups.items() if group.points]
+    return ScanCard(column.id, _place(column), column.size_mm, tuple(parts), compass_of(report.columns, column))
+
+
+def _part(column: ColumnReport, kind: Kind, group: GroupReport) -> CardPart:
+    nominal_mm = typical_diameter_mm(column, kind)
     points = tuple(
-        CardPoint(point["label"], (point["design_mm"][0], point["design_mm"][1]), nominal_mm)
-        for point in group["points"]
+        CardPoint(point.label, (point.design_mm[0], point.design_mm[1]), nominal_mm) for point in group.points
     )
-    distance_m = distance_to_fill_m(column["size_mm"], points)
+    distance_m = distance_to_fill_m(column.size_mm, points)
     return CardPart(kind, points, _up_deg(group), distance_m, _last_distance_m(group))
 
 
-def _typical_mm(diameters: Sequence[float | None], otherwise_mm: float) -> float:
-    found = sorted(value for value in diameters if value)
-    return found[len(found) // 2] if found else otherwise_mm
-
-
-def _up_deg(group: dict[str, Any]) -> float:
+def _up_deg(group: GroupReport) -> float:
     """The direction that was at the top of the last picture, to the nearest side of the column; +y where unknown."""
-    if group["fit"] is None or group["fit"]["orientation"] == "ambiguous":
+    if group.fit is None or group.fit.orientation == "ambiguous":
         return DEFAULT_UP_DEG
-    T = group["fit"]["T_design_scan"]
+    T = group.fit.T_design_scan
     # The top of the picture is -y of the file, and +y in OpenGL's axes.
-    sign = 1.0 if group["quality"].get("axes") == OPENGL_AXES else -1.0
+    sign = 1.0 if group.quality.get("axes") == OPENGL_AXES else -1.0
     return (round(math.degrees(math.atan2(sign * T[1][1], sign * T[0][1])) / 90.0) * 90.0) % 360.0
 
 
-def _last_distance_m(group: dict[str, Any]) -> float | None:
+def _last_distance_m(group: GroupReport) -> float | None:
     """Median depth of the points of the last scan; None where its frame is no camera's."""
-    depths = sorted(abs(point["scan_mm"][2]) for point in group["points"] if point["scan_mm"] is not None)
+    depths = sorted(abs(point.scan_mm[2]) for point in group.points if point.scan_mm is not None)
     middle = depths[len(depths) // 2] if depths else 0.0
     return middle / 1000.0 if 200.0 < middle < 20_000.0 else None
 
@@ -180,13 +181,13 @@ def distance_to_fill_m(
     return max(0.3, math.ceil(distance_m * 20.0) / 20.0)
 
 
-def in_picture(part: Part, up_deg: float, place: Point) -> Point:
+def in_picture(part: Kind, up_deg: float, place: Point) -> Point:
     """Where a place of the column frame appears: to the right and upwards in the camera's picture, mm.
 
     With z forward, the right of the picture is forward × up: the camera looks along +z at a foot and along -z at bars.
     """
     up = (math.cos(math.radians(up_deg)), math.sin(math.radians(up_deg)))
-    forward = 1.0 if part == "sleeves" else -1.0
+    forward = 1.0 if part is Kind.SLEEVE else -1.0
     right = (-forward * up[1], forward * up[0])
     return right[0] * place[0] + right[1] * place[1], up[0] * place[0] + up[1] * place[1]
 
@@ -204,9 +205,9 @@ def corner_of(part: CardPart, label: str) -> Phrase:
 def top_side(card: ScanCard, part: CardPart) -> Phrase:
     """What lies at the top of the picture: the labels of that side, and for bars in the model, where it leads to."""
     up = (round(math.cos(math.radians(part.up_deg)), 6), round(math.sin(math.radians(part.up_deg)), 6))
-    ends = side_labels([{"label": p.label, "design_mm": p.design_mm} for p in part.points], up)
+    ends = side_labels({point.label: point.design_mm for point in part.points}, up)
     side = phrase("card.between_labels", first=ends[0], last=ends[1]) if ends else up_name(part.up_deg)
-    if part.part == "rebars" and card.compass is not None and card.compass.placed:
+    if part.part is Kind.REBAR and card.compass is not None and card.compass.placed:
         ways = card.compass.parts(up)
         if len(ways) == 1:
             return Phrase(f"{side.en}, {ways[0][1].en}", f"{side.zh},{ways[0][1].zh}")
@@ -216,7 +217,7 @@ def top_side(card: ScanCard, part: CardPart) -> Phrase:
 def first_bar_corner(card: ScanCard, part: CardPart) -> Phrase | None:
     """Where R1 stands among the bars, in directions of the building; None where the model does not say."""
     place = next((point.design_mm for point in part.points if point.label == "R1"), None)
-    if place is None or card.compass is None or not card.compass.placed or part.part != "rebars":
+    if place is None or card.compass is None or not card.compass.placed or part.part is not Kind.REBAR:
         return None
     reach = max(abs(value) for point in part.points for value in point.design_mm)
     ways = [way for length, way in card.compass.parts(place) if length > reach / 3.0]

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from aadm_workbench.model import Kind
 from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow, rectangle
 from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, lines_of, pages, write, write_lines
 from aadm_workbench.report.pages.scan_card import (
@@ -53,14 +54,14 @@ def picture_sketch(card: ScanCard, part: CardPart) -> Sketch:
         x, y = (side / 2.0 for side in card.size_mm)
         corners = [in_picture(part.part, part.up_deg, c) for c in ((-x, -y), (x, -y), (x, y), (-x, y))]
         shapes.append(Polyline(tuple(_place(corner, scale) for corner in corners), "outline", closed=True))
-    first = "S1" if part.part == "sleeves" else "R1"
+    first = "S1" if part.part is Kind.SLEEVE else "R1"
     for point in part.points:
         at = _place(seen[point.label], scale)
         radius = max(4.0, point.diameter_mm / 2.0 * scale)
         marked = point.label == first
         if marked:
             shapes.append(Circle(at, radius + 7.0, "ring-mark"))
-        shapes.append(Circle(at, radius, "ink" if part.part == "sleeves" else "bar"))
+        shapes.append(Circle(at, radius, "ink" if part.part is Kind.SLEEVE else "bar"))
         inwards = (_middle()[0] - at[0], _middle()[1] - at[1])
         length = (inwards[0] ** 2 + inwards[1] ** 2) ** 0.5 or 1.0
         apart = radius + (15.0 if marked else 9.0)
@@ -117,7 +118,7 @@ class _Page:
         side = 96.0 * MM
         draw_sketch(self.canvas, picture_sketch(card, part), (_LEFT, top - side), side)
         x, wide = _LEFT + side + 6.0 * MM, _WIDTH - side - 6.0 * MM
-        is_foot = part.part == "sleeves"
+        is_foot = part.part is Kind.SLEEVE
         y = self._line((x, top - 6.0 * MM), phrase("card.foot" if is_foot else "card.bars"), 16.0, wide, bold=True)
         y = self._line((x, y), phrase("card.foot_seen" if is_foot else "card.bars_seen"), 10.0, wide)
         y -= 3.0 * MM

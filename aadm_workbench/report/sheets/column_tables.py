@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
 
-from aadm_workbench.report.read import Report
+from aadm_workbench.model import ColumnReport, GroupReport, HoistingReport, JobReport, Kind
 from aadm_workbench.report.sheets.numbers import number_text, signed
 from aadm_workbench.report.sheets.tables import (
     ABSOLUTE,
@@ -42,12 +41,11 @@ class Block:
     verdict: str | None = None
 
 
-def column_blocks(report: Report, column: dict[str, Any]) -> list[Block]:
+def column_blocks(report: JobReport, column: ColumnReport) -> list[Block]:
     """Trial pairs, then sleeves and rebars with spacing and scan quality, hoisting, rules, inputs."""
     return [
         *_block(phrase("ui.pairs"), *_unexplained(PAIRS, pair_rows(report, column))),
-        *_group(report, column, "sleeves"),
-        *_group(report, column, "rebars"),
+        *(block for kind, group in column.groups.items() for block in _group(report, column, kind, group)),
         *_absolute(report, column),
         *_hoisting(report, column),
         *_block(phrase("ui.rules"), RULES, _rules(column)),
@@ -88,41 +86,38 @@ def _unexplained(headings: Sequence[Heading], rows: Iterable[Row]) -> tuple[Sequ
     return headings[:-1], [row[:-1] for row in rows]
 
 
-def _rules(column: dict[str, Any]) -> Iterator[Row]:
+def _rules(column: ColumnReport) -> Iterator[Row]:
     """Each rule once; why it was not assessed is said here, why it failed stands above all tables."""
     for row in dict.fromkeys(rule_rows(column)):
         yield row if row[2] == "not_assessed" else (*row[:-1], "")
 
 
-def _joined(first: str, second: str) -> Phrase:
-    a, b = phrase(f"ui.{first}"), phrase(f"ui.{second}")
+def _joined(kind: Kind, what: str) -> Phrase:
+    a, b = phrase(f"ui.{kind.plural}"), phrase(f"ui.{what}")
     return Phrase(f"{a.en}: {b.en[0].lower()}{b.en[1:]}", f"{a.zh}:{b.zh}")
 
 
-def _group(report: Report, column: dict[str, Any], kind: str) -> Iterator[Block]:
-    group = column[kind]
-    if group is None:
-        return
+def _group(report: JobReport, column: ColumnReport, kind: Kind, group: GroupReport) -> Iterator[Block]:
     points = _unexplained(POINTS, point_rows(report, column, kind))
-    yield from _block(_joined(kind, "position"), *points, _found(group), group["verdict"])
+    yield from _block(_joined(kind, "position"), *points, _found(group), group.verdict)
     yield from _block(_joined(kind, "spacing"), *_unexplained(SPACING, spacing_rows(report, column, kind)))
     yield from _quality(kind, group)
 
 
-def _found(group: dict[str, Any]) -> Phrase:
+def _found(group: GroupReport) -> Phrase:
     """How many points were found, how the scan lies, how well it fits."""
-    parts = [phrase("ui.found_of", found=group["found"], expected=group["expected"])]
-    fit = group["fit"]
+    parts = [phrase("ui.found_of", found=group.found, expected=group.expected)]
+    fit = group.fit
     if fit is not None:
         rms = phrase("ui.fit_rms")
-        said = f"{fit['rms_mm']:.2f} mm"
-        parts += [phrase(f"ui.{fit['orientation']}"), Phrase(f"{rms.en} {said}", f"{rms.zh} {said}")]
+        said = f"{fit.rms_mm:.2f} mm"
+        parts += [phrase(f"ui.{fit.orientation}"), Phrase(f"{rms.en} {said}", f"{rms.zh} {said}")]
     return Phrase(" · ".join(part.en for part in parts), " · ".join(part.zh for part in parts))
 
 
-def _quality(kind: str, group: dict[str, Any]) -> Iterator[Block]:
+def _quality(kind: Kind, group: GroupReport) -> Iterator[Block]:
     """What the extraction says about its scan: one heading for each figure, with its unit."""
-    figures = {name: value for name, value in group["quality"].items() if isinstance(value, str | int | float)}
+    figures = {name: value for name, value in group.quality.items() if isinstance(value, str | int | float)}
     if not figures:
         return
     headings = []
@@ -140,32 +135,32 @@ def _figure(value: str | float | int | bool) -> str:
     return f"{value:.3g}" if isinstance(value, float) else str(value)
 
 
-def _absolute(report: Report, column: dict[str, Any]) -> Iterator[Block]:
-    absolute = (column["rebars"] or {}).get("absolute")
+def _absolute(report: JobReport, column: ColumnReport) -> Iterator[Block]:
+    absolute = None if column.rebars is None else column.rebars.absolute
     if absolute is not None:
-        reason = Phrase(absolute["reason"], absolute["reason"]) if absolute["reason"] else None
+        reason = Phrase(absolute.reason, absolute.reason) if absolute.reason else None
         rows = absolute_rows(report, column)
-        yield from _block(phrase("ui.absolute"), ABSOLUTE, rows, reason, absolute["verdict"])
+        yield from _block(phrase("ui.absolute"), ABSOLUTE, rows, reason, absolute.verdict)
 
 
-def _hoisting(report: Report, column: dict[str, Any]) -> Iterator[Block]:
-    for frame in column["hoisting"]:
+def _hoisting(report: JobReport, column: ColumnReport) -> Iterator[Block]:
+    for frame in column.hoisting:
         title = phrase("ui.hoisting")
-        said = Phrase(f"{title.en}: {frame['source']}", f"{title.zh}:{frame['source']}")
-        yield from _block(said, HOISTING, hoisting_rows(report, frame), _correction(frame), frame["verdict"])
+        said = Phrase(f"{title.en}: {frame.source}", f"{title.zh}:{frame.source}")
+        yield from _block(said, HOISTING, hoisting_rows(report, frame), _correction(frame), frame.verdict)
 
 
-def _correction(frame: dict[str, Any]) -> Phrase:
+def _correction(frame: HoistingReport) -> Phrase:
     """What the crane has to do, and how the column hangs."""
     parts = []
-    if frame["correction"] is not None:
-        move = frame["correction"]
-        figures = f"dx {signed(move['dx_mm'])} mm, dy {signed(move['dy_mm'])} mm, {signed(move['yaw_deg'], 3)}°"
-        if move.get("left_mm") is not None:
-            figures += f" → {move['left_mm']:.2f} mm"
+    if frame.correction is not None:
+        move = frame.correction
+        figures = f"dx {signed(move.dx_mm)} mm, dy {signed(move.dy_mm)} mm, {signed(move.yaw_deg, 3)}°"
+        if move.left_mm is not None:
+            figures += f" → {move.left_mm:.2f} mm"
         word = phrase("ui.correction")
         parts.append(Phrase(f"{word.en}: {figures}", f"{word.zh}:{figures}"))
-    if frame["column_tilt_deg"] is not None:
-        word, tilt = phrase("ui.column_tilt"), number_text(frame["column_tilt_deg"], "deg")
+    if frame.column_tilt_deg is not None:
+        word, tilt = phrase("ui.column_tilt"), number_text(frame.column_tilt_deg, "deg")
         parts.append(Phrase(f"{word.en} {tilt}°", f"{word.zh} {tilt}°"))
     return Phrase(" · ".join(part.en for part in parts), " · ".join(part.zh for part in parts))

@@ -11,12 +11,11 @@ import csv
 import io
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
 
 from aadm_workbench.atomic import write_atomically
+from aadm_workbench.model import ColumnReport, JobReport, Kind
 from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.hoist import worst_first
-from aadm_workbench.report.read import Report
 from aadm_workbench.report.sheets.tables import (
     Cell,
     Row,
@@ -49,7 +48,7 @@ HEADINGS = (
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
-def write_csv(report: Report, path: Path) -> None:
+def write_csv(report: JobReport, path: Path) -> None:
     """Write report.csv, whole or not at all.
 
     Raises
@@ -60,7 +59,7 @@ def write_csv(report: Report, path: Path) -> None:
     write_atomically(path, csv_content(report, worst_first(report)))
 
 
-def csv_content(report: Report, columns: Iterable[dict[str, Any]]) -> bytes:
+def csv_content(report: JobReport, columns: Iterable[ColumnReport]) -> bytes:
     """The bytes of report.csv, with these columns of the report."""
     text = io.StringIO(newline="")
     writer = csv.writer(text)
@@ -75,8 +74,8 @@ def _inert(cell: Cell) -> Cell:
     return f"'{cell}" if isinstance(cell, str) and cell.lstrip(" ").startswith(_FORMULA) else cell
 
 
-def _lines(report: Report, column: dict[str, Any]) -> Iterator[Row]:
-    first = (column["id"], column["verdict"], column["goes_on"])
+def _lines(report: JobReport, column: ColumnReport) -> Iterator[Row]:
+    first = (column.id, column.verdict, column.goes_on)
     lines = [
         *_of_findings(column),
         *_of_groups(report, column),
@@ -84,31 +83,31 @@ def _lines(report: Report, column: dict[str, Any]) -> Iterator[Row]:
         *_of_hoisting(report, column),
     ]
     if not lines:
-        lines = [("column", "", *(None,) * 7, "", column["verdict"], None, "; ".join(column["reasons"]))]
+        lines = [("column", "", *(None,) * 7, "", column.verdict, None, "; ".join(column.reasons))]
     for line in lines:
         yield (*first, *line)
 
 
-def _of_findings(column: dict[str, Any]) -> Iterator[Row]:
-    for finding in column.get("findings", ()):
-        held = "holds back" if finding["holds_back"] else ""
-        item = " ".join(finding["about"])
-        yield (f"finding {finding['code']}", item, *(None,) * 6, "", "", held, None, finding["text"])
+def _of_findings(column: ColumnReport) -> Iterator[Row]:
+    for finding in column.findings:
+        held = "holds back" if finding.holds_back else ""
+        item = " ".join(finding.about)
+        yield (f"finding {finding.code}", item, *(None,) * 6, "", "", held, None, finding.text)
     up = declared_up(column)
     if up is not None:
         yield ("as_declared", up, *(None,) * 6, "", "", "", None, "labels hang on the declared up")
 
 
-def _of_groups(report: Report, column: dict[str, Any]) -> Iterator[Row]:
-    for kind in ("sleeves", "rebars"):
+def _of_groups(report: JobReport, column: ColumnReport) -> Iterator[Row]:
+    for kind in Kind:
         for row in point_rows(report, column, kind):
             label, _, _, dx, dy, value, u, limit, clause, source, verdict, _, _, _, reason = row
-            yield (f"{kind[:-1]}_position", label, dx, dy, value, u, None, limit, clause, source, verdict, None, reason)
+            yield (f"{kind}_position", label, dx, dy, value, u, None, limit, clause, source, verdict, None, reason)
         for row in spacing_rows(report, column, kind):
             label, _, _, value, u, lower, upper, clause, source, verdict, reason = row
             label = str(label).replace("–", "-")
             yield (
-                f"{kind[:-1]}_spacing",
+                f"{kind}_spacing",
                 label,
                 None,
                 None,
@@ -127,7 +126,7 @@ def _of_groups(report: Report, column: dict[str, Any]) -> Iterator[Row]:
         yield ("building_position", name, dx, dy, value, u, None, limit, clause, source, verdict, None, "")
 
 
-def _of_trial(report: Report, column: dict[str, Any]) -> Iterator[Row]:
+def _of_trial(report: JobReport, column: ColumnReport) -> Iterator[Row]:
     for row in pair_rows(report, column):
         label, dx, dy, value, squares, u, limit, clause, source, room, verdict, other, reason = row
         yield ("trial_minimax", label, dx, dy, value, u, None, limit, clause, source, verdict, room, reason)
@@ -136,8 +135,8 @@ def _of_trial(report: Report, column: dict[str, Any]) -> Iterator[Row]:
             yield ("trial_least_squares", label, None, None, *line)
 
 
-def _of_hoisting(report: Report, column: dict[str, Any]) -> Iterator[Row]:
-    for frame in column["hoisting"]:
+def _of_hoisting(report: JobReport, column: ColumnReport) -> Iterator[Row]:
+    for frame in column.hoisting:
         for label, dx, dy, value, u, limit, clause, source, verdict, _, reason in hoisting_rows(report, frame):
-            line = (value, u, None, limit, clause, source, verdict or "", None, reason)
-            yield (f"hoisting {frame['source']}", label, dx, dy, *line)
+            line = (value, u, None, limit, clause, source, verdict, None, reason)
+            yield (f"hoisting {frame.source}", label, dx, dy, *line)

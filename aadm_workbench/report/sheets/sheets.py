@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from aadm_workbench.model import (
+    ColumnReport,
+    JobReport,
+    Kind,
+    MouldDrift,
+    PointResult,
+    TrialReport,
+    Verdict,
+)
 from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.hoist import hoist_of, worst_first
-from aadm_workbench.report.read import Report
 from aadm_workbench.report.sheets.tables import (
     ABSOLUTE,
     HOISTING,
@@ -33,19 +40,16 @@ from aadm_workbench.report.words.labels import Language, Phrase, phrase
 _COLUMN = heading("column")
 
 
-def job_tables(report: Report, language: Language = "en") -> list[Table]:
+def job_tables(report: JobReport, language: Language = "en") -> list[Table]:
     """Columns, points, spacing, pairs and so on; those without a row are left out, but for the first four.
 
     ``language`` is that of the sentences; headings bring both.
     """
     columns = worst_first(report)
-    by_kind = ("sleeves", "rebars")
     always = [
         columns_table(report, language),
-        _sheet(
-            "points_sheet", POINTS, _each(columns, lambda c: (r for k in by_kind for r in point_rows(report, c, k)))
-        ),
-        _sheet("spacing", SPACING, _each(columns, lambda c: (r for k in by_kind for r in spacing_rows(report, c, k)))),
+        _sheet("points_sheet", POINTS, _each(columns, lambda c: (r for k in Kind for r in point_rows(report, c, k)))),
+        _sheet("spacing", SPACING, _each(columns, lambda c: (r for k in Kind for r in spacing_rows(report, c, k)))),
         _sheet("trial", PAIRS, _each(columns, lambda c: pair_rows(report, c))),
     ]
     more = [
@@ -59,7 +63,7 @@ def job_tables(report: Report, language: Language = "en") -> list[Table]:
     return [*always, *(table for table in more if table.rows), profile_table(report)]
 
 
-def columns_table(report: Report, language: Language = "en") -> Table:
+def columns_table(report: JobReport, language: Language = "en") -> Table:
     """One row for each column: may it be hoisted, and why not."""
     headings = (
         _COLUMN,
@@ -89,34 +93,31 @@ def _of(word: str, of: str) -> Heading:
     return Heading(Phrase(f"{name.en}, {what.en}", f"{name.zh}({what.zh})"), "mm")
 
 
-def _column_row(column: dict[str, Any], language: Language) -> Row:
+def _column_row(column: ColumnReport, language: Language) -> Row:
     hoist = hoist_of(column)
-    trial = column["trial_assembly"] or {}
-    repair = column.get("repair") or {}
+    trial = column.trial_assembly or TrialReport(Verdict.NOT_ASSESSED)
+    poses = trial.poses
     return (
-        column["id"],
+        column.id,
         phrase(f"state.{hoist.state}").in_language(language),
-        column["verdict"],
-        column["goes_on"],
-        _largest_mm(column["sleeves"]),
-        _largest_mm(column["rebars"]),
-        (trial.get("minimax") or {}).get("max_mm"),
-        (trial.get("least_squares") or {}).get("max_mm"),
-        trial.get("margin"),
-        trial.get("probability"),
+        column.verdict,
+        column.goes_on,
+        *(_largest_mm(column.points(kind)) for kind in Kind),
+        *(poses[name].max_mm if name in poses else None for name in ("minimax", "least_squares")),
+        trial.margin,
+        trial.probability,
         "; ".join(reason.in_language(language) for reason in hoist.reasons),
-        repair.get("advice"),
-        column["grid"],
-        column["storey"],
-        column["piece_mark"],
-        column["global_id"],
+        None if column.repair is None else column.repair.advice,
+        column.grid,
+        column.storey,
+        column.piece_mark,
+        column.global_id,
         declared_up(column),
     )
 
 
-def _largest_mm(group: dict[str, Any] | None) -> float | None:
-    found = [p["deviation_mm"] for p in (group or {}).get("points", ()) if p["deviation_mm"] is not None]
-    return max(found, default=None)
+def _largest_mm(points: Sequence[PointResult]) -> float | None:
+    return max((point.deviation_mm for point in points if point.deviation_mm is not None), default=None)
 
 
 _REPAIR = (
@@ -128,19 +129,19 @@ _REPAIR = (
 )
 
 
-def _repair_rows(column: dict[str, Any]) -> Iterator[Row]:
-    repair = column.get("repair")
+def _repair_rows(column: ColumnReport) -> Iterator[Row]:
+    repair = column.repair
     if repair is None:
         return
-    yield (repair["action"], "", None, None, repair["advice"])
-    for step in repair["steps"]:
-        pair = f"{step['sleeve']}/{step['rebar']}"
-        yield (step["action"], pair, *(step["bend_mm"] or (None, None)), step["reason"])
+    yield (repair.action, "", None, None, repair.advice)
+    for step in repair.steps:
+        pair = f"{step.sleeve}/{step.rebar}"
+        yield (step.action, pair, *(step.bend_mm or (None, None)), step.reason)
 
 
-def _frames(report: Report, column: dict[str, Any]) -> Iterator[Row]:
-    for frame in column["hoisting"]:
-        yield from ((frame["source"], *row) for row in hoisting_rows(report, frame))
+def _frames(report: JobReport, column: ColumnReport) -> Iterator[Row]:
+    for frame in column.hoisting:
+        yield from ((frame.source, *row) for row in hoisting_rows(report, frame))
 
 
 MOULD = (
@@ -160,28 +161,26 @@ MOULD = (
 )
 
 
-def mould_rows(mould: dict[str, Any], language: Language = "en") -> Iterator[Row]:
+def mould_rows(mould: MouldDrift, language: Language = "en") -> Iterator[Row]:
     """Rows under :data:`MOULD` of one mould."""
-    for sleeve in mould["sleeves"]:
-        by_axis = {item["axis"]: item for item in sleeve["capability"]}
-        capability = [by_axis.get(axis, {}).get(index) for axis in "xy" for index in ("cp", "cpk")]
-        word = "drifts" if sleeve["drifts"] else "scatters_more" if sleeve["scatters_more"] else "steady"
+    for sleeve in mould.sleeves:
+        by_axis = {item.axis: (item.cp, item.cpk) for item in sleeve.capability}
+        capability = [value for axis in "xy" for value in by_axis.get(axis, (None, None))]
+        word = "drifts" if sleeve.drifts else "scatters_more" if sleeve.scatters_more else "steady"
         said = phrase(f"ui.{word}").in_language(language)
-        moved = (*sleeve["mean_mm"], *sleeve["interval_mm"], *sleeve["scatter_mm"])
-        yield (sleeve["label"], *moved, *capability, sleeve["p_value"], said)
+        moved = (*sleeve.mean_mm, *sleeve.interval_mm, *sleeve.scatter_mm)
+        yield (sleeve.label, *moved, *capability, sleeve.p_value, said)
 
 
-def mould_table(report: Report) -> Table:
+def mould_table(report: JobReport) -> Table:
     """Every sleeve of every mould of the batch."""
     rows = tuple(
-        (mould["piece_mark"] or "", len(mould["columns"]), *row)
-        for mould in report.get("mould_drift", ())
-        for row in mould_rows(mould)
+        (mould.piece_mark or "", len(mould.columns), *row) for mould in report.mould_drift for row in mould_rows(mould)
     )
     return Table(phrase("ui.mould"), (heading("piece_mark"), heading("columns", "count"), *MOULD), rows)
 
 
-def profile_table(report: Report) -> Table:
+def profile_table(report: JobReport) -> Table:
     """The limits of the job's tolerance profile."""
     headings = (
         heading("rule"),
@@ -195,22 +194,22 @@ def profile_table(report: Report) -> Table:
     )
     rows = tuple(
         (
-            rule["name"],
-            rule["lower_mm"],
-            rule["upper_mm"],
-            rule["clause"],
-            rule["source"],
-            rule["severity"],
-            "✓" if rule["advisory"] else "",
-            rule["note"],
+            rule.name,
+            rule.lower_mm,
+            rule.upper_mm,
+            rule.clause,
+            rule.source,
+            rule.severity,
+            "✓" if rule.advisory else "",
+            rule.note,
         )
-        for rule in report["profile"]["rules"]
+        for rule in report.profile.rules
     )
     return Table(phrase("ui.profile"), headings, rows)
 
 
-def _each(columns: Iterable[dict[str, Any]], rows_of: Callable[[dict[str, Any]], Iterable[Row]]) -> tuple[Row, ...]:
-    return tuple((column["id"], *row) for column in columns for row in rows_of(column))
+def _each(columns: Iterable[ColumnReport], rows_of: Callable[[ColumnReport], Iterable[Row]]) -> tuple[Row, ...]:
+    return tuple((column.id, *row) for column in columns for row in rows_of(column))
 
 
 def _sheet(word: str, headings: tuple[Heading, ...], rows: tuple[Row, ...]) -> Table:

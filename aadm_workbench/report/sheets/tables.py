@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
+from aadm_workbench.model import AbsolutePoint, AbsolutePosition, ColumnReport, HoistingReport, JobReport, Kind
 from aadm_workbench.report.clauses import clause_of
-from aadm_workbench.report.read import Report
-from aadm_workbench.report.shown_pose import shown_pose
 from aadm_workbench.report.words.labels import Phrase, phrase
 
 Cell: TypeAlias = str | float | int | None
@@ -126,114 +125,113 @@ RULES = (
 INPUTS = (heading("use"), heading("file"), heading("method"), heading("hash"))
 
 
-def point_rows(report: Report, column: dict[str, Any], kind: str) -> Iterator[Row]:
-    """Rows under :data:`POINTS` of ``sleeves`` or ``rebars``."""
-    for point in (column[kind] or {}).get("points", ()):
-        clause = clause_of(report, f"{kind[:-1]}_position", point["limit_mm"])
+def point_rows(report: JobReport, column: ColumnReport, kind: Kind) -> Iterator[Row]:
+    """Rows under :data:`POINTS` of sleeves or rebars."""
+    for point in column.points(kind):
+        clause = clause_of(report, f"{kind}_position", point.limit_mm)
         yield (
-            point["label"],
-            *point["design_mm"][:2],
-            *(point["offset_mm"] or (None, None)),
-            point["deviation_mm"],
-            point["u_mm"],
-            point["limit_mm"],
+            point.label,
+            *point.design_mm[:2],
+            *(point.offset_mm or (None, None)),
+            point.deviation_mm,
+            point.u_mm,
+            point.limit_mm,
             *clause,
-            point["verdict"],
-            point["diameter_mm"],
-            point["axis_tilt_deg"],
-            point.get("exposed_length_mm"),
-            point["reason"],
+            point.verdict,
+            point.diameter_mm,
+            point.axis_tilt_deg,
+            point.exposed_length_mm,
+            point.reason,
         )
 
 
-def spacing_rows(report: Report, column: dict[str, Any], kind: str) -> Iterator[Row]:
-    """Rows under :data:`SPACING` of ``sleeves`` or ``rebars``."""
-    for spacing in (column[kind] or {}).get("spacing", ()):
-        lower, upper = spacing["limit_mm"] or (None, None)
+def spacing_rows(report: JobReport, column: ColumnReport, kind: Kind) -> Iterator[Row]:
+    """Rows under :data:`SPACING` of sleeves or rebars."""
+    group = column.group(kind)
+    for spacing in () if group is None else group.spacing:
+        lower, upper = spacing.limit_mm or (None, None)
         yield (
-            "–".join(spacing["between"]),
-            spacing["design_mm"],
-            spacing["measured_mm"],
-            spacing["deviation_mm"],
-            spacing["u_mm"],
+            "–".join(spacing.between),
+            spacing.design_mm,
+            spacing.measured_mm,
+            spacing.deviation_mm,
+            spacing.u_mm,
             lower,
             upper,
-            *clause_of(report, f"{kind[:-1]}_spacing", upper),
-            spacing["verdict"],
-            spacing["reason"],
+            *clause_of(report, f"{kind}_spacing", upper),
+            spacing.verdict,
+            spacing.reason,
         )
 
 
-def pair_rows(report: Report, column: dict[str, Any]) -> Iterator[Row]:
+def pair_rows(report: JobReport, column: ColumnReport) -> Iterator[Row]:
     """Rows under :data:`PAIRS`: the best pose, with least squares beside it."""
-    trial = column["trial_assembly"] or {}
-    squares = {(pair["sleeve"], pair["rebar"]): pair for pair in (trial.get("least_squares") or {}).get("pairs", ())}
-    for pair in (shown_pose(trial) or {}).get("pairs", ()):
-        other = squares.get((pair["sleeve"], pair["rebar"]), {})
+    trial = column.trial_assembly
+    least = None if trial is None else trial.least_squares
+    squares = {(pair.sleeve, pair.rebar): pair for pair in (() if least is None else least.pairs)}
+    for pair in column.pairs:
+        other = squares.get((pair.sleeve, pair.rebar))
         yield (
-            f"{pair['sleeve']}/{pair['rebar']}",
-            *pair["offset_mm"],
-            pair["distance_mm"],
-            other.get("distance_mm"),
-            pair["u_mm"],
-            pair["limit_mm"],
-            *clause_of(report, "sleeve_rebar_distance", pair["limit_mm"]),
-            pair["clearance_mm"],
-            pair["verdict"],
-            other.get("verdict"),
-            pair["reason"],
+            f"{pair.sleeve}/{pair.rebar}",
+            *pair.offset_mm,
+            pair.distance_mm,
+            None if other is None else other.distance_mm,
+            pair.u_mm,
+            pair.limit_mm,
+            *clause_of(report, "sleeve_rebar_distance", pair.limit_mm),
+            pair.clearance_mm,
+            pair.verdict,
+            None if other is None else other.verdict,
+            pair.reason,
         )
-    for label in trial.get("missing", ()):
+    for label in () if trial is None else trial.missing:
         yield (label, *(None,) * 9, "not_measured", None, "")
 
 
-def absolute_rows(report: Report, column: dict[str, Any]) -> Iterator[Row]:
+def absolute_rows(report: JobReport, column: ColumnReport) -> Iterator[Row]:
     """Rows under :data:`ABSOLUTE`: the group of bars first, then each bar."""
-    absolute = (column["rebars"] or {}).get("absolute")
+    absolute = None if column.rebars is None else column.rebars.absolute
     if absolute is None:
         return
-    for found in (absolute, *absolute["points"]):
-        clause = clause_of(report, "group_position", found["limit_mm"])
-        offset = found["offset_mm"] or (None, None)
-        label = found.get("label", "")
-        yield (label, *offset, found["deviation_mm"], found["u_mm"], found["limit_mm"], *clause, found["verdict"])
+    entries: list[tuple[str, AbsolutePosition | AbsolutePoint]] = [("", absolute)]
+    for label, found in entries + [(point.label, point) for point in absolute.points]:
+        clause = clause_of(report, "group_position", found.limit_mm)
+        offset = found.offset_mm or (None, None)
+        yield (label, *offset, found.deviation_mm, found.u_mm, found.limit_mm, *clause, found.verdict)
 
 
-def hoisting_rows(report: Report, frame: dict[str, Any]) -> Iterator[Row]:
+def hoisting_rows(report: JobReport, frame: HoistingReport) -> Iterator[Row]:
     """Rows under :data:`HOISTING` of one frame."""
-    for pair in frame["pairs"]:
-        limit_mm = pair.get("limit_mm")
+    for pair in frame.pairs:
         yield (
-            f"{pair['sleeve']}/{pair['rebar']}",
-            *(pair["offset_mm"] or (None, None)),
-            pair["distance_mm"],
-            pair["u_mm"],
-            limit_mm,
-            *clause_of(report, "sleeve_rebar_distance", limit_mm),
-            pair.get("verdict"),
-            "✓" if pair["seen"] else "",
-            pair["reason"],
+            f"{pair.sleeve}/{pair.rebar}",
+            *(pair.offset_mm or (None, None)),
+            pair.distance_mm,
+            pair.u_mm,
+            pair.limit_mm,
+            *clause_of(report, "sleeve_rebar_distance", pair.limit_mm),
+            pair.verdict,
+            "✓" if pair.seen else "",
+            pair.reason,
         )
 
 
-def rule_rows(column: dict[str, Any]) -> Iterator[Row]:
+def rule_rows(column: ColumnReport) -> Iterator[Row]:
     """Rows under :data:`RULES`: the rules of the column, of its groups and of its trial."""
-    for part in (column, column["sleeves"], column["rebars"], column["trial_assembly"]):
-        for rule in (part or {}).get("rules", ()):
-            counted = "✓" if rule["counted"] else ""
-            source = rule["source"]
-            clause = rule["clause"].removesuffix(f", {source}")
-            yield (rule["rule"], rule["worst_mm"], rule["verdict"], counted, clause, source, rule["reason"])
+    for part in column.parts:
+        for rule in part.rules:
+            counted = "✓" if rule.counted else ""
+            source = rule.source
+            clause = rule.clause.removesuffix(f", {source}")
+            yield (rule.rule, rule.worst_mm, rule.verdict, counted, clause, source, rule.reason)
 
 
-def input_rows(column: dict[str, Any]) -> Iterator[Row]:
+def input_rows(column: ColumnReport) -> Iterator[Row]:
     """Rows under :data:`INPUTS`: the scans of a column with their hashes."""
-    for use in ("sleeves", "rebars"):
-        group = column[use]
-        if group is not None:
-            yield (use, group["source"], group["method"], group["sha256"])
-    for frame in column["hoisting"]:
-        yield ("hoisting", frame["source"], frame.get("method", ""), frame.get("sha256", ""))
+    for kind, group in column.groups.items():
+        yield (kind.plural, group.source, group.method, group.sha256)
+    for frame in column.hoisting:
+        yield ("hoisting", frame.source, frame.method, frame.sha256)
 
 
 def narrowed(headings: Sequence[Heading], rows: Sequence[Row]) -> tuple[tuple[Heading, ...], list[Row]]:

@@ -13,7 +13,7 @@ from typing import Any
 
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import MissingDependencyError
-from aadm_workbench.report.read import Report
+from aadm_workbench.model import JobReport
 from aadm_workbench.report.sheets.sheets import job_tables
 from aadm_workbench.report.sheets.tables import Cell, CellKind, Table
 from aadm_workbench.report.words.labels import HEAD, SIGN, Language, phrase, verdict_words
@@ -41,7 +41,7 @@ _FORBIDDEN_IN_SHEET_NAMES = str.maketrans(dict.fromkeys("[]:*?/\\", " "))
 _LONGEST_CELL = 32_767  # characters of a cell, Excel's own bound
 
 
-def write_xlsx(report: Report, path: Path, language: Language = "en") -> None:
+def write_xlsx(report: JobReport, path: Path, language: Language = "en") -> None:
     """Write report.xlsx, whole or not at all.
 
     Raises
@@ -59,7 +59,7 @@ def write_xlsx(report: Report, path: Path, language: Language = "en") -> None:
     options = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "nan_inf_to_errors": False}
     book = xlsxwriter.Workbook(content, options)
     title = phrase("ui.title").in_language(language)
-    book.set_properties({"title": f"{title}: {report['job']['name']}", "created": _CREATED})
+    book.set_properties({"title": f"{title}: {report.job['name']}", "created": _CREATED})
     sheets = _Sheets(book, language)
     for table in job_tables(report, language):
         sheets.add(table)
@@ -125,7 +125,7 @@ class _Sheets:
                     said = verdict_words(name, self.language)
                     sheet.conditional_format(1, column, last_row, column, rule | {"value": f'"{said}"'})
 
-    def add_about(self, report: Report) -> None:
+    def add_about(self, report: JobReport) -> None:
         """The last sheet: the job, its inputs by hash, and how to read the numbers."""
         sheet = self.book.add_worksheet(phrase("ui.job").in_language(self.language))
         sheet.set_column(0, 0, 24)
@@ -133,10 +133,15 @@ class _Sheets:
         lines = [
             *(
                 (f"{part}.{key}", value)
-                for part in ("job", "model", "capture", "tool")
-                for key, value in _of(report, part)
+                for part, said in (
+                    ("job", report.job),
+                    ("model", report.model),
+                    ("capture", report.capture),
+                    ("tool", report.tool),
+                )
+                for key, value in (said or {}).items()
             ),
-            ("profile", f"{report['profile']['name']}: {report['profile']['title']}"),
+            ("profile", f"{report.profile.name}: {report.profile.title}"),
             (phrase("ui.notes").in_language(self.language), phrase("ui.frames_note").in_language(self.language)),
             (
                 phrase("ui.unverified").in_language(self.language),
@@ -146,10 +151,6 @@ class _Sheets:
         for row, (key, value) in enumerate(lines):
             sheet.write_string(row, 0, str(key), self.label)
             sheet.write_string(row, 1, str(value)[:_LONGEST_CELL], self.text)
-
-
-def _of(report: Report, part: str) -> list[tuple[str, str]]:
-    return list((report[part] or {}).items())
 
 
 def _width(cell: Cell) -> int:

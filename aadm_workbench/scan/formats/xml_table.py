@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import re
-from typing import Any
 from xml.etree import ElementTree
 
 from aadm_workbench.errors import CameraError
+from aadm_workbench.model import Json
 
 _DECLARATION = re.compile("<!(?:DOCTYPE|ENTITY)", re.IGNORECASE)
 _DEEPEST_XML = 50  # the files of OpenCV nest three deep
 
 
-def parse_xml(text: str) -> dict[str, Any]:
+def parse_xml(text: str) -> dict[str, Json]:
     """Return the elements of an XML text by their tags: tables, lists of numbers, numbers or words.
 
     Raises
@@ -29,10 +29,10 @@ def parse_xml(text: str) -> dict[str, Any]:
     return {root.tag: _value(root, _DEEPEST_XML)}
 
 
-def _value(element: ElementTree.Element, deepest: int) -> Any:
+def _value(element: ElementTree.Element, deepest: int) -> Json:
     if deepest == 0:
         raise CameraError(f"is XML nested more than {_DEEPEST_XML} deep, which no camera writes")
-    table: dict[str, Any] = {name: _plain(text) for name, text in element.attrib.items()}
+    table: dict[str, Json] = {name: _plain(text) for name, text in element.attrib.items()}
     for child in element:
         value = _value(child, deepest - 1)
         # Rows of a matrix may share a tag.
@@ -45,11 +45,11 @@ def _value(element: ElementTree.Element, deepest: int) -> Any:
     return table
 
 
-def _plain(text: str) -> Any:
+def _plain(text: str) -> Json:
     """Return a whole number, a number, a list of numbers, or the text itself."""
     words = re.split(r"[\s,;]+", text.strip(" \t\r\n[](),;"))
     try:
-        numbers = [int(word) if re.fullmatch("[-+]?[0-9]{1,15}", word) else float(word) for word in words]
+        numbers: list[Json] = [int(word) if re.fullmatch("[-+]?[0-9]{1,15}", word) else float(word) for word in words]
     except ValueError:
         return text.strip()
     return numbers[0] if len(numbers) == 1 else numbers

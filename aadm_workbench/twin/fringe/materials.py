@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
+from typing import TypeAlias
 
 from aadm_workbench.twin.surface import BAR, CONCRETE, DARK, FLOOR, OBJECT, SLEEVE_WALL, TAPE
 
@@ -48,12 +48,16 @@ class Materials:
     mottling: float = 0.12
 
 
+Bsdf: TypeAlias = "dict[str, Bsdf | str | float | list[float]]"
+"""A surface as Mitsuba takes its description."""
+
+
 def has_relief(kind: int) -> bool:
     """Whether a kind of surface is cast, and so has a relief and stains."""
     return kind in (CONCRETE, FLOOR)
 
 
-def bsdf_of(kind: int, materials: Materials) -> dict[str, Any]:
+def bsdf_of(kind: int, materials: Materials) -> Bsdf:
     """Mitsuba's description of a kind of surface."""
     if kind == SLEEVE_WALL:
         return _metal(materials.sleeve)
@@ -63,21 +67,21 @@ def bsdf_of(kind: int, materials: Materials) -> dict[str, Any]:
     return _two_sided(_diffuse(albedo))
 
 
-def _metal(metal: Metal) -> dict[str, Any]:
-    bare = {
+def _metal(metal: Metal) -> Bsdf:
+    bare: Bsdf = {
         "type": "roughconductor",
         "distribution": "ggx",
         "alpha": metal.roughness,
         "material": "none",
         "specular_reflectance": {"type": "uniform", "value": metal.reflectance},
     }
-    blend = {"type": "blendbsdf", "weight": metal.cover, "bare": bare, "cover": _diffuse(metal.cover_albedo)}
+    blend: Bsdf = {"type": "blendbsdf", "weight": metal.cover, "bare": bare, "cover": _diffuse(metal.cover_albedo)}
     return _two_sided(blend)
 
 
-def _diffuse(albedo: float) -> dict[str, Any]:
+def _diffuse(albedo: float) -> Bsdf:
     return {"type": "diffuse", "reflectance": {"type": "uniform", "value": albedo}}
 
 
-def _two_sided(bsdf: dict[str, Any]) -> dict[str, Any]:
+def _two_sided(bsdf: Bsdf) -> Bsdf:
     return {"type": "twosided", "inside": bsdf}

@@ -13,8 +13,8 @@ from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import DesignError, JobError, MissingDependencyError
 from aadm_workbench.inspection import as_designed, column
 from aadm_workbench.model import ColumnReport, Verdict
-from aadm_workbench.report.json import encode, report_document
-from aadm_workbench.report.read import checked_report
+from aadm_workbench.report.json import encoded_report
+from aadm_workbench.report.read import parsed_report
 from batch.job.file import read_job
 from batch.runner.pools import PoolOptions
 from batch.runner.record import Record
@@ -59,8 +59,8 @@ def test_one_scan_for_two_columns_passes_neither(write_job: WriteJob) -> None:
     assert (first.goes_on, second.goes_on) == ("inconclusive", "inconclusive")
     assert "is the same file as that of C-2" in first.reasons[0]
     assert [(finding.code, finding.about) for finding in second.findings] == [("same_scan_twice", ("rebars",))]
-    document = report_document(finished(path).report)
-    assert checked_report(document, "report.json") is document
+    content = encoded_report(finished(path).report)
+    assert encoded_report(parsed_report(content, "report.json")) == content
 
 
 @pytest.mark.usefixtures("exact_extraction")
@@ -150,13 +150,13 @@ def test_the_same_job_gives_the_same_bytes_wherever_it_lies(
 ) -> None:
     columns = (column_text("C-1", "foot.ply", "4mm.ply"), column_text("C-2", "missing.ply"))
     path = write_job(*columns, clouds=("foot.ply", "4mm.ply"))
-    first = encode(report_document(finished(path).report))
+    first = encoded_report(finished(path).report)
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     for name in ("job.toml", "foot.ply", "4mm.ply"):
         (elsewhere / name).write_bytes((tmp_path / name).read_bytes())
     monkeypatch.chdir(elsewhere)
-    assert encode(report_document(finished(Path("job.toml")).report)) == first
+    assert encoded_report(finished(Path("job.toml")).report) == first
     assert str(tmp_path).encode() not in first
 
 
@@ -247,7 +247,7 @@ def test_processes_come_to_the_same_report(write_job: WriteJob) -> None:
     (path.parent / "foot.ply").write_text("ply\n")
     alone = finished(path)
     spread = finished(path, processes=2)
-    assert encode(report_document(spread.report)) == encode(report_document(alone.report))
+    assert encoded_report(spread.report) == encoded_report(alone.report)
     assert [column.verdict.value for column in spread.report.columns] == ["error", "not_measured", "error"]
     seconds = spread.seconds["columns"]
     assert isinstance(seconds, dict)

@@ -10,7 +10,6 @@ from aadm_workbench.model import (
     ColumnReport,
     GroupReport,
     JobReport,
-    Kind,
     PairResult,
     PointResult,
     Profile,
@@ -32,7 +31,7 @@ def point(label: str, deviation_mm: float | None, verdict: Verdict, reason: str 
 
 def group(points: tuple[PointResult, ...], spacing: tuple[SpacingResult, ...] = ()) -> GroupReport:
     """Sleeves."""
-    return GroupReport(Kind.SLEEVE, "a.ply", "", "refined", 12, 12, Verdict.PASS, points, spacing, None)
+    return GroupReport("a.ply", "", "refined", 12, 12, Verdict.PASS, points, spacing, None)
 
 
 def pair(distance_mm: float, verdict: Verdict) -> TrialReport:

@@ -17,6 +17,7 @@ import pytest
 from aadm_workbench.report.ifc.model import write_ifc
 from tests.report.floor_schemas import made_report
 from tests.report.ifc_models import floor, one_column
+from tests.report.typed import typed
 
 
 @pytest.mark.parametrize(
@@ -34,7 +35,7 @@ def test_marks_stand_at_the_measured_centres(
     model, out = one_column(tmp_path, "IFC4", unit, wcs=wcs, far=far), tmp_path / "out.ifc"
     report = made_report(model)
     column = report["columns"][0]
-    write_ifc(report, model, out)
+    write_ifc(typed(report), model, out)
     file = ifcopenshell.open(out)
     T_model_column = np.array(column["T_model_column"])
     mm = 1.0 if unit == "mm" else 1000.0
@@ -57,7 +58,7 @@ def test_marks_are_visible_where_they_say(tmp_path: Path) -> None:
     model, out = one_column(tmp_path), tmp_path / "out.ifc"
     report = made_report(model)
     column = report["columns"][0]
-    write_ifc(report, model, out)
+    write_ifc(typed(report), model, out)
     settings = ifcopenshell.geom.settings()
     settings.set("use-world-coords", True)
     file = ifcopenshell.open(out)
@@ -79,7 +80,7 @@ def test_marks_are_visible_where_they_say(tmp_path: Path) -> None:
 
 def test_marks_can_be_switched_off_together(tmp_path: Path) -> None:
     model, out = one_column(tmp_path), tmp_path / "out.ifc"
-    write_ifc(made_report(model), model, out)
+    write_ifc(typed(made_report(model)), model, out)
     file = ifcopenshell.open(out)
     marks = set(file.by_type("IfcAnnotation"))
     group = next(group for group in file.by_type("IfcGroup") if group.Name == "AADM as-built centres")
@@ -96,7 +97,7 @@ def test_marks_move_with_a_column_that_was_moved_since(tmp_path: Path) -> None:
     storey = moved.by_type("IfcBuildingStorey")[0]
     storey.ObjectPlacement.RelativePlacement.Location.Coordinates = (100.0, 0.0, 4000.0)
     moved.write(str(model))
-    write_ifc(report, model, out, force=True)
+    write_ifc(typed(report), model, out, force=True)
     file = ifcopenshell.open(out)
     mark = next(mark for mark in file.by_type("IfcAnnotation") if mark.Name == "S1 as-built")
     now = np.array(made_report(model)["columns"][0]["T_model_column"])
@@ -110,7 +111,7 @@ def test_marks_move_with_a_column_that_was_moved_since(tmp_path: Path) -> None:
 def test_freecad_shows_the_values_and_the_marks(freecad: Any, tmp_path: Path) -> None:
     model, out = floor(tmp_path, "IFC4"), tmp_path / "out.ifc"
     report = made_report(model, only=("C-301", "C-302"))
-    write_ifc(report, model, out)
+    write_ifc(typed(report), model, out)
     result = freecad.run(FREECAD_BODY.format(path=str(out)), python_path=site.getsitepackages()[0])
     held = {label: values for label, values in result["values"].items() if "Precast column C-301" in label}
     (values,) = held.values()

@@ -22,14 +22,14 @@ from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.errors import DesignError, ReportError
 from aadm_workbench.report.ifc.model import ids_path, remove_ifc, write_ifc
 from aadm_workbench.report.ifc.read import read_ifc_results
-from aadm_workbench.report.read import Report
 from tests.report.floor_schemas import SCHEMAS, made_report
 from tests.report.ifc_models import complaints_about_additions, floor, one_column
+from tests.report.typed import typed
 
 HOSTILE = "C'1\";<script>alert(1)</script>\n\x01灌浆😀\\X2\\"
 
 
-def expected(report: Report) -> dict[str, dict[str, Any]]:
+def expected(report: dict[str, Any]) -> dict[str, dict[str, Any]]:
     """Numbers of the points of a report by GlobalId."""
     return {
         point["global_id"]: point
@@ -43,7 +43,7 @@ def expected(report: Report) -> dict[str, dict[str, Any]]:
 def test_the_written_model_differs_only_in_what_was_added(schema: str, tmp_path: Path) -> None:
     model = floor(tmp_path, schema)
     out = tmp_path / "out.ifc"
-    done = write_ifc(made_report(model), model, out, report_location="floor/报告 1.html")
+    done = write_ifc(typed(made_report(model)), model, out, report_location="floor/报告 1.html")
     assert len(done.columns) == 8
     assert done.annotations == 8 * 22
     assert (done.missing, done.notes, done.changed) == ((), (), True)
@@ -57,7 +57,7 @@ def test_the_written_model_differs_only_in_what_was_added(schema: str, tmp_path:
 def test_numbers_come_back_as_they_are_in_the_report(schema: str, tmp_path: Path) -> None:
     model = floor(tmp_path, schema)
     report = made_report(model)
-    write_ifc(report, model, tmp_path / "out.ifc")
+    write_ifc(typed(report), model, tmp_path / "out.ifc")
     found = read_ifc_results(tmp_path / "out.ifc")
     points = expected(report)
     assert len(points) == 8 * 24
@@ -86,13 +86,13 @@ def test_writing_twice_changes_nothing_and_removing_gives_the_original(schema: s
     original = model.read_bytes()
     report = made_report(model, only=("C-301", "C-302"))
     other_report = made_report(model, seed=2, only=("C-301", "C-302"))
-    first = write_ifc(report, model, model)
+    first = write_ifc(typed(report), model, model)
     assert first.backup is not None
     assert first.backup.read_bytes() == original
     written = model.read_bytes()
-    again = write_ifc(report, model, model)
+    again = write_ifc(typed(report), model, model)
     assert (again.changed, again.backup, model.read_bytes()) == (False, None, written)
-    other = write_ifc(other_report, model, model)
+    other = write_ifc(typed(other_report), model, model)
     assert (other.changed, other.backup) == (True, None), "one backup for each state of the model"
     assert model.read_bytes() != written
     remove_ifc(model, model)
@@ -104,7 +104,7 @@ def test_writing_twice_changes_nothing_and_removing_gives_the_original(schema: s
 def test_lengths_are_in_the_unit_of_the_model_and_it_stays_valid(schema: str, unit: str, tmp_path: Path) -> None:
     model, out = one_column(tmp_path, schema, unit), tmp_path / "out.ifc"
     report = made_report(model)
-    write_ifc(report, model, out, report_location="report.json")
+    write_ifc(typed(report), model, out, report_location="report.json")
     file = ifcopenshell.open(out)
     point = report["columns"][0]["sleeves"]["points"][0]
     held = ifcopenshell.util.element.get_psets(file.by_guid(point["global_id"]))["AADM_SleeveCheck"]
@@ -121,7 +121,7 @@ def test_hostile_names_survive(tmp_path: Path) -> None:
     model, out = one_column(tmp_path, name=HOSTILE), tmp_path / "out.ifc"
     report = made_report(model, name=HOSTILE)
     report["columns"][0]["reasons"] = [HOSTILE * 40]
-    write_ifc(report, model, out)
+    write_ifc(typed(report), model, out)
     file = ifcopenshell.open(out)
     held = ifcopenshell.util.element.get_psets(file.by_guid(report["columns"][0]["global_id"]))["AADM_ColumnCheck"]
     assert held["Job"] == HOSTILE
@@ -134,7 +134,7 @@ def test_hostile_names_survive(tmp_path: Path) -> None:
 def test_raw_chinese_names_keep_their_bytes(encoding: str, tmp_path: Path) -> None:
     model, out = one_column(tmp_path, name="ZHU"), tmp_path / "out.ifc"
     model.write_bytes(model.read_bytes().replace(b"'ZHU'", "'预制柱;1'".encode(encoding)).replace(b"\n", b"\r\n"))
-    write_ifc(made_report(model), model, out)
+    write_ifc(typed(made_report(model)), model, out)
     before, after = model.read_bytes(), out.read_bytes()
     end = before.rindex(b"ENDSEC;")
     assert after.startswith(before[:end])
@@ -146,7 +146,7 @@ def test_raw_chinese_names_keep_their_bytes(encoding: str, tmp_path: Path) -> No
 
 def test_the_design_of_a_written_model_is_that_of_the_original(tmp_path: Path) -> None:
     model, out = floor(tmp_path, "IFC4"), tmp_path / "out.ifc"
-    write_ifc(made_report(model), model, out)
+    write_ifc(typed(made_report(model)), model, out)
 
     @cache
     def design(path: Path) -> list[tuple[Any, ...]]:
@@ -166,9 +166,9 @@ def test_a_report_of_another_model_is_refused(tmp_path: Path) -> None:
     report = made_report(model)
     model.write_text(model.read_text().replace("'C-1'", "'C-2'"))
     with pytest.raises(ReportError, match=r"has changed since.*--force"):
-        write_ifc(report, model, out)
+        write_ifc(typed(report), model, out)
     assert not out.exists()
-    assert write_ifc(report, model, out, force=True).columns == ("C-1",)
+    assert write_ifc(typed(report), model, out, force=True).columns == ("C-1",)
 
 
 def test_a_report_without_a_model_or_of_other_columns_is_refused(tmp_path: Path) -> None:
@@ -177,14 +177,14 @@ def test_a_report_without_a_model_or_of_other_columns_is_refused(tmp_path: Path)
     elsewhere = copy.deepcopy(report)
     elsewhere["columns"][0]["global_id"] = "0" * 22
     with pytest.raises(ReportError, match="holds none of the report's columns"):
-        write_ifc(elsewhere, model, out)
+        write_ifc(typed(elsewhere), model, out)
     report["model"] = None
     with pytest.raises(ReportError, match="not against a model"):
-        write_ifc(report, model, out)
+        write_ifc(typed(report), model, out)
     with pytest.raises(ReportError, match="holds no results"):
         remove_ifc(model, out)
     with pytest.raises(DesignError, match="does not exist"):
-        write_ifc(report, tmp_path / "no.ifc", out)
+        write_ifc(typed(report), tmp_path / "no.ifc", out)
     assert not out.exists()
 
 
@@ -192,7 +192,7 @@ def test_columns_that_the_model_lacks_are_named(tmp_path: Path) -> None:
     model, out = floor(tmp_path, "IFC4"), tmp_path / "out.ifc"
     report = made_report(model)
     report["columns"][0]["global_id"] = None
-    done = write_ifc(report, model, out)
+    done = write_ifc(typed(report), model, out)
     assert done.missing == ("column C-301",)
     assert len(done.columns) == 7
 
@@ -202,7 +202,7 @@ def test_several_bars_in_one_entity_are_told_apart(tmp_path: Path) -> None:
     report = made_report(model)
     points = report["columns"][0]["rebars"]["points"]
     points[2]["global_id"] = points[0]["global_id"]
-    write_ifc(report, model, out)
+    write_ifc(typed(report), model, out)
     held = read_ifc_results(out)[points[0]["global_id"]]
     assert held["AADM_RebarCheck"]["Label"] == "R1", "the worst of them"
     assert held["AADM_RebarCheck_R1"]["Deviation"] == points[0]["deviation_mm"]
@@ -213,7 +213,7 @@ def test_several_bars_in_one_entity_are_told_apart(tmp_path: Path) -> None:
 def test_the_ids_passes_on_what_was_written_and_on_nothing_else(schema: str, tmp_path: Path) -> None:
     ids = pytest.importorskip("ifctester.ids")
     model, out = one_column(tmp_path, schema, "m"), tmp_path / "out.ifc"
-    write_ifc(made_report(model), model, out)
+    write_ifc(typed(made_report(model)), model, out)
 
     def passes(path: Path) -> bool:
         checks = ids.open(str(ids_path()), validate=True)
@@ -237,7 +237,7 @@ def test_the_ids_passes_on_what_was_written_and_on_nothing_else(schema: str, tmp
 def test_records_say_what_was_done(tmp_path: Path) -> None:
     for schema in SCHEMAS:
         model, out = one_column(tmp_path, schema), tmp_path / "out.ifc"
-        write_ifc(made_report(model), model, out, report_location="../floor 3/报告.html")
+        write_ifc(typed(made_report(model)), model, out, report_location="../floor 3/报告.html")
         file = ifcopenshell.open(out)
         column = file.by_type("IfcColumn")[0]
         assert [rel.RelatingProcess.ObjectType for rel in column.HasAssignments] == ["INSPECTION"]
@@ -267,8 +267,8 @@ def test_files_that_are_laid_out_differently(layout: str, tmp_path: Path) -> Non
     assert text != model.read_text()
     model.write_bytes(text.encode())
     report = made_report(model)
-    assert write_ifc(report, model, out).annotations == 6
-    assert not write_ifc(report, out, out).changed
+    assert write_ifc(typed(report), model, out).annotations == 6
+    assert not write_ifc(typed(report), out, out).changed
     remove_ifc(out, out)
     assert out.read_bytes() == model.read_bytes()
 
@@ -277,13 +277,13 @@ def test_each_night_replaces_the_results_of_the_night_before(tmp_path: Path) -> 
     """The model is checked, written into, checked again as it is now, and written into again."""
     model = one_column(tmp_path)
     original = model.read_bytes()
-    write_ifc(made_report(model), model, model)
+    write_ifc(typed(made_report(model)), model, model)
     second = made_report(model, seed=2)
     first_size = model.stat().st_size
-    write_ifc(second, model, model)
+    write_ifc(typed(second), model, model)
     written = model.read_bytes()
     assert abs(len(written) - first_size) < 500, "replaced, not added"
-    assert not write_ifc(second, model, model).changed, "the model that was checked is known from its own record"
+    assert not write_ifc(typed(second), model, model).changed, "the model that was checked is known from its own record"
     assert model.read_bytes() == written
     offset = second["columns"][0]["sleeves"]["points"][2]["offset_mm"]
     held = read_ifc_results(model)[second["columns"][0]["sleeves"]["points"][2]["global_id"]]["AADM_SleeveCheck"]

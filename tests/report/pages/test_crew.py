@@ -17,6 +17,7 @@ from aadm_workbench.report.pages.crew import CrewAdvice, crew_advice
 from aadm_workbench.report.pages.crew_page import write_crew_pages
 from tests.report.checked_floor import CASES, CENTRES, HOSTILE, Case, far_apart, floor_report
 from tests.report.test_directions import told_vector
+from tests.report.typed import of_column, typed
 
 LIGHTS = {
     "C-1": "green",
@@ -32,7 +33,7 @@ LIGHTS = {
 
 def advice_for(report: dict[str, Any], name: str) -> tuple[dict[str, Any], CrewAdvice]:
     column = next(column for column in report["columns"] if column["id"] == name)
-    return column, crew_advice(report, column)
+    return column, crew_advice(typed(report), of_column(column))
 
 
 def pages_of(path: Path) -> dict[str, str]:
@@ -46,7 +47,7 @@ def squeezed(text: str) -> str:
 
 
 def test_every_column_has_a_page_with_both_languages(floor: dict[str, Any], tmp_path: Path) -> None:
-    write_crew_pages(floor, tmp_path / "crew.pdf")
+    write_crew_pages(typed(floor), tmp_path / "crew.pdf")
     reader = pypdf.PdfReader(tmp_path / "crew.pdf")
     assert len(reader.pages) == len(floor["columns"])
     texts = [squeezed(page.extract_text()) for page in reader.pages]
@@ -67,14 +68,14 @@ def test_the_sketch_says_whether_it_shows_bars_or_sleeves(floor: dict[str, Any],
     whole = next(column for column in floor["columns"] if column["verdict"] == "pass" and column["rebars"])
     foot = whole | {"id": "foot alone", "rebars": None, "trial_assembly": None, "goes_on": "not_assessed"}
     for column, shown in ((whole, "Barsseenfromabove"), (foot, "Sleevesinthefoot")):
-        write_crew_pages(floor | {"columns": [column]}, tmp_path / "crew.pdf")
+        write_crew_pages(typed(floor | {"columns": [column]}), tmp_path / "crew.pdf")
         (page,) = pypdf.PdfReader(tmp_path / "crew.pdf").pages
         assert shown in squeezed(page.extract_text())
 
 
 def test_same_bytes(floor: dict[str, Any], tmp_path: Path) -> None:
     for name in ("a.pdf", "b.pdf"):
-        write_crew_pages(floor, tmp_path / name)
+        write_crew_pages(typed(floor), tmp_path / name)
     assert (tmp_path / "a.pdf").read_bytes() == (tmp_path / "b.pdf").read_bytes()
 
 
@@ -145,7 +146,7 @@ def test_column_moved_as_told_hangs_over_its_bars(floor: dict[str, Any], name: s
     column = next(column for column in floor["columns"] if column["id"] == name)
     sleeves = turned(CENTRES, rng.uniform(-0.02, 0.02)) + rng.uniform(-30.0, 30.0, 2)
     column |= hanging(column, sleeves)
-    advice = crew_advice(floor, column)
+    advice = crew_advice(typed(floor), of_column(column))
     assert advice.light == "amber"
     text = " ".join(step.text.en for step in advice.steps)
     turn = TURN.search(text)
@@ -164,9 +165,9 @@ def test_same_move_beside_the_camera(floor: dict[str, Any]) -> None:
     """It is no step of its own: nobody may move the column twice."""
     column = floor["columns"][0]
     column |= hanging(column, CENTRES + np.array([3.0, -1.0]))
-    before = crew_advice(floor, column).steps
+    before = crew_advice(typed(floor), of_column(column)).steps
     column["hoisting"][0]["correction"]["camera"] = {"right_mm": -1.2, "away_mm": 2.9, "yaw_deg": 0.0}
-    after = crew_advice(floor, column).steps
+    after = crew_advice(typed(floor), of_column(column)).steps
     assert len(after) == len(before)
     told = "(The same move, seen from the camera: 1.2 mm to the left, 2.9 mm away from the camera.)"
     assert any(step.text.en.endswith(told) for step in after)
@@ -175,7 +176,7 @@ def test_same_move_beside_the_camera(floor: dict[str, Any]) -> None:
 def test_column_that_hangs_right_is_lowered(floor: dict[str, Any]) -> None:
     column = floor["columns"][0]
     column |= hanging(column, CENTRES + 0.01, "pass")
-    advice = crew_advice(floor, column)
+    advice = crew_advice(typed(floor), of_column(column))
     assert advice.light == "green"
     assert [step.text.en for step in advice.steps] == ["It hangs right: lower it."]
 
@@ -183,14 +184,14 @@ def test_column_that_hangs_right_is_lowered(floor: dict[str, Any]) -> None:
 def test_a_column_that_fails_is_not_moved_but_stopped(floor: dict[str, Any]) -> None:
     column = floor["columns"][2]
     column |= hanging(column, CENTRES + 5.0)
-    assert crew_advice(floor, column).light == "red"
+    assert crew_advice(typed(floor), of_column(column)).light == "red"
 
 
 def test_room_holds_whichever_way_the_column_goes() -> None:
     """Shifted by the room that its page names, every bar stays within its limit and touches nothing."""
     report = floor_report(Case("C-1", "A/1", off={"S3": (0.7, -0.3), "R5": (0.3, 0.9), "R9": (-0.8, 0.0)}))
     column = report["columns"][0]
-    said = " ".join(step.text.en for step in crew_advice(report, column).steps)
+    said = " ".join(step.text.en for step in crew_advice(typed(report), of_column(column)).steps)
     room_mm = float(re.findall(r"it has ([\d.]+) mm of room in every direction", said)[0])
     pairs = column["trial_assembly"]["minimax"]["pairs"]
     offsets = np.array([pair["offset_mm"] for pair in pairs])
@@ -202,7 +203,7 @@ def test_room_holds_whichever_way_the_column_goes() -> None:
 
 def test_bends_wait_for_the_engineer(floor: dict[str, Any]) -> None:
     for column in floor["columns"]:
-        for step in crew_advice(floor, column).steps:
+        for step in crew_advice(typed(floor), of_column(column)).steps:
             assert step.release == ("Bend" in step.text.en)
 
 
@@ -211,7 +212,7 @@ def test_plugged_sleeves_are_cleaned_together(floor: dict[str, Any]) -> None:
     points = column["sleeves"]["points"]
     for point in points[:2]:
         point |= {"verdict": "not_measured", "reason": "S1 not measured: no opening: the mouth is plugged or covered"}
-    said = [step.text.en for step in crew_advice(floor, column).steps]
+    said = [step.text.en for step in crew_advice(typed(floor), of_column(column)).steps]
     assert said == [
         "Open and clean sleeve S1, S2, then scan the foot again.",
         "Scan S8 again, closer and straight.",

@@ -16,6 +16,7 @@ import pytest
 from aadm_workbench.report.pages.html import html_text, write_html
 from tests.report.browser import chromium
 from tests.report.checked_floor import HOSTILE
+from tests.report.typed import typed
 
 HOSTILE_NAMES = (
     HOSTILE,
@@ -62,7 +63,7 @@ def hostile(floor: dict[str, Any]) -> dict[str, Any]:
 
 
 def test_nothing_is_loaded_and_no_name_is_markup(hostile: dict[str, Any]) -> None:
-    seen = Seen(html_text(hostile))
+    seen = Seen(html_text(typed(hostile)))
     assert seen.tags.count("script") == 3
     assert seen.tags.count("style") == 1
     assert not {"img", "link", "iframe", "object", "embed", "base", "form"} & set(seen.tags)
@@ -76,11 +77,11 @@ def test_nothing_is_loaded_and_no_name_is_markup(hostile: dict[str, Any]) -> Non
 def test_what_a_model_does_not_say_is_left_empty(floor: dict[str, Any]) -> None:
     for column in floor["columns"]:
         column |= {"grid": None, "storey": None, "piece_mark": None}
-    assert "None" not in Seen(html_text(floor)).text.replace("None of", "")
+    assert "None" not in Seen(html_text(typed(floor))).text.replace("None of", "")
 
 
 def test_policy_lets_run_only_what_stands_in_the_file(floor: dict[str, Any]) -> None:
-    policy = re.search(r'Content-Security-Policy" content="([^"]+)"', html_text(floor))
+    policy = re.search(r'Content-Security-Policy" content="([^"]+)"', html_text(typed(floor)))
     assert policy is not None
     said = html.unescape(policy[1])
     assert said.startswith("default-src 'none'; script-src 'sha256-")
@@ -89,11 +90,11 @@ def test_policy_lets_run_only_what_stands_in_the_file(floor: dict[str, Any]) -> 
 
 
 def test_same_bytes(floor: dict[str, Any]) -> None:
-    assert html_text(floor) == html_text(copy.deepcopy(floor))
+    assert html_text(typed(floor)) == html_text(typed(copy.deepcopy(floor)))
 
 
 def test_every_number_clause_and_hash_is_there(floor: dict[str, Any]) -> None:
-    text = Seen(html_text(floor)).text
+    text = Seen(html_text(typed(floor))).text
     for column in floor["columns"]:
         assert column["id"] in text
         for reason in column["reasons"]:
@@ -141,7 +142,7 @@ def page(browser: Any) -> Iterator[Any]:
 
 def opened(page: Any, report: dict[str, Any], folder: Path, name: str = "report.html") -> str:
     path = folder / name
-    write_html(report, path)
+    write_html(typed(report), path)
     address = path.as_uri()
     page.goto(address)
     return address
@@ -274,7 +275,7 @@ def test_hundred_columns(page: Any, floor: dict[str, Any], tmp_path: Path) -> No
 
 
 def test_no_number_is_lost_between_report_and_3d_view(floor: dict[str, Any]) -> None:
-    views = re.search(r'id="views">(.*?)</script>', html_text(floor))
+    views = re.search(r'id="views">(.*?)</script>', html_text(typed(floor)))
     assert views is not None
     scenes = json.loads(views[1])
     assert len(scenes) == 7

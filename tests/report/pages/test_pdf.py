@@ -10,6 +10,7 @@ import pytest
 from aadm_workbench.report.pages.pdf import write_pdf
 from aadm_workbench.report.pages.pdf_canvas import lines_of, printable, width_of
 from tests.report.checked_floor import HOSTILE
+from tests.report.typed import typed
 
 
 def text_of(path: Path) -> str:
@@ -32,7 +33,7 @@ def fonts_of(path: Path) -> dict[str, bool]:
 
 @pytest.mark.parametrize("language", ["en", "zh"])
 def test_words_and_numbers(floor: dict[str, Any], tmp_path: Path, language: str) -> None:
-    write_pdf(floor, tmp_path / "report.pdf", language)
+    write_pdf(typed(floor), tmp_path / "report.pdf", language)
     text = text_of(tmp_path / "report.pdf")
     headline = "5 of 8 columns must not be hoisted" if language == "en" else "8根柱中有5根不得吊装"
     assert re.sub(r"\s", "", headline) in text
@@ -50,7 +51,7 @@ def test_words_and_numbers(floor: dict[str, Any], tmp_path: Path, language: str)
 
 
 def test_font_is_embedded(floor: dict[str, Any], tmp_path: Path) -> None:
-    write_pdf(floor, tmp_path / "report.pdf", "zh")
+    write_pdf(typed(floor), tmp_path / "report.pdf", "zh")
     fonts = fonts_of(tmp_path / "report.pdf")
     assert fonts
     assert all(fonts.values())
@@ -59,7 +60,7 @@ def test_font_is_embedded(floor: dict[str, Any], tmp_path: Path) -> None:
 
 def test_same_bytes_a4_and_outline(floor: dict[str, Any], tmp_path: Path) -> None:
     for name in ("a.pdf", "b.pdf"):
-        write_pdf(floor, tmp_path / name)
+        write_pdf(typed(floor), tmp_path / name)
     assert (tmp_path / "a.pdf").read_bytes() == (tmp_path / "b.pdf").read_bytes()
     reader = pypdf.PdfReader(tmp_path / "a.pdf")
     assert {(round(page.mediabox.width), round(page.mediabox.height)) for page in reader.pages} == {(595, 842)}
@@ -71,7 +72,7 @@ def test_long_names_and_unknown_signs(floor: dict[str, Any], tmp_path: Path) -> 
     floor["columns"][0]["id"] = "C-" + "9" * 300
     floor["columns"][1]["id"] = "🏗 𠮷 \x07"
     floor["columns"][2]["reasons"] = ["很长的原因" * 400]
-    write_pdf(floor, tmp_path / "report.pdf")
+    write_pdf(typed(floor), tmp_path / "report.pdf")
     assert "很长的原因" * 20 in text_of(tmp_path / "report.pdf")
 
 

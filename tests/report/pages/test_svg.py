@@ -12,6 +12,7 @@ from aadm_workbench.report.drawing.plan import floor_plans
 from aadm_workbench.report.drawing.sketch import Circle, Label, Link, Polyline, Sketch, arrow
 from aadm_workbench.report.pages.svg import svg_of
 from tests.report.checked_floor import HOSTILE, place_of
+from tests.report.typed import of_column, typed
 
 
 def links(sketch: Sketch) -> dict[str, tuple[float, float]]:
@@ -26,7 +27,7 @@ def links(sketch: Sketch) -> dict[str, tuple[float, float]]:
 
 def test_columns_stand_in_the_plan_as_in_the_model(floor: dict[str, Any]) -> None:
     anchors = {column["id"]: f"c{k}" for k, column in enumerate(floor["columns"])}
-    placed, tiles = floor_plans(floor["columns"], anchors)
+    placed, tiles = floor_plans(typed(floor).columns, anchors)
     assert (placed.storey, placed.placed, tiles.placed) == ("3F", True, False)
     drawn = links(placed.sketch)
     names = [column["id"] for column in floor["columns"] if column["grid"]]
@@ -63,7 +64,7 @@ def test_a_point_that_was_not_measured_has_no_arrow(floor: dict[str, Any]) -> No
     column = next(column for column in floor["columns"] if column["id"] == "C-4")
     for point in column["sleeves"]["points"]:
         point["offset_mm"] = point["offset_mm"] and [0.5, 0.5]
-    sleeves = next(foot_sketches(column)).foot
+    sleeves = next(foot_sketches(of_column(column))).foot
     assert len(arrows(sleeves)) == 11
     assert any(isinstance(s, Label) and s.text == "S8 –" for s in sleeves.sketch.shapes)
 

@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from aadm_workbench.report.sheets.csv import HEADINGS, write_csv
+from tests.report.typed import typed
 
 FORMULAS = ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", " =1+1", '=HYPERLINK("http://x")', "\r=1"]
 
@@ -19,7 +20,7 @@ def rows_of(path: Path) -> list[dict[str, str]]:
 
 
 def test_every_point_spacing_and_pair(floor: dict[str, Any], tmp_path: Path) -> None:
-    write_csv(floor, tmp_path / "report.csv")
+    write_csv(typed(floor), tmp_path / "report.csv")
     rows = rows_of(tmp_path / "report.csv")
     assert tuple(rows[0]) == HEADINGS
     found = {(row["column"], row["question"], row["item"]): row for row in rows}
@@ -41,7 +42,7 @@ def test_every_point_spacing_and_pair(floor: dict[str, Any], tmp_path: Path) -> 
 def test_no_formula_from_names(floor: dict[str, Any], tmp_path: Path, name: str) -> None:
     floor["columns"][0]["id"] = name
     floor["columns"][4]["reasons"] = [f"{name}: broken"]
-    write_csv(floor, tmp_path / "report.csv")
+    write_csv(typed(floor), tmp_path / "report.csv")
     rows = rows_of(tmp_path / "report.csv")
     assert any(row["column"] == f"'{name}" for row in rows)
     texts = [row[key] for row in rows for key in ("column", "item", "reason", "clause")]
@@ -49,7 +50,7 @@ def test_no_formula_from_names(floor: dict[str, Any], tmp_path: Path, name: str)
 
 
 def test_numbers_stay_numbers(floor: dict[str, Any], tmp_path: Path) -> None:
-    write_csv(floor, tmp_path / "report.csv")
+    write_csv(typed(floor), tmp_path / "report.csv")
     below_zero = [row["dx_mm"] for row in rows_of(tmp_path / "report.csv") if row["dx_mm"].startswith("-")]
     assert below_zero
     assert all(float(value) < 0.0 for value in below_zero)

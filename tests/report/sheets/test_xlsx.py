@@ -8,12 +8,13 @@ import pytest
 
 from aadm_workbench.report.sheets.xlsx import write_xlsx
 from tests.report.checked_floor import HOSTILE
+from tests.report.typed import typed
 
 
 @pytest.fixture
 def book(floor: dict[str, Any], tmp_path: Path) -> Any:
     floor["columns"][0]["id"] = "=1+1"
-    write_xlsx(floor, tmp_path / "report.xlsx")
+    write_xlsx(typed(floor), tmp_path / "report.xlsx")
     return openpyxl.load_workbook(tmp_path / "report.xlsx")
 
 
@@ -69,7 +70,7 @@ def test_no_formula_anywhere(book: Any) -> None:
 
 def test_chinese_and_the_same_bytes(floor: dict[str, Any], tmp_path: Path) -> None:
     for name in ("a.xlsx", "b.xlsx"):
-        write_xlsx(floor, tmp_path / name, "zh")
+        write_xlsx(typed(floor), tmp_path / name, "zh")
     assert (tmp_path / "a.xlsx").read_bytes() == (tmp_path / "b.xlsx").read_bytes()
     book = openpyxl.load_workbook(tmp_path / "a.xlsx")
     assert book.sheetnames[:2] == ["柱列表", "测点"]

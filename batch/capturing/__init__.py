@@ -1,0 +1,1 @@
+"""Frames of live cameras, written as capture folders."""
