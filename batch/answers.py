@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from aadm_workbench.errors import DesignError
+from aadm_workbench.private.answers import FoundColumns, ReadScan
 
 _SHOWN = 6  # reasons in a message; more say no more
 _DIGITS = 4  # of a point that is drawn, mm
 
 
-def columns(question: Mapping[str, Any]) -> dict[str, Any]:
+def columns(question: Mapping[str, Any]) -> FoundColumns:
     """Columns with their assembly points.
 
     Parameters
     ----------
     question
-        ``path`` of a model, or ``elements`` as :mod:`aadm_workbench.design.element_json` has them, with ``source``,
-        ``sha256``, ``problems``, and ``chosen``: for each object of the model that was pointed at its ``label`` and the
-        ids of its elements; empty for all.
+        ``path`` of a model, or :class:`~aadm_workbench.private.answers.Shapes`.
 
     Raises
     ------
@@ -44,7 +42,7 @@ def columns(question: Mapping[str, Any]) -> dict[str, Any]:
         "sha256": model.sha256,
         "schema": model.schema,
         "warnings": list(model.warnings),
-        "columns": [json.loads(write_design(design)) for design in found],
+        "columns": [write_design(design) for design in found],
     }
 
 
@@ -77,7 +75,7 @@ def _check_one(model: Any, label: str) -> None:
         raise DesignError(f"{label} holds {len(model.columns)} columns: {called}. Select one of them.")
 
 
-def scan(question: Mapping[str, Any]) -> dict[str, Any]:
+def scan(question: Mapping[str, Any]) -> ReadScan:
     """A scan for the eye.
 
     Parameters
@@ -88,9 +86,8 @@ def scan(question: Mapping[str, Any]) -> dict[str, Any]:
 
     Returns
     -------
-    dict
-        ``sha256``, ``count`` of all points, ``points`` (n, 3) mm in the file's own frame, ``R_file_scan``, and how the
-        file was read: ``camera`` and ``depth_scale_mm``.
+    ReadScan
+        Its points, and how it was read.
 
     Raises
     ------
@@ -121,5 +118,5 @@ def scan(question: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-ANSWERS: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {"columns": columns, "scan": scan}
+ANSWERS: dict[str, Callable[[Mapping[str, Any]], FoundColumns | ReadScan]] = {"columns": columns, "scan": scan}
 """By what is asked."""

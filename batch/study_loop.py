@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .exit_codes import ALL_PASS, FAILS, UNDECIDED
-from .runner.machine import calculate_in_one_thread
 from .switches import add_switches, whole_number
 
 if TYPE_CHECKING:
@@ -19,7 +18,6 @@ if TYPE_CHECKING:
 
 _ABOUT = "hoisting: camera, aadm watch, OPC UA and crane in a loop, until the column stands on its bars"
 _MOST_FRAMES = 8  # three tell that it hangs still; the rest is for a second move
-_EVERY_S = 1.0  # frames that follow each other faster tell little of a swing
 _LIMIT_MM = 3.0  # GB/T 51231-2016, 10.4
 
 
@@ -48,7 +46,6 @@ def _study(options: argparse.Namespace) -> int:
     _check_packages()
     folder, options.out = options.out, None  # no plots
     options.prepare(options)
-    calculate_in_one_thread()
     with tempfile.TemporaryDirectory() as scratch:
         return _loop(options, folder or Path(scratch))
 
@@ -74,7 +71,7 @@ def _loop(options: argparse.Namespace, folder: Path) -> int:
     tell = (lambda line: None) if options.quiet or options.json else say
     tell(f"the column hangs {crane.largest_mm():.1f} mm off")
     watcher = _watcher(crane, folder, options.frames, tell)
-    with Machines(folder / "aadm-state.json", crane, tell):
+    with Machines(folder / "aadm-state.json", crane, tell, crane.now_ns):
         watcher.run()
     largest_mm = crane.largest_mm()
     document = {
@@ -110,5 +107,6 @@ def _watcher(crane: Crane, folder: Path, frames: int, tell: Callable[[str], None
     (task,) = plan_job(read_job(write_job(folder, crane)), only=(COLUMN,)).tasks
     frames_folder = folder / "frames"
     frames_folder.mkdir(exist_ok=True)
-    live = LiveFolder(Session("virtual", lambda _: VirtualCamera(crane)), frames_folder, _EVERY_S)
-    return Watcher(task, frames_folder, WatchOptions(folder / "aadm-state.json", frames, live=live), tell)
+    live = LiveFolder(Session("virtual", lambda _: VirtualCamera(crane)), frames_folder)
+    options = WatchOptions(folder / "aadm-state.json", frames, live=live)
+    return Watcher(task, frames_folder, options, tell, crane.now_ns)

@@ -391,18 +391,3 @@ def test_every_rule_is_proven() -> None:
         == {id(rule) for rule, _, _ in BREAKS}
         == {id(rule) for rule, _, _ in KEEPS}
     )
-
-
-MOST_THAT_HOLD_ANYTHING = 30
-"""What models, Mitsuba, TOML and FreeCAD give has no other type; what this program makes has one."""
-
-
-def test_few_dictionaries_hold_anything() -> None:
-    files = [path for folder in (PACKAGE, "batch") for path in (ROOT / folder).rglob("*.py")]
-    found = [
-        f"{path.relative_to(ROOT)}:{node.lineno}"
-        for path in files
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.Subscript) and ast.unparse(node) == "dict[str, Any]"
-    ]
-    assert 0 < len(found) <= MOST_THAT_HOLD_ANYTHING, found

@@ -59,6 +59,16 @@ def test_demo_and_tests_pin_the_same_versions(repository: Path) -> None:
     assert demo.items() <= test.items()
 
 
+def test_freecads_private_environment_is_whole_and_of_the_same_versions(repository: Path) -> None:
+    freecad, test = pins(repository / "requirements/freecad.txt"), pins(repository / "requirements/test.txt")
+    assert freecad.items() <= test.items()
+    project = tomllib.loads((repository / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    wanted = [*project["dependencies"], *extras["reports"], *extras["formats"], *extras["mesh"], "psutil"]
+    named = {found[0] for one in wanted if (found := re.match(r"[A-Za-z0-9-]+", one))}
+    assert named <= freecad.keys(), "run: sh requirements/renew.sh --no-upgrade"
+
+
 def test_demo_stays_lean(repository: Path) -> None:
     demo = pins(repository / "requirements/demo.txt")
     assert not {"open3d", "open3d-cpu", "matplotlib", "distributed"} & demo.keys()

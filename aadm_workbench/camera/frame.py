@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import TracebackType
-from typing import Any, Protocol, Self, TypeAlias
+from typing import Protocol, Self, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
-from aadm_workbench.model import Camera, FloatArray
+from aadm_workbench.model import Camera, FloatArray, Json
 
 Setting: TypeAlias = str | int | float | bool
 
@@ -65,7 +65,7 @@ class Frame:
     notes: tuple[str, ...] = ()
     files: Mapping[str, bytes] = field(default_factory=dict)
 
-    def record(self, stamp: str) -> dict[str, Any]:
+    def record(self, stamp: str) -> dict[str, Json]:
         """What stands in ``capture.json``; ``stamp`` is the time of capture as the state file writes it."""
         device = self.device
         return {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -37,7 +38,7 @@ def check_work(column: Any) -> Work:
     return Work(arguments, files, "out/report.json", CHECKED)
 
 
-def keep(column: Any, report: dict[str, Any], *, checked_at: str | None = None) -> Any:
+def keep(column: Any, report: Mapping[str, Any], *, checked_at: str | None = None) -> Any:
     """Put the outcome of a check into the document: the result, and its scans where they lie on the design.
 
     Parameters
@@ -45,7 +46,7 @@ def keep(column: Any, report: dict[str, Any], *, checked_at: str | None = None) 
     checked_at
         When, in UTC; now by default.
     """
-    found, report = report["columns"][0], report | {"model": _model_of(column)}
+    found, report = report["columns"][0], {**report, "model": _model_of(column)}
     when = datetime.now(UTC).isoformat(timespec="seconds") if checked_at is None else checked_at
     result = make_result(column, report, found, when)
     design = column_design(column)

@@ -13,6 +13,7 @@ from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.report.annotate import objects_by_global_id
 from aadm_workbench.document.sample.columns import sampled_shapes
 from aadm_workbench.model import ColumnDesign
+from aadm_workbench.private.answers import FoundColumns
 
 
 def columns_work(document: Any, objects: Sequence[Any] | None = None) -> Work:
@@ -37,7 +38,7 @@ def file_work(path: Path) -> Work:
 
 
 def take_columns(
-    document: Any, answer: Mapping[str, Any], *, objects: Sequence[Any] | None = None, file: Path | None = None
+    document: Any, answer: FoundColumns, *, objects: Sequence[Any] | None = None, file: Path | None = None
 ) -> list[Any]:
     """Make a column object for each column of an answer; one that is there gets its design anew.
 
@@ -50,7 +51,7 @@ def take_columns(
     """
     origin = (str(file.resolve()) if file is not None else document.FileName, answer["sha256"])
     models = list(objects or [None] * len(answer["columns"]))
-    designs = [read_design(json.dumps(entry), str(entry.get("id"))) for entry in answer["columns"]]
+    designs = [read_design(text, answer["source"]) for text in answer["columns"]]
     return [_taken(document, design, model, origin) for design, model in zip(designs, models, strict=True)]
 
 

@@ -7,7 +7,6 @@ files: neither may change.
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +19,7 @@ from aadm_workbench.document.properties import HIDDEN, READ_ONLY, Property, appl
 from aadm_workbench.document.schema import SCHEMA, SCHEMA_PROPERTY, bring_up_to_date
 from aadm_workbench.document.stateless import Stateless
 from aadm_workbench.model import Array, Kind
+from aadm_workbench.private.answers import ReadScan
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
 _SCAN = "AADM scan"
@@ -120,7 +120,7 @@ class ScanCloud(Stateless):
         move_to(obj, placement * obj.InColumn)
 
 
-def make_scan(column: Any, file: Path, kind: str, units: str, read: Mapping[str, Any]) -> Any:
+def make_scan(column: Any, file: Path, kind: str, units: str, read: ReadScan) -> Any:
     """Add a scan that was read to a column.
 
     Parameters
@@ -128,7 +128,7 @@ def make_scan(column: Any, file: Path, kind: str, units: str, read: Mapping[str,
     kind, units
         One of :data:`KINDS` and of :data:`UNITS`, as it was declared.
     read
-        What the private process has answered: see ``batch/answers.py``.
+        What the private process has answered.
     """
     cloud = column.Document.addObject("App::GeometryPython", "AADM_Scan")
     cloud.Proxy = ScanCloud()

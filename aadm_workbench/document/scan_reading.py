@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +12,7 @@ from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.scan_cloud import KINDS, UNITS, make_scan
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Camera
+from aadm_workbench.private.answers import ReadScan
 
 _IN_NAMES_OF_BARS = ("bar", "rebar", "steel", "筋", "钢")
 
@@ -58,7 +58,7 @@ class AskedScan:
         return Work(("ask", "question.json", "answer.json"), {"question.json": json.dumps(question)}, "answer.json")
 
 
-def take_scan(column: Any, asked: AskedScan, read: Mapping[str, Any], *, up: str | None = None) -> Any:
+def take_scan(column: Any, asked: AskedScan, read: ReadScan, *, up: str | None = None) -> Any:
     """Give a column a scan that was read; parameters as :func:`aadm_workbench.document.api.add_scan`.
 
     Raises

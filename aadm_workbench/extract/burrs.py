@@ -13,7 +13,7 @@ from aadm_workbench.model import Array
 
 _FEWEST = 4  # of fewer bars nobody knows which are like the others
 _SIGMA_MM = 0.064  # of outlines of one group: cores of one delivery differ by 0.05 mm in radius, ribs add 0.04 mm
-_ALIKE_MM, _BURRED_MM = 2.5 * _SIGMA_MM, 2.0 * _SIGMA_MM  # one sound bar in fifty is taken for a burred one
+_ALIKE_MM = 2.5 * _SIGMA_MM  # one sound bar in a hundred is taken for a burred one
 _ALIKE_SHARE = 1.0 / 3.0  # of a group: so many sound bars tell what is usual
 _ROUNDS = 3  # towards the middle of all that are alike
 _MOST_MM = 0.6  # a burr of 2 mm; what is larger than that is a bar of another size, or no outline
@@ -35,7 +35,7 @@ def burr_u_mm(rims: Outlines, centre: Array, radius_mm: float) -> Array:
     own_mm = circles_through(rims, centre, radius_mm)[1]
     beyond_mm = own_mm - _usual(own_mm)
     larger_mm = np.minimum(beyond_mm, _MOST_MM) + _SIGMA_MM
-    return np.where(beyond_mm > _BURRED_MM, _SHIFT * larger_mm, 0.0)
+    return np.where(beyond_mm > _ALIKE_MM, _SHIFT * larger_mm, 0.0)
 
 
 def _usual(values: Array) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 
 from aadm_workbench.model import BoolArray, FloatArray, Scan
 
-_EVERY = 6  # rows, then columns: edges have thousands of pixels, and hundreds tell
+_EVERY = 12  # rows, then columns: edges have thousands of pixels, and hundreds tell
 _STEP_MM, _FLAT_MM = 5.0, 2.0  # as cameras' software tells edges; neighbours on one surface that is seen well
 _NEAR_PIXELS, _INNER_PIXELS = 2, 4  # from an edge: what fattening of one pixel repeats, and what no fill reaches
 _FEWEST = 60  # pairs; a share of fewer is known to worse than the least excess
@@ -30,7 +30,7 @@ def copies_depths(scan: Scan) -> bool:
     if not scan.organised:
         return False
     depth = scan.points[..., 2]
-    return any(_is_copied(part) for part in (depth[::_EVERY], depth[:, ::_EVERY].T))
+    return any(_is_copied(np.ascontiguousarray(part)) for part in (depth[::_EVERY], depth[:, ::_EVERY].T))
 
 
 def _is_copied(depth: FloatArray) -> bool:

@@ -16,6 +16,7 @@ from aadm_workbench.extract.patches import Patches
 from aadm_workbench.model import Array, BoolArray, FloatArray
 
 _FALL_MM = (1.0, 60.0)  # from pixel to pixel on a ramp
+_SOME = 8  # runs: noise is the same in all
 _FALL_SIGMAS = 2.0  # of single pixels: noise falls by more three times in a row once in a hundred thousand runs
 _EVEN = 6.0  # the steepest fall of three over the flattest
 _OFF_WALL_MM, _OFF_LEAN = 2.5, 0.08  # ribs and chamfers stay nearer to a wall; bars that lean by four degrees do
@@ -99,7 +100,7 @@ def _ramps(height: FloatArray, in_air: BoolArray, step: int) -> int:
         return 0
     run = np.stack([height[at + step * place] for place in (-1, 0, 1, 2)])
     fall = np.diff(run, axis=0)
-    least_mm = max(_FALL_MM[0], _FALL_SIGMAS * _noise_mm(fall[1] - fall[0]))
+    least_mm = max(_FALL_MM[0], _FALL_SIGMAS * _noise_mm(fall[1, ::_SOME] - fall[0, ::_SOME]))
     fall = np.where(fall[1] < 0, -fall, fall)
     low, high = fall.min(axis=0), fall.max(axis=0)
     return int(((low > least_mm) & (high < _FALL_MM[1]) & (high < _EVEN * low)).sum())

@@ -23,6 +23,8 @@ _CORE_SHARE = 0.7  # of the nominal radius: the plane of a top two sizes smaller
 _BAND_MM = 0.8  # about the plane of a top: twice the noise at 2 m
 _ZONE = 0.35, 1.7  # of the nominal radius: bars two sizes off either way, and nothing that stands beside them
 _ROUNDS = 4  # points of ribs leave in the first two
+# an outline's points lie up to a pitch within the edge, on either side of their middle; at a lost pixel a little more
+_ROUND_WITHIN_PITCHES = 0.75
 # ribs stand out by more; of the outline; of the turn: a choice, not tuned since
 _ROUND_WITHIN_MM, _ROUND_SHARE, _COVERED_SHARE = 0.45, 0.6, 0.7
 _FEWEST, _ENOUGH = 2, 4  # of fewer a median is no sign; of fewer nobody knows how much outlines of this scan scatter
@@ -80,12 +82,14 @@ def _radii(scan: Scan, level: Plane, places: Array, radius_mm: float, rng: np.ra
     top = PlanPoints.of(patches.x, patches.y, np.flatnonzero(on_top))
     inside = np.bincount(top.owner[top.distance(np.zeros_like(centres)) < radius_mm], minlength=len(places))
     pitch_mm = np.sqrt(np.pi * radius_mm**2 / np.maximum(inside, 1))
-    bins = bins_for(radius_mm, float(np.median(pitch_mm[planes.found])))
+    usual_pitch_mm = float(np.median(pitch_mm[planes.found]))
+    bins = bins_for(radius_mm, usual_pitch_mm)
     centre, radius = np.zeros((len(places), 2)), np.full(len(places), radius_mm)
     for _ in range(_ROUNDS):
         shape = _outlined(top, centre, radius_mm, bins)
         centre, radius = circles_through(shape, centre, radius_mm)
-    round_ = agreeing_shares(shape, centre, radius, _ROUND_WITHIN_MM) > _ROUND_SHARE
+    within_mm = max(_ROUND_WITHIN_MM, _ROUND_WITHIN_PITCHES * usual_pitch_mm)
+    round_ = agreeing_shares(shape, centre, radius, within_mm) > _ROUND_SHARE
     return np.where(round_ & (shape.coverage > _COVERED_SHARE) & planes.found, radius, np.nan)
 
 

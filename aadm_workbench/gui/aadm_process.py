@@ -68,7 +68,11 @@ class AadmProcess(QtCore.QObject):
         self._cancelled = True
         if self._process.state() != QtCore.QProcess.NotRunning:
             self._process.closeWriteChannel()
-            QtCore.QTimer.singleShot(_END_MS, self._process.kill)
+            QtCore.QTimer.singleShot(_END_MS, self._end_by_force)
+
+    def _end_by_force(self) -> None:
+        if self._process.state() != QtCore.QProcess.NotRunning:
+            self._process.kill()
 
     def wait(self) -> None:
         """Wait for its end, as FreeCAD does before it closes."""

@@ -38,6 +38,7 @@ _FIRST_MM, _FIRST_DEG = 25.0, 2.0  # a crane driver brings it that near by eye
 _SPREAD_MM = 0.25  # per axis, of sleeves and bars: a column that its trial before hoisting let go on
 _HEIGHT_MM, _DISTANCE_MM = 90.0, 850.0  # of the reference scene (docs/hoisting.md)
 _DECISION_WITHIN_S = 60.0  # a controller decides in a second; a machine that is overloaded takes longer
+_FRAME_EVERY_NS = 1_500_000_000  # frames that follow each other faster tell little of a swing
 
 
 @dataclass
@@ -45,7 +46,8 @@ class Crane:
     """The scene: parts as built, how the column hangs, and who waits for whom.
 
     The camera takes a picture when the controller has decided about the last one, as a triggered camera does: what it
-    renders is then what hangs there at the time of capture.
+    renders is then what hangs there at the time of capture. The scene has a clock of its own, which stands while light
+    is calculated, so that a slow machine comes to the same end.
     """
 
     foot: Foot
@@ -55,6 +57,7 @@ class Crane:
     rng: np.random.Generator
     camera: Camera = PRO_M
     stand: Stand = field(default_factory=lambda: Stand(_DISTANCE_MM))
+    time_ns: int = field(default_factory=time.time_ns)
     moves: int = 0
     landed: bool = False
     _decided: threading.Event = field(default_factory=threading.Event)
@@ -89,7 +92,12 @@ class Crane:
             self.foot, self.bars, self.hang, self.stand, self.noise, self.rng, near=NEAR, camera=self.camera
         ).frame
         depth_mm = np.where(scan.depth > 0, scan.depth, np.float32(np.nan))
-        return Frame(Device("virtual"), time.time_ns() / 1e9, depth_mm=depth_mm, camera=self.camera)
+        self.time_ns += _FRAME_EVERY_NS
+        return Frame(Device("virtual"), self.time_ns / 1e9, depth_mm=depth_mm, camera=self.camera)
+
+    def now_ns(self) -> int:
+        """The time of the scene, ns since 1970."""
+        return self.time_ns
 
     def wait_for_decision(self) -> None:
         """Wait until the controller has decided about the last picture."""

@@ -12,13 +12,14 @@ import json
 from datetime import UTC, datetime
 from pathlib import Path
 from time import monotonic, sleep
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..exit_codes import ALL_PASS, ERRORS
 from ..switches import add_switches, duration, whole_number
 
 if TYPE_CHECKING:
     from aadm_workbench.camera.frame import Frame
+    from aadm_workbench.model import Json
 
     from ..capturing.session import Session
 
@@ -55,14 +56,14 @@ def run(options: argparse.Namespace) -> int:
     return ERRORS if lost or not written else ALL_PASS
 
 
-def _take_all(session: Session, options: argparse.Namespace, single: bool) -> tuple[list[dict[str, Any]], list[str]]:
+def _take_all(session: Session, options: argparse.Namespace, single: bool) -> tuple[list[dict[str, Json]], list[str]]:
     """Take the frames that were asked for; what was written of each, and why each of the others was lost."""
     from aadm_workbench.errors import CaptureError, EndOfFramesError
 
     from ..capturing.session import name_of
     from ..shown.terminal import say
 
-    written: list[dict[str, Any]] = []
+    written: list[dict[str, Json]] = []
     lost: list[str] = []
     count = 1 if single else options.count
     while count is None or len(written) + len(lost) < count:
@@ -87,7 +88,7 @@ def _take_all(session: Session, options: argparse.Namespace, single: bool) -> tu
     return written, lost
 
 
-def _entry(folder: Path, frame: Frame) -> dict[str, Any]:
+def _entry(folder: Path, frame: Frame) -> dict[str, Json]:
     from aadm_workbench.report.hoisting_fitness import stamp_of
 
     return {"folder": str(folder), **frame.record(stamp_of(frame.captured_s) or "")}

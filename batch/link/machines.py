@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import socket
 import threading
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -17,8 +18,10 @@ from .publish import publish
 class Machines:
     """Shows a state file, and lets a controller move a machine by what it reads of it, until the ``with`` ends."""
 
-    def __init__(self, state: Path, machine: Machine, tell: Callable[[str], None]) -> None:
-        self._state, self._machine, self._tell = state, machine, tell
+    def __init__(
+        self, state: Path, machine: Machine, tell: Callable[[str], None], now_ns: Callable[[], int] = time.time_ns
+    ) -> None:
+        self._state, self._machine, self._tell, self._now_ns = state, machine, tell, now_ns
         self._loop = asyncio.new_event_loop()
         self._task: asyncio.Task[None] | None = None
         self._thread = threading.Thread(target=self._run, name="machines")
@@ -43,7 +46,7 @@ class Machines:
 
     async def _both(self) -> None:
         link = OpcUaLink("127.0.0.1", _free_port(), None)
-        linking = asyncio.create_task(publish(self._state, [link], lambda _: None))
+        linking = asyncio.create_task(publish(self._state, [link], lambda _: None, now_ns=self._now_ns))
         try:
             await link.listening.wait()
             await Controller(self._machine, self._tell).steer(link.endpoint)

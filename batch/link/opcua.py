@@ -160,7 +160,7 @@ class _ReadOnly:
         return bool(self._roles.check_validity(user, action_type_id, body))
 
 
-_FIRST: dict[str, Any] = {
+_FIRST: dict[str, bool | str | float | int | datetime] = {
     "Boolean": False,
     "String": "",
     "Double": 0.0,

@@ -59,8 +59,9 @@ def test_columns_are_where_the_command_lists_them(tmp_path: Path, capsys: pytest
     assert answer["sha256"] == hashlib.sha256(FLOOR.read_bytes()).hexdigest()
     assert main(["design", str(FLOOR), "--json", "--quiet"]) == 0
     listed = {column["id"]: column for column in json.loads(capsys.readouterr().out)["columns"]}
-    assert [column["id"] for column in answer["columns"]] == list(listed)
-    for column in answer["columns"]:
+    columns = [json.loads(text) for text in answer["columns"]]
+    assert [column["id"] for column in columns] == list(listed)
+    for column in columns:
         T = np.array(column["T_model_column"])
         placed = [(T @ [*point["centre_mm"], 1.0])[:3] for point in column["sleeves"]]
         np.testing.assert_allclose(placed, [one["centre_mm"] for one in listed[column["id"]]["sleeves"]], atol=1e-3)

@@ -152,14 +152,12 @@ def test_a_camera_that_goes_away_withdraws_ready_and_comes_back(job: Path, capsy
     from batch.job.file import read_job
     from batch.watch.run import Watcher, WatchOptions
 
-    tasks = plan_job(read_job(job), only=("L-1",)).tasks
+    (task,) = plan_job(read_job(job), only=("L-1",)).tasks
     said: list[str] = []
     clock = iter(range(0, 10_000, 2))
     with Session("gentl:x", opener) as session:
         live = LiveFolder(session, folder, clock=lambda: float(next(clock)))
-        watcher = Watcher(
-            tasks[0], folder, WatchOptions(folder / "aadm-state.json", seconds=60, live=live), said.append
-        )
+        watcher = Watcher(task, folder, WatchOptions(folder / "aadm-state.json", seconds=60, live=live), said.append)
         watcher.run(wait=lambda _: None)
     assert opened == ["gentl:x", "closed", "gentl:x", "closed"]
     assert (watcher.frames, watcher.bad_frames) == (2, 1)

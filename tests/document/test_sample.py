@@ -82,7 +82,7 @@ def recognised(shapes: Mapping[str, Any], rules: Rules | None = None) -> dict[st
 def pointed_at(shapes: Mapping[str, Any]) -> list[dict[str, Any]]:
     """The columns that the private process answers for objects that were selected."""
     answer = columns({"about": "columns", **shapes})
-    return [entry(read_design(json.dumps(column), column["id"])) for column in answer["columns"]]
+    return [entry(read_design(text, "the answer")) for text in answer["columns"]]
 
 
 class Sampled(dict[str, Any]):

@@ -99,6 +99,20 @@ Gui.runCommand("AADM_RunJob")
 result["job_after_closing"] = panel(JobPanel) is not None
 panel(JobPanel).reject()
 
+# A panel makes room for another while its job runs: what the job still says has nowhere to go.
+Gui.runCommand("AADM_RunJob")
+leaving = panel(JobPanel)
+leaving.job.set_text(str(Path(SAMPLES) / "floor" / "job.toml"))
+leaving.folder.set_text(str(folder / "left"))
+leaving.start()
+spin(lambda: leaving.lines.count() > 0, 60)
+Gui.Selection.clearSelection()
+Gui.Selection.addSelection(known["C-302"])
+Gui.runCommand("AADM_ImportScan")
+spin(lambda: not _RUNNING, 10)
+result["after_leaving"] = [panel(ImportPanel) is not None, len(_RUNNING), sentences()]
+panel(ImportPanel).reject()
+
 # A column is deleted under its panel.
 doomed = api.describe(document, "D-1", {"centres": [[0, 0], [90, 0], [0, 90]], "sleeve_diameter": 26.0})
 Gui.Selection.clearSelection()

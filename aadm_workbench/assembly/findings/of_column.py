@@ -153,6 +153,8 @@ def without_spoilt(report: ColumnReport, findings: Sequence[Finding], checks: Se
 
 
 def _open(trial: TrialReport, reason: str) -> TrialReport:
+    if trial.verdict is Verdict.NOT_MEASURED:
+        return replace(trial, reasons=(reason,))
     return TrialReport(Verdict.INCONCLUSIVE, rules=trial.rules, reasons=(reason,), missing=trial.missing)
 
 

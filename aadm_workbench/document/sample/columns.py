@@ -11,9 +11,10 @@ from aadm_workbench.design.element_json import to_json
 from aadm_workbench.design.elements import Element
 from aadm_workbench.document.sample.elements import sample_elements
 from aadm_workbench.errors import DesignError
+from aadm_workbench.private.answers import Chosen, Shapes
 
 
-def sampled_shapes(document: Any, objects: Sequence[Any] | None = None) -> dict[str, Any]:
+def sampled_shapes(document: Any, objects: Sequence[Any] | None = None) -> Shapes:
     """All that a document draws, which stays as it is; plain values, mm, in the frame of the document.
 
     Each body counts once, whatever groups, links, arrays and intermediate shapes repeat it; links and containers put
@@ -28,7 +29,7 @@ def sampled_shapes(document: Any, objects: Sequence[Any] | None = None) -> dict[
 
     Returns
     -------
-    dict
+    Shapes
         A question to :func:`batch.answers.columns`. Each element's ``GlobalId`` is the path of the object that it comes
         from, such as ``Link.0.Body``: the first part is the name of an object of the document.
 
@@ -39,7 +40,7 @@ def sampled_shapes(document: Any, objects: Sequence[Any] | None = None) -> dict[
     """
     problems: list[str] = []
     elements = sample_elements(document, problems)
-    chosen = [{"label": obj.Label, "ids": _held_by(obj, elements)} for obj in objects or ()]
+    chosen: list[Chosen] = [{"label": obj.Label, "ids": _held_by(obj, elements)} for obj in objects or ()]
     path = Path(document.FileName) if document.FileName else None
     saved = path is not None and path.is_file()
     return {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -91,7 +92,7 @@ class CheckPanel(WorkingPanel):
                 self.column.Decision = self.decision.currentText()
             self.have_done(check_work(self.column), self._take)
 
-    def _take(self, report: dict[str, Any]) -> None:
+    def _take(self, report: Mapping[str, Any]) -> None:
         with undo_step(self.column.Document, translate("AADM_Check", "Check column")):
             result = keep(self.column, report)
         tell(f"{self.column.ColumnId}: {in_words(result.Verdict)}")

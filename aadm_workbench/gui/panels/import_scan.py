@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +23,7 @@ from aadm_workbench.gui.panels.file_line import FileLine
 from aadm_workbench.gui.panels.sampling import of_ifc_file
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, close_panel, is_there, show_panel
 from aadm_workbench.gui.sentences import sentences, show_error
+from aadm_workbench.private.answers import ReadScan
 from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, TABLES
 
 translate = FreeCAD.Qt.translate
@@ -117,7 +118,7 @@ class ImportPanel(WorkingPanel):
             most_points=settings.most_points(),
         )
 
-    def _take(self, asked: AskedScan, read: Mapping[str, Any]) -> None:
+    def _take(self, asked: AskedScan, read: ReadScan) -> None:
         column = self.columns[self.column.currentIndex()]
         if not is_there(column):
             raise ScanError(translate("AADM_Import", "The column is not there any more: choose another."))

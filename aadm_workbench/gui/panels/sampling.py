@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from aadm_workbench.gui.chosen import select
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, close_panel, show_panel
 from aadm_workbench.gui.sentences import sentences, show_error
 from aadm_workbench.gui.settings import decision, method, tolerances
+from aadm_workbench.private.answers import FoundColumns
 
 translate = FreeCAD.Qt.translate
 
@@ -46,7 +48,7 @@ class SamplingPanel(WorkingPanel):
         except AadmError as error:
             self.show_error(error)
 
-    def _take(self, answer: dict[str, Any]) -> None:
+    def _take(self, answer: FoundColumns) -> None:
         objects = None if self.file is not None else self.objects
         if self.file is not None and self.objects:
             answer = {**answer, "columns": _of_selected(answer["columns"], self.objects)}
@@ -91,10 +93,10 @@ def _choose(document: Any) -> None:
             sample(document, None, Path(chosen))
 
 
-def _of_selected(columns: list[dict[str, Any]], objects: Sequence[Any]) -> list[dict[str, Any]]:
+def _of_selected(columns: list[str], objects: Sequence[Any]) -> list[str]:
     """The columns that the selected objects are; all where none of them is one."""
     known = {name for obj in objects for name in global_ids_of(obj)}
-    return [column for column in columns if column["global_id"] in known] or columns
+    return [text for text in columns if json.loads(text)["global_id"] in known] or columns
 
 
 def _open_design(columns: list[Any]) -> None:

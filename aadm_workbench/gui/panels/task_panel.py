@@ -85,8 +85,8 @@ class WorkingPanel(TaskPanel):
             Where nothing can do it.
         """
         running = PrivateWork(work)
-        running.stepped.connect(self.stepped)
-        running.said.connect(self.said)
+        running.stepped.connect(lambda *step: self in _OPEN and self.stepped(*step))
+        running.said.connect(lambda line: self in _OPEN and self.said(line))
         running.done.connect(lambda answer: self._over(lambda: take(answer)))
         running.failed.connect(lambda error: self._over(lambda: (failed or self.show_error)(error)))
         running.cancelled.connect(lambda: self._over(self.was_cancelled))

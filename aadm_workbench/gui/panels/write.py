@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -78,7 +79,7 @@ class WritePanel(WorkingPanel):
         if self.save.isChecked():
             self.document.save()
 
-    def _write_ifc(self, report: dict[str, Any]) -> None:
+    def _write_ifc(self, report: Mapping[str, Any]) -> None:
         model = Path(self.model.text())
         if not self.model.text() or not model.is_file():
             raise AadmError(translate("AADM_Write", "Choose the IFC file that the model came from."))

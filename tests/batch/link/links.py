@@ -23,9 +23,10 @@ def free_port() -> int:
 
 
 def write_state(path: Path, captured_s: float | None = None, **changes: Any) -> dict[str, Any]:
-    """A state that is ready, captured now, with changes."""
+    """A state that is ready, captured now and valid for as long as an overloaded machine may take, with changes."""
     captured = {"captured": stamp_of(time.time_ns() / 1e9 if captured_s is None else captured_s)}
-    document = {"schema": 2, "column": "C-301", "sequence": 7, **state(**{**captured, **changes})}
+    said = {"schema": 2, "column": "C-301", "sequence": 7}
+    document = {**said, **state(**{"valid_for_s": 3600.0, **captured, **changes})}
     aside = path.with_suffix(".part")
     aside.write_text(json.dumps(document), encoding="utf-8")
     aside.replace(path)

@@ -87,7 +87,7 @@ def test_the_controller_acts_once_on_good_numbers_alone_and_lets_down_when_ready
         async with linked(path, link):
             controller = asyncio.create_task(Controller(machine, lambda _: None).steer(link.endpoint))
             await shows(1)
-            write_state(path, time.time_ns() / 1e9 - 20.0, sequence=2, move=move, **far)
+            write_state(path, time.time_ns() / 1e9 - 20.0, sequence=2, valid_for_s=15.0, move=move, **far)
             await shows(2)
             write_state(path, sequence=3, move={**move, "dx_mm": 0.2, "dy_mm": 0.1, "yaw_deg": 0.0}, **far)
             await shows(3)
