@@ -19,6 +19,8 @@ from pathlib import Path
 from typing import IO
 from xml.parsers import expat
 
+from aadm_workbench.model import Reason
+
 _DEFLATED_OR_STORED = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _ENCRYPTED = 0x1  # bit 0 of the flags of an entry (APPNOTE 4.4.4)
 _SMALL_BYTES = 2**26
@@ -89,17 +91,17 @@ def read_bounded(path: Path, most_bytes: int) -> bytes:
     with open_bounded(path, most_bytes) as stream:
         content = stream.read(most_bytes + 1)
     if len(content) > most_bytes:
-        raise BoundsError(f"grew beyond {most_bytes} bytes while it was read")
+        raise BoundsError(Reason("bounded.grew", most_bytes=most_bytes))
     return content
 
 
 def _check_file(status: os.stat_result, most_bytes: int) -> None:
     if stat.S_ISDIR(status.st_mode):
-        raise BoundsError("is a folder")
+        raise BoundsError(Reason("bounded.folder"))
     if not stat.S_ISREG(status.st_mode):
-        raise BoundsError("is a device or a pipe")
+        raise BoundsError(Reason("bounded.device"))
     if status.st_size > most_bytes:
-        raise BoundsError(f"has {status.st_size} bytes, more than {most_bytes}")
+        raise BoundsError(Reason("bounded.large", size_bytes=status.st_size, most_bytes=most_bytes))
 
 
 @contextmanager
@@ -121,7 +123,7 @@ def opened_archive(path: Path, bounds: ArchiveBounds) -> Iterator[zipfile.ZipFil
                 _check_entries(archive.infolist(), os.fstat(stream.fileno()).st_size, bounds)
                 yield archive
         except _DAMAGED as error:
-            raise BoundsError(f"is no {bounds.kind}, or is cut short or damaged ({error})") from error
+            raise BoundsError(Reason("bounded.no_zip", kind=bounds.kind, why=error)) from error
 
 
 def entry_bytes(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> bytes:
@@ -129,7 +131,7 @@ def entry_bytes(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> bytes:
     with archive.open(entry) as stream:
         content = stream.read(entry.file_size + 1)
     if len(content) != entry.file_size:
-        raise BoundsError(f"its entry {entry.filename!r} is not as long as it says")
+        raise BoundsError(Reason("bounded.entry_length", name=repr(entry.filename)))
     return content
 
 
@@ -145,33 +147,40 @@ def _check_list(stream: IO[bytes], bounds: ArchiveBounds) -> None:
         list_bytes = _END.unpack(record)[5] if len(record) == _END.size else 0
         is_large = tail[max(0, found.start() - _LARGE_LOCATOR_BYTES) :].startswith(_LARGE_MARK)
         if is_large or list_bytes > bounds.entries * _ENTRY_BYTES:
-            raise BoundsError(f"lists more than a {bounds.kind} can hold ({bounds.entries} entries)")
+            raise BoundsError(Reason("bounded.lists_many", kind=bounds.kind, most=bounds.entries))
     stream.seek(0)
 
 
 def _check_entries(entries: list[zipfile.ZipInfo], packed_bytes: int, bounds: ArchiveBounds) -> None:
     if len(entries) > bounds.entries:
-        raise BoundsError(f"has {len(entries)} entries, more than a {bounds.kind} can hold ({bounds.entries})")
+        raise BoundsError(Reason("bounded.many", count=len(entries), kind=bounds.kind, most=bounds.entries))
     for entry in entries:
         _check_entry(entry, bounds)
     unpacked = sum(entry.file_size for entry in entries)
     if unpacked > bounds.all_bytes or (unpacked > _SMALL_BYTES and unpacked > bounds.ratio * packed_bytes):
-        raise BoundsError(f"has {packed_bytes} bytes and would unpack to {unpacked}: no {bounds.kind} packs like that")
+        raise BoundsError(
+            Reason("bounded.unpacks", packed_bytes=packed_bytes, unpacked_bytes=unpacked, kind=bounds.kind)
+        )
 
 
 def _check_entry(entry: zipfile.ZipInfo, bounds: ArchiveBounds) -> None:
     name = entry.filename.replace("\\", "/")
     if not name:
-        raise BoundsError("holds an entry without a name")
+        raise BoundsError(Reason("bounded.no_name"))
     if name.startswith("/") or ":" in name or ".." in name.split("/"):
-        raise BoundsError(f"holds an entry called {entry.filename!r}, which leads out of it")
+        raise BoundsError(Reason("bounded.leads_out", name=repr(entry.filename)))
     if entry.flag_bits & _ENCRYPTED:
-        raise BoundsError(f"is encrypted (entry {entry.filename!r})")
+        raise BoundsError(Reason("bounded.encrypted", name=repr(entry.filename)))
     if entry.compress_type not in _DEFLATED_OR_STORED:
-        raise BoundsError(f"packs its entry {entry.filename!r} in a way that no {bounds.kind} does")
+        raise BoundsError(Reason("bounded.packs", name=repr(entry.filename), kind=bounds.kind))
     if entry.file_size > bounds.entry_bytes:
         raise BoundsError(
-            f"holds an entry {entry.filename!r} of {entry.file_size} bytes, more than {bounds.entry_bytes}"
+            Reason(
+                "bounded.entry_large",
+                name=repr(entry.filename),
+                size_bytes=entry.file_size,
+                most_bytes=bounds.entry_bytes,
+            )
         )
 
 
@@ -191,7 +200,7 @@ def check_xml(content: bytes, *, deepest: int, most_elements: int) -> None:
     try:
         parser.Parse(content, True)
     except (expat.ExpatError, LookupError, ValueError) as error:
-        raise BoundsError(f"is no XML ({error})") from error
+        raise BoundsError(Reason("bounded.no_xml", why=error)) from error
 
 
 class _Walk:
@@ -202,13 +211,13 @@ class _Walk:
         self._depth = self._elements = 0
 
     def declares(self, *_: object) -> None:
-        raise BoundsError("declares its own XML document type, which may be meant to harm")
+        raise BoundsError(Reason("bounded.doctype"))
 
     def begins(self, *_: object) -> None:
         self._depth += 1
         self._elements += 1
         if self._depth > self._deepest or self._elements > self._most:
-            raise BoundsError(f"is XML of more than {self._deepest} levels or {self._most} elements")
+            raise BoundsError(Reason("bounded.xml_deep", deepest=self._deepest, most=self._most))
 
     def ends(self, *_: object) -> None:
         self._depth -= 1

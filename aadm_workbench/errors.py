@@ -15,7 +15,12 @@ PRIVATE_ENVIRONMENT = "AADM_PRIVATE_ENVIRONMENT"
 
 
 class AadmError(Exception):
-    """Base of all errors that this product raises on purpose."""
+    """Base of all errors that this product raises on purpose: each with its reason."""
+
+    @property
+    def reason(self) -> str:
+        """What is wrong, where, and what to do: a reason of the table of sentences, or a text."""
+        return self.args[0] if self.args and isinstance(self.args[0], str) else str(self)
 
 
 class JobError(AadmError):
@@ -59,13 +64,11 @@ class MissingDependencyError(AadmError):
 
     def __init__(self, package: str, needed_for: str, install: str = "") -> None:
         install = install or package_called(package).install
-        remedy = f"Install it with: {install}"
-        if os.environ.get(PRIVATE_ENVIRONMENT) and install.startswith("pip "):
-            remedy = (
-                "FreeCAD's private environment lacks it: repair that in About AADM and doctor, or name in the settings "
-                f"an aadm of your own that has it ({install})"
-            )
-        super().__init__(f"{needed_for} needs the package {package}, which is not installed. {remedy}")
+        from aadm_workbench.model import Reason
+
+        is_private = os.environ.get(PRIVATE_ENVIRONMENT) and install.startswith("pip ")
+        code = "errors.missing.private" if is_private else "errors.missing"
+        super().__init__(Reason(code, needed_for=needed_for, package=package, install=install))
         self.package = package
         self.install = install
 

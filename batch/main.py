@@ -18,6 +18,7 @@ from aadm_workbench.errors import AadmError
 from .exit_codes import BAD_USAGE, INTERNAL, INTERRUPTED
 from .runner.machine import calculate_in_one_thread
 from .shown.printable import printable
+from .shown.told import told
 
 
 class Command(Protocol):
@@ -44,6 +45,7 @@ COMMANDS = MappingProxyType(
         "study": "measure methods on synthetic scans of known truth",
         "report": "make HTML, PDF, XLSX, CSV, BCF, crew pages and scan cards from a report",
         "diff": "say what changed between two inspections",
+        "stack": "say what set columns do to beams and to the next storey",
         "writeback": "write the results of a check into the IFC model",
         "profiles": "list tolerance profiles and their rules",
         "doctor": "say what is installed and what is missing",
@@ -89,7 +91,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except AadmError as error:
         if options.debug and error.__cause__ is not None:
             _show_trace()
-        _say(str(error))
+        _say(told(error, options))
         return BAD_USAGE
     except KeyboardInterrupt:
         _say("interrupted")

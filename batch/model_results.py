@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +13,7 @@ from aadm_workbench.errors import JobError
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
     from aadm_workbench.model import JobReport
+    from aadm_workbench.report.ifc.addition import Property
     from aadm_workbench.report.ifc.model import WriteBack
 
 _REPORTS = ("report.html", "report.json")
@@ -35,11 +36,19 @@ def ifc_model_of(job: Job) -> Path:
     return path
 
 
-def write_results(report: JobReport, report_folder: Path, model: Path, out: Path, *, force: bool = False) -> WriteBack:
-    """Write a report into a model and link the columns to the report's file; errors as ``write_ifc``."""
+def write_results(
+    report: JobReport,
+    report_folder: Path,
+    model: Path,
+    out: Path,
+    *,
+    force: bool = False,
+    setting: Mapping[str, Sequence[Property]] | None = None,
+) -> WriteBack:
+    """Write a report into a model and link the columns to the report's file; arguments and errors as ``write_ifc``."""
     from aadm_workbench.report.ifc.model import write_ifc
 
-    return write_ifc(report, model, out, report_location=_link(report_folder, out), force=force)
+    return write_ifc(report, model, out, report_location=_link(report_folder, out), force=force, setting=setting)
 
 
 def written_lines(done: WriteBack) -> Iterator[str]:

@@ -44,7 +44,7 @@ def add_format_switches(parser: argparse.ArgumentParser, *, also: str = "") -> N
         "--language",
         choices=("en", "zh"),
         metavar="LANGUAGE",
-        help="en or zh: language of the reports (default: en; crew pages and scan cards have both, Chinese first)",
+        help="en or zh: of reports and errors (default: en; crew pages and scan cards have both, Chinese first)",
     )
 
 

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import re
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -12,6 +14,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.report.json import encoded_report, report_schema
+from aadm_workbench.report.words.reasons import in_both_languages
 from batch.job.file import read_job
 from batch.runner.run import RunOptions, run_job
 from tests.frozen import KEPT, frozen
@@ -109,3 +112,28 @@ def test_the_samples_stay_small_and_say_that_they_are_synthetic() -> None:
     assert sum(path.stat().st_size for path in SAMPLES.rglob("*") if path.is_file()) < 40e6
     for sample in ("floor", "lab"):
         assert json.loads((SAMPLES / sample / "truth.json").read_text(encoding="utf-8"))["synthetic"] is True
+
+
+TOLD = {"advice", "axis_limit_from", "conclusion", "notes", "reason", "reasons", "text"}
+NO_ENGLISH = {"GB", "CCES", "JGJ", "table", "mm", "scans", "bars", "tiff", "foot", "near"}
+"""Standards and their tables, units, names of files."""
+
+
+def sentences(value: Any, key: str = "") -> Iterator[str]:
+    """Every sentence of a report that a person reads."""
+    if isinstance(value, dict):
+        for name, item in value.items():
+            yield from sentences(item, name)
+    elif isinstance(value, list):
+        for item in value:
+            yield from sentences(item, key)
+    elif isinstance(value, str) and value and key in TOLD:
+        yield value
+
+
+@pytest.mark.parametrize("sample", ["floor", "lab"])
+def test_every_sentence_is_told_wholly_in_chinese(sample: str) -> None:
+    told = {text: in_both_languages(text).zh for text in sentences(report(sample))}
+    assert len(told) > 3
+    left = {zh for zh in told.values() if {*re.findall("[A-Za-z]{2,}", zh)} - NO_ENGLISH}
+    assert left == set()

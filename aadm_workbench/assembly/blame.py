@@ -12,25 +12,25 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.assembly.pose.eopa import robust_offsets
-from aadm_workbench.model import Array, RepairReport, RepairStep, Rule, TrialReport, Verdict
+from aadm_workbench.model import Array, Reason, RepairReport, RepairStep, Rule, TrialReport, Verdict, in_one
 
 
 def with_blame(trial: TrialReport, repair: RepairReport | None) -> TrialReport:
     """A trial that fails, with what is in its way: its first reason says so. Any other trial as it is."""
     if trial.verdict is not Verdict.FAIL or repair is None or not repair.steps:
         return trial
-    sentence = "; ".join(f"{step.blamed} is in the way: {_why(step)}" for step in repair.steps)
+    sentence = in_one(Reason("assembly.in_the_way", label=step.blamed, why=_why(step)) for step in repair.steps)
     labels = tuple(step.blamed for step in repair.steps)
     return replace(trial, in_the_way=labels, reasons=(sentence, *trial.reasons))
 
 
 def _why(step: RepairStep) -> str:
     if step.bend_mm is None:
-        return f"over its ribs and its lean it takes more room than {step.sleeve} has"
+        return Reason("assembly.ribs_and_lean", sleeve=step.sleeve)
     if step.upright:
-        return f"its lean alone takes more room than {step.sleeve} has"
+        return Reason("assembly.lean_alone", sleeve=step.sleeve)
     others = "bars" if step.blamed == step.rebar else "sleeves"
-    return f"it stands {step.off_mm:.2f} mm off the place that the other {others} give it"
+    return Reason("assembly.off_own_place", off_mm=step.off_mm, others=others)
 
 
 def blame_of_group(labels: Sequence[str], measured: Array, design: Array, failing: set[str], rule: Rule) -> str:
@@ -51,6 +51,4 @@ def blame_of_group(labels: Sequence[str], measured: Array, design: Array, failin
         return ""
     others = "bars" if labels[0].startswith("R") else "sleeves"
     blamed.sort(key=lambda one: -one[1])
-    return "; ".join(
-        f"{label} stands {off:.2f} mm off the place that the other {others} give it" for label, off in blamed
-    )
+    return in_one(Reason("assembly.stands_off", label=label, off_mm=off, others=others) for label, off in blamed)

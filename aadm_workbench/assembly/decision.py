@@ -10,14 +10,14 @@ probability, and ignorance is no proof.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from typing import Literal, TypeAlias, TypeVar
 
 import numpy as np
 
-from aadm_workbench.model import Array, PointResult, SpacingResult, Verdict
+from aadm_workbench.model import Array, PointResult, Reason, SpacingResult, Verdict
 
 DecisionRule: TypeAlias = Literal["guarded", "simple"]
 
@@ -32,7 +32,7 @@ _NODES = 160  # of Gauss and Legendre: nine to each of 18 standard deviations
 
 Result = TypeVar("Result", PointResult, SpacingResult)
 
-AMBIGUOUS_POINT = "the verdict depends on how the column is turned, which the scan does not show"
+AMBIGUOUS_POINT = Reason("assembly.turn_decides")
 
 
 @dataclass(frozen=True)
@@ -208,15 +208,19 @@ def agreed(verdicts: Iterable[Verdict]) -> Verdict:
 
 def agree_on_points(candidates: Sequence[Sequence[PointResult]]) -> tuple[PointResult, ...]:
     """The points as the first candidate has them, with the verdicts that all candidates agree on."""
-    return tuple(_agreed(same, same[0].label) for same in zip(*candidates, strict=True))
+    return tuple(_agreed(same, {"what": same[0].label}) for same in zip(*candidates, strict=True))
 
 
 def agree_on_spacing(candidates: Sequence[Sequence[SpacingResult]]) -> tuple[SpacingResult, ...]:
     """The spacings as the first candidate has them, with the verdicts that all candidates agree on."""
-    return tuple(_agreed(same, "–".join(same[0].between)) for same in zip(*candidates, strict=True))
+    return tuple(
+        _agreed(same, dict(zip(("first", "second"), same[0].between, strict=True)))
+        for same in zip(*candidates, strict=True)
+    )
 
 
-def _agreed(same: tuple[Result, ...], called: str) -> Result:
+def _agreed(same: tuple[Result, ...], called: Mapping[str, str]) -> Result:
     if len({other.verdict for other in same}) == 1:
         return same[0]
-    return replace(same[0], verdict=Verdict.INCONCLUSIVE, reason=f"{called}: {AMBIGUOUS_POINT}")
+    code = "said.of" if "what" in called else "said.between"
+    return replace(same[0], verdict=Verdict.INCONCLUSIVE, reason=Reason(code, **called, why=AMBIGUOUS_POINT))

@@ -21,31 +21,29 @@ from aadm_workbench.model import (
     Kind,
     PointResult,
     Profile,
+    Reason,
     Scan,
     Vector3,
     Verdict,
+    codes_of,
 )
 
 LARGEST_U_TO_LIMIT = 0.409
 """1/sqrt(-2 ln 0.05): with a larger u per axis no radial deviation is within the limit at 95 % (Rice law)."""
 
-NO_CAMERA = (
-    "the cloud does not tell where its camera stood, so its edges are less certain; "
-    "with [camera] and the camera's own depth map or cloud they are better"
-)
+_UNEXPLAINED = {"assembly.not_measured", "assembly.missing", "assembly.unspaced", "extract.not_found"}
+
+NO_CAMERA = Reason("assembly.no_camera")
 """Note of a scan whose viewpoint nobody knows."""
 
-AXES_NOT_TOLD = (
-    "the file does not tell how its axes run: the top of the picture was taken for -y of the file; "
-    'write axes = "opengl" where it is +y'
-)
+AXES_NOT_TOLD = Reason("assembly.axes_not_told")
 """Note of a cloud in any frame, for which the job declares what is at the top."""
 
 
 def of_the_files(views: tuple[Scan, ...]) -> tuple[str, ...]:
     """What was noticed while the scans were read."""
     return tuple(
-        f"{view.source}: {note}"
+        Reason("said.of_file", file=view.source, why=note)
         for view in views
         for note in (*view.notes, *(() if view.viewpoint is not None else (NO_CAMERA,)))
     )
@@ -65,9 +63,7 @@ def unsupported(u_mm: float | None, profile: Profile, kind: Kind) -> tuple[str, 
     limits = [rule.upper for rule in rules_for(profile, f"{kind.value}_position")]
     if u_mm is None or not limits or u_mm < LARGEST_U_TO_LIMIT * min(limits):
         return ()
-    return (
-        f"this scan cannot support a decision on {min(limits):g} mm: its centres have u = {u_mm:.2f} mm, rescan closer",
-    )
+    return (Reason("assembly.unsupported", limit_mm=min(limits), u_mm=u_mm),)
 
 
 def missing_places(points: tuple[AssemblyPoint, ...], match: Match) -> dict[int, Array]:
@@ -99,15 +95,15 @@ def with_reasons(report: GroupReport, reasons: Mapping[int, str]) -> GroupReport
     if not reasons:
         return report
     points = tuple(_explained(point, reasons.get(k)) for k, point in enumerate(report.points))
-    said = tuple(f"{report.points[k].label} not measured: {text}" for k, text in reasons.items())
-    kept = tuple(text for text in report.reasons if "not measured" not in text and "not found" not in text)
+    said = tuple(Reason("assembly.not_measured", label=report.points[k].label, why=text) for k, text in reasons.items())
+    kept = tuple(text for text in report.reasons if not _UNEXPLAINED & codes_of(text))
     return replace(report, points=points, reasons=(*kept, *said))
 
 
 def _explained(point: PointResult, reason: str | None) -> PointResult:
     if reason is None or point.verdict is not Verdict.NOT_MEASURED:
         return point
-    return replace(point, reason=f"{point.label}: {reason}")
+    return replace(point, reason=Reason("said.of", what=point.label, why=reason))
 
 
 def in_scan_frame(points: Sequence[ControlPoint], scan: Scan) -> tuple[ControlPoint, ...]:
@@ -133,7 +129,9 @@ def axes_not_told(views: Sequence[Scan], up_deg: float | None) -> tuple[str, ...
     """A note on each scan whose top a job declares, and whose axes nobody does."""
     if up_deg is None:
         return ()
-    return tuple(f"{view.source}: {AXES_NOT_TOLD}" for view in views if view.axes == AXES_UNKNOWN)
+    return tuple(
+        Reason("said.of_file", file=view.source, why=AXES_NOT_TOLD) for view in views if view.axes == AXES_UNKNOWN
+    )
 
 
 def _absolute(absolute: AbsolutePosition, R: Array) -> AbsolutePosition:

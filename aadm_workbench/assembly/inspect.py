@@ -25,6 +25,7 @@ from aadm_workbench.assembly.tolerances import (
     rules_for,
     spacing_result,
 )
+from aadm_workbench.extract.missing import NOT_FOUND
 from aadm_workbench.model import (
     AssemblyPoint,
     Candidate,
@@ -33,17 +34,19 @@ from aadm_workbench.model import (
     GroupReport,
     PointResult,
     Profile,
+    Reason,
     Rule,
     RuleResult,
     SpacingResult,
     Verdict,
+    in_one,
     worst,
 )
 
 _FEWEST_TO_BLAME = 4
 """With three points or fewer, no majority says where the others should be."""
 
-NO_ABSOLUTE_POSITION = "absolute position not checked: the job gives no control points"
+NO_ABSOLUTE_POSITION = Reason("assembly.no_absolute_position")
 
 
 @dataclass(frozen=True)
@@ -128,7 +131,7 @@ def _inspect(
     design_exposed_mm: float | None,
 ) -> _Inspected:
     kind = extraction.kind.value
-    missing = extraction.reason or "not found in the scan"
+    missing = extraction.reason or NOT_FOUND
     position_rules, skipped = applicable_rules(profile, f"{kind}_position")
     spacing_rules, more_skipped = applicable_rules(profile, f"{kind}_spacing")
     by_position = [
@@ -227,33 +230,27 @@ def _reasons(match: Match, first: _Inspected, verdict: Verdict) -> tuple[str, ..
         return tuple(reasons)
     if verdict is Verdict.PASS:
         return ()
-    where = "in the first of these places" if match.is_shifted else "in the first of these turns"
-    return (describe_ambiguity(match), *(f"{where}: {reason}" for reason in reasons))
+    code = "assembly.first_place" if match.is_shifted else "assembly.first_turn"
+    return (describe_ambiguity(match), *(Reason(code, why=reason) for reason in reasons))
 
 
 def describe_ambiguity(match: Match) -> str:
     """In how many turns the pattern fits, and what to declare; in how many places, and what to scan."""
     if match.is_shifted:
-        return (
-            f"what was seen of the pattern fits in {len(match.placements)} places of it: scan it with both of its "
-            "ends, or in views that share three points and more"
-        )
+        return Reason("assembly.places", count=len(match.placements))
     ups = [placement.up for placement in match.placements]
-    turns = ", ".join(f"{round(math.degrees(up)) % 360}°" for up in ups if up is not None)
-    shown = f" (top of the image at {turns})" if turns else ""
-    return f"the pattern fits in {len(ups)} turns{shown}: declare up to settle which"
+    turns = [f"{round(math.degrees(up)) % 360}°" for up in ups if up is not None]
+    return Reason("assembly.turns_at" if turns else "assembly.turns", count=len(ups), turns=turns)
 
 
 def _notes(extraction: Extraction, match: Match) -> tuple[str, ...]:
-    notes = [NO_ABSOLUTE_POSITION]
+    notes: list[str] = [NO_ABSOLUTE_POSITION]
     if match.orientation == "ambiguous":
         notes.append(describe_ambiguity(match))
     if match.extra:
         one = len(match.extra) == 1
-        notes.append(
-            f"{len(match.extra)} further {extraction.kind.value if one else extraction.kind.plural} found that "
-            f"{'belongs' if one else 'belong'} to no design point"
-        )
+        kind = extraction.kind.value if one else extraction.kind.plural
+        notes.append(Reason("assembly.one_extra" if one else "assembly.extra", count=len(match.extra), kind=kind))
     return tuple(notes)
 
 
@@ -274,7 +271,7 @@ def _not_matched(
         points=inspect_positions(design, nothing, position, decision="simple", missing=match.reason),
         spacing=inspect_spacing(design, nothing, spacing, decision="simple"),
         fit=None,
-        reasons=(f"{extraction.kind.plural}: {match.reason}",),
+        reasons=(Reason("said.of", what=extraction.kind.plural, why=match.reason),),
         notes=(NO_ABSOLUTE_POSITION,),
         quality=extraction.quality,
     )
@@ -292,7 +289,7 @@ def inspect_exposed_length(
     """
     clause, counted = describe_clause(rule), not rule.advisory
     if design_exposed_mm is None:
-        reason = "the design gives no exposed length"
+        reason = Reason("assembly.no_exposed_length")
         return RuleResult(rule.name, clause, rule.source, Verdict.NOT_ASSESSED, counted, reason)
     verdicts, reasons, deviations = [], [], []
     for target, point in zip(design, placed, strict=True):
@@ -304,12 +301,18 @@ def inspect_exposed_length(
         deviations.append(deviation_mm)
         if verdict is Verdict.FAIL:
             reasons.append(
-                f"{target.label} sticks out {point.exposed_length_mm:.1f} mm, {deviation_mm:+.1f} mm from design, "
-                f"limit {describe_limits(rule)} mm ({clause})"
+                Reason(
+                    "assembly.sticks_out",
+                    label=target.label,
+                    exposed_mm=point.exposed_length_mm,
+                    deviation_mm=deviation_mm,
+                    limits=describe_limits(rule),
+                    clause=clause,
+                )
             )
     if not verdicts:
-        reason = "the scan does not show the floor"
+        reason = Reason("assembly.no_floor")
         return RuleResult(rule.name, clause, rule.source, Verdict.NOT_ASSESSED, counted, reason)
     return RuleResult(
-        rule.name, clause, rule.source, worst(verdicts), counted, "; ".join(reasons), max(deviations, key=abs)
+        rule.name, clause, rule.source, worst(verdicts), counted, in_one(reasons), max(deviations, key=abs)
     )

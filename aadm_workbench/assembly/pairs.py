@@ -15,7 +15,7 @@ import numpy as np
 
 from aadm_workbench.assembly.place import flat_covariance
 from aadm_workbench.design.recognise.pattern import over_ribs_mm
-from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Reason
 
 EMBEDMENT_DIAMETERS = 8.0
 """Embedded length of a bar in its diameters, where the design says nothing (JGJ 355-2015, unverified)."""
@@ -120,7 +120,7 @@ def form_pairs(
     length_mm = embedded_length_mm(design)
     for index, other in enumerate(rebar_of):
         if other >= len(design.rebars):
-            missing.append(f"the rebar of {design.sleeves[index].label}")
+            missing.append(Reason("assembly.rebar_of", sleeve=design.sleeves[index].label))
             continue
         sleeve, rebar = sleeves[index], rebars[other]
         if sleeve is None:

@@ -23,9 +23,20 @@ from aadm_workbench.assembly.decision import (
     standard_uncertainty,
 )
 from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
-from aadm_workbench.assembly.tolerances import describe_clause
+from aadm_workbench.assembly.tolerances import describe_clause, describe_limit
 from aadm_workbench.design.recognise.pattern import adjacent
-from aadm_workbench.model import Array, AssemblyPoint, PointResult, Rule, SpacingResult, Vector2, Vector3, Verdict
+from aadm_workbench.extract.missing import NOT_FOUND
+from aadm_workbench.model import (
+    Array,
+    AssemblyPoint,
+    PointResult,
+    Reason,
+    Rule,
+    SpacingResult,
+    Vector2,
+    Vector3,
+    Verdict,
+)
 
 
 def inspect_positions(
@@ -35,7 +46,7 @@ def inspect_positions(
     *,
     decision: DecisionRule,
     scale_error: float = 0.0,
-    missing: str = "not found in the scan",
+    missing: str = NOT_FOUND,
 ) -> tuple[PointResult, ...]:
     """Offset of every measured centre from its design point, and the verdict on it.
 
@@ -118,7 +129,7 @@ def _unmeasured(target: AssemblyPoint, rule: Rule | None, missing: str) -> Point
         u_mm=None,
         limit_mm=None if rule is None else rule.upper,
         verdict=Verdict.NOT_MEASURED,
-        reason=f"{target.label}: {missing}",
+        reason=Reason("said.of", what=target.label, why=missing),
     )
 
 
@@ -190,13 +201,8 @@ def _rows(covariance: Array | None) -> tuple[Vector2, Vector2] | None:
 def _reason(label: str, deviation_mm: float, u_mm: float | None, rule: Rule | None, verdict: Verdict) -> str:
     if rule is None or verdict not in (Verdict.FAIL, Verdict.INCONCLUSIVE):
         return ""
-    limit = f"limit {rule.upper:g} mm ({describe_clause(rule)})"
-    if verdict is Verdict.FAIL:
-        return f"{label} is {deviation_mm:.2f} mm from design, {limit}"
-    return (
-        f"{label} is {deviation_mm:.2f} mm from design, {limit}: "
-        f"too close to it for an uncertainty of {u_mm or 0.0:.2f} mm, rescan closer"
-    )
+    text = Reason("assembly.from_design", label=label, deviation_mm=deviation_mm, limit=describe_limit(rule))
+    return text if verdict is Verdict.FAIL else Reason("assembly.close_rescan", what=text, u_mm=u_mm or 0.0)
 
 
 def as_vector(values: Array) -> Vector3:
@@ -237,8 +243,8 @@ def _spacing(
     limit_mm = None if rule is None else (rule.lower, rule.upper)
     first, second = placed[pair[0]], placed[pair[1]]
     if first is None or second is None:
-        missing = " and ".join(label for label, point in zip(between, (first, second), strict=True) if point is None)
-        reason = f"{between[0]}–{between[1]}: {missing} was not measured"
+        missing = [label for label, point in zip(between, (first, second), strict=True) if point is None]
+        reason = Reason("assembly.unspaced", first=between[0], second=between[1], missing=missing)
         return SpacingResult(between, design_mm, None, None, None, limit_mm, Verdict.NOT_MEASURED, reason)
     span = (second.point.centre - first.point.centre)[:2]
     measured_mm = float(np.linalg.norm(span))
@@ -275,13 +281,15 @@ def _spacing_reason(
 ) -> str:
     if rule is None or verdict not in (Verdict.FAIL, Verdict.INCONCLUSIVE):
         return ""
-    text = (
-        f"{between[0]}–{between[1]} are spaced {deviation_mm:+.2f} mm from design, "
-        f"limit {describe_limits(rule)} mm ({describe_clause(rule)})"
+    text = Reason(
+        "assembly.spaced",
+        first=between[0],
+        second=between[1],
+        deviation_mm=deviation_mm,
+        limits=describe_limits(rule),
+        clause=describe_clause(rule),
     )
-    if verdict is Verdict.FAIL:
-        return text
-    return f"{text}: too close to it for an uncertainty of {u_mm or 0.0:.2f} mm, rescan closer"
+    return text if verdict is Verdict.FAIL else Reason("assembly.close_rescan", what=text, u_mm=u_mm or 0.0)
 
 
 def describe_limits(rule: Rule) -> str:
@@ -290,4 +298,5 @@ def describe_limits(rule: Rule) -> str:
         return f"{rule.upper:+g}"
     if rule.lower == -rule.upper:
         return f"±{rule.upper:g}"
-    return f"{rule.lower:+g} to {rule.upper:+g}".replace("+0 ", "0 ")
+    code = "assembly.from_zero" if rule.lower == 0.0 else "assembly.from_to"
+    return Reason(code, lower=rule.lower, upper=rule.upper)

@@ -32,11 +32,13 @@ from aadm_workbench.model import (
     GroupReport,
     PointResult,
     Profile,
+    Reason,
     Rule,
     RuleResult,
     SpacingResult,
     TrialReport,
     Verdict,
+    in_one,
     worst,
 )
 
@@ -52,6 +54,12 @@ QUANTITIES = {
     "column_axis": "radial",
     "elevation": "signed",
     "verticality": "signed",
+    "section_size": "signed",
+    "pattern_in_section": "per_axis",
+    "face_flatness": "signed",
+    "bearing_length": "signed",
+    "flushness": "signed",
+    "inclination": "signed",
 }
 """What a rule can limit, and how its deviation is taken unless the rule says otherwise."""
 
@@ -155,7 +163,14 @@ def rules_for(profile: Profile, quantity: str) -> tuple[Rule, ...]:
 
 def describe_clause(rule: Rule) -> str:
     """The clause as messages print it, with the mark of a limit that nobody has verified."""
-    return rule.clause if rule.source == "verified" else f"{rule.clause}, unverified"
+    return rule.clause if rule.source == "verified" else Reason("assembly.unverified", clause=rule.clause)
+
+
+def describe_limit(rule: Rule | None) -> Reason:
+    """The upper limit of a rule as messages print it, with its clause."""
+    if rule is None:
+        return Reason("assembly.no_limit")
+    return Reason("assembly.limit", upper=rule.upper, clause=describe_clause(rule))
 
 
 def _folder() -> Path:
@@ -240,7 +255,7 @@ def _worst_of(verdicts: Sequence[Verdict], reasons: Sequence[str]) -> tuple[Verd
     """The worst verdict, and the reasons of all that are not a pass, the worst first."""
     order = (Verdict.FAIL, Verdict.NOT_MEASURED, Verdict.INCONCLUSIVE)
     ordered = [reason for kind in order for verdict, reason in zip(verdicts, reasons, strict=True) if verdict is kind]
-    return worst(verdicts), "; ".join(reason for reason in ordered if reason)
+    return worst(verdicts), in_one(reason for reason in ordered if reason)
 
 
 def rule_result(rule: Rule, verdict: Verdict, reason: str, worst_mm: float | None = None) -> RuleResult:
@@ -279,7 +294,7 @@ def sum_up(
 def rules_of_the_erected_column(profile: Profile) -> tuple[RuleResult, ...]:
     """The rules of a profile that no scan before hoisting can answer, as not assessed."""
     return tuple(
-        not_assessed(rule, "it is measured on the erected column")
+        not_assessed(rule, Reason("assembly.erected"))
         for rule in profile.rules
         if rule.limits in _OF_THE_ERECTED_COLUMN
     )

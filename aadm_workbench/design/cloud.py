@@ -22,7 +22,7 @@ from aadm_workbench.design.elements import Element, Solid
 from aadm_workbench.design.recognise.flat_circle import flat_circle, widest_gap
 from aadm_workbench.design.recognise.tubes import Tube
 from aadm_workbench.errors import DesignError
-from aadm_workbench.model import Array, BoolArray, IntArray
+from aadm_workbench.model import Array, BoolArray, IntArray, Reason
 
 _FEWEST_POINTS = 200  # a column with a ring of sleeves has thousands
 
@@ -56,9 +56,7 @@ def elements_of_cloud(points: Array, source: str) -> list[Element]:
     """
     points = points[np.isfinite(points).all(axis=1)]
     if len(points) < _FEWEST_POINTS:
-        raise DesignError(
-            f"{source} has {len(points)} points, too few to find sleeves and bars in; sample it more densely."
-        )
+        raise DesignError(Reason("design.few_points", source=source, count=len(points)))
     origin = np.round(points.mean(axis=0))
     local = points[:: max(1, len(points) // _LARGEST_SAMPLE)] - origin
     slabs, gap_mm = _slabs(local)

@@ -12,7 +12,8 @@ import numpy as np
 
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.errors import DesignError
-from aadm_workbench.model import AssemblyPoint, ColumnDesign, Json, Kind
+from aadm_workbench.model import AssemblyPoint, ColumnDesign, Json, Kind, Reason
+from aadm_workbench.model.reason import said_of
 
 _PLAIN = ("id", "global_id", "piece_mark", "storey", "grid", "rebar_outer_diameter_mm", "embedded_length_mm")
 
@@ -53,7 +54,7 @@ def read_design(text: str, label: str) -> ColumnDesign:
             rebars=tuple(_point(Kind.REBAR, entry) for entry in written["rebars"]),
         )
     except (ValueError, KeyError, TypeError, IndexError) as error:
-        raise DesignError(f"{label} holds no design: sample the design of its column again") from error
+        raise DesignError(Reason("design.none_held", label=label)) from error
 
 
 def write_model(origin: Mapping[str, Any], columns: Mapping[str, ColumnDesign]) -> str:
@@ -87,9 +88,9 @@ def read_designs(path: Path) -> ModelDesign:
         source, sha256, schema = (str(origin.get(key) or "") for key in ("source", "sha256", "schema"))
         columns = tuple(read_design(json.dumps(entry), str(path)) for entry in entries)
     except OSError as error:
-        raise DesignError(f"{path}: cannot be read ({error.strerror})") from error
+        raise DesignError(said_of(path, "design.unread", why=error.strerror)) from error
     except (ValueError, LookupError, TypeError, AttributeError) as error:
-        raise DesignError(f"{path}: holds no designs as the workbench hands them over ({error})") from error
+        raise DesignError(said_of(path, "design.not_handed", why=error)) from error
     return ModelDesign(source or str(path), sha256, schema, columns)
 
 

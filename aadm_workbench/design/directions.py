@@ -30,4 +30,6 @@ def up_deg(written: str, label: str) -> float | None:
         value = math.nan
     if math.isfinite(value):
         return value
-    raise JobError(f"{label}: up must be +x, -x, +y, -y or a number of degrees from +x, it is {written!r}")
+    from aadm_workbench.model import Reason
+
+    raise JobError(Reason("design.up", label=label, written=repr(written)))

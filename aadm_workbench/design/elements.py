@@ -12,7 +12,7 @@ import numpy as np
 from aadm_workbench.design.recognise.bar_courses import Course
 from aadm_workbench.design.recognise.shapes import Mesh
 from aadm_workbench.design.recognise.tubes import Tube, moved
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _SAME_SCALE_RATIO = 1e-6  # rounding of a transform that files write with seven digits
 _FEW_POINTS = 16  # all of them are looked at; of more the ends of the box
@@ -189,4 +189,5 @@ def holdings(elements: Sequence[Element]) -> str:
         called = str(element.is_a())
         count[called] = count.get(called, 0) + 1
     ranked = sorted(count.items(), key=lambda item: (-item[1], item[0]))
-    return ", ".join(f"{number} {called}" for called, number in ranked) or "no solids at all"
+    parts = [f"{number} {called}" for called, number in ranked]
+    return Reason("said.list", parts=parts) if parts else Reason("design.no_solids")

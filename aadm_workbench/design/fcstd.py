@@ -10,6 +10,7 @@ from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.recognise.columns import Rules
 from aadm_workbench.design.step import read_with_kernel
 from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Reason
 
 FCSTD_BOUNDS = ArchiveBounds("FreeCAD document", entries=200_000, entry_bytes=2**31, all_bytes=2**31)
 """Drawings of whole buildings unpack to some hundred megabytes, in a part for each shape."""
@@ -45,14 +46,14 @@ def check_archive(path: Path) -> None:
         with opened_archive(path, FCSTD_BOUNDS) as archive:
             parts = archive.infolist()
             if _MAIN not in {part.filename for part in parts}:
-                raise DesignError(f"{path} is a zip archive without {_MAIN}: no FreeCAD document. Save it in FreeCAD.")
+                raise DesignError(Reason("design.fcstd_zip", path=path, main=_MAIN))
             for part in parts:
                 _check_part(path, archive, part)
     except BoundsError as error:
-        message = f"{path} {error}: it was not opened. Copy it again, or save it again in FreeCAD."
+        message = Reason("design.fcstd_refused", path=path, why=error)
         raise DesignError(message) from error
     except OSError as error:
-        raise DesignError(f"{path} cannot be opened: {error.strerror}.") from error
+        raise DesignError(Reason("design.unopened", path=path, why=error.strerror)) from error
 
 
 def _check_part(path: Path, archive: zipfile.ZipFile, part: zipfile.ZipInfo) -> None:
@@ -62,7 +63,7 @@ def _check_part(path: Path, archive: zipfile.ZipFile, part: zipfile.ZipInfo) -> 
         while piece := stream.read(_PIECE_BYTES):
             passed += len(piece)
             if passed > part.file_size:
-                raise DesignError(f"{path}: its part {part.filename} is longer than it says: it was not opened.")
+                raise DesignError(Reason("design.fcstd_part", path=path, name=part.filename))
             if part.filename.endswith(".xml") and _ENTITY in before + piece:
-                raise DesignError(f"{path}: its part {part.filename} defines entities, which FreeCAD never writes.")
+                raise DesignError(Reason("design.fcstd_entities", path=path, name=part.filename))
             before = piece[-len(_ENTITY) :]

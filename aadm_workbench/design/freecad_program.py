@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.errors import DesignError, MissingDependencyError
+from aadm_workbench.model import Reason
 
 PROGRAM_VARIABLE = "AADM_FREECADCMD"
 SECONDS_VARIABLE = "AADM_FREECAD_SECONDS"
@@ -112,7 +113,7 @@ def find_freecad() -> FreeCADProgram:
     if named:
         found = shutil.which(named)
         if found is None:
-            raise DesignError(f"{PROGRAM_VARIABLE} is {named!r}, which is no program: name FreeCAD's freecadcmd.")
+            raise DesignError(Reason("design.no_program", variable=PROGRAM_VARIABLE, named=repr(named)))
         return _program(Path(found))
     for path in _candidates():
         if path.is_file() and os.access(path, os.X_OK):
@@ -211,14 +212,15 @@ def _run(command: Sequence[str], folder: Path, about: str) -> str:
                 start_new_session=os.name != "nt",
             )
         except OSError as error:
-            raise DesignError(f"{about}: FreeCAD ({command[0]}) cannot be started: {error.strerror}.") from error
+            raise DesignError(
+                Reason("design.program_start", about=about, command=command[0], why=error.strerror)
+            ) from error
         try:
             process.wait(timeout=limit_s)
         except subprocess.TimeoutExpired as error:
             _end(process)
             raise DesignError(
-                f"{about}: FreeCAD did not finish reading it in {limit_s:g} seconds. Set {SECONDS_VARIABLE} to more, "
-                "or save a document that holds only columns and bars."
+                Reason("design.program_late", about=about, limit_s=limit_s, variable=SECONDS_VARIABLE)
             ) from error
         except BaseException:
             _end(process)
@@ -234,7 +236,7 @@ def _limit_s() -> float:
     except ValueError:
         limit_s = 0.0
     if not 0.0 < limit_s < 1e6:
-        raise DesignError(f"{SECONDS_VARIABLE} is {written!r}: it must be a number of seconds, above zero.")
+        raise DesignError(Reason("design.program_seconds", variable=SECONDS_VARIABLE, written=repr(written)))
     return limit_s
 
 
@@ -264,8 +266,8 @@ def _answer(path: Path, about: str, printed: str) -> Any:
     try:
         answer = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        said = f" Its last words: {printed}" if printed else ""
-        raise CrashError(f"{about}: FreeCAD ended without reading it; the file may be damaged.{said}") from error
+        code = "design.program_ended.words" if printed else "design.program_ended"
+        raise CrashError(Reason(code, about=about, printed=printed)) from error
     if "error" in answer:
-        raise DesignError(f"{about} cannot be read with FreeCAD: {answer['error']}")
+        raise DesignError(Reason("design.program_failed", about=about, why=answer["error"]))
     return answer["result"]

@@ -20,7 +20,7 @@ from aadm_workbench.design.recognise.facets import facet_solid, sharp_edges
 from aadm_workbench.design.recognise.round_faces import tubes_of
 from aadm_workbench.design.recognise.tubes import Tube
 from aadm_workbench.errors import DesignError, MissingDependencyError
-from aadm_workbench.model import Array, ColumnDesign, IntArray
+from aadm_workbench.model import Array, ColumnDesign, IntArray, Reason
 
 _UP = np.array([0.0, 0.0, 1.0])
 _SAME_VERTEX_RATIO = 1e-7  # of the largest coordinate: single precision keeps as much
@@ -83,7 +83,7 @@ def mesh_bodies(path: Path, units: str) -> list[Body]:
         Where trimesh is not installed.
     """
     if units not in MM_PER_UNIT:
-        raise DesignError(f"the unit of models is {units!r}; it must be one of {', '.join(MM_PER_UNIT)}")
+        raise DesignError(Reason("design.units", units=repr(units), known=MM_PER_UNIT))
     try:
         import trimesh
     except ImportError as error:
@@ -94,10 +94,10 @@ def mesh_bodies(path: Path, units: str) -> list[Body]:
         parts = [(_given(path, str(name)), _placed(scene, name)) for name in scene.graph.nodes_geometry]
     except (ValueError, KeyError, IndexError, TypeError, AttributeError, NotImplementedError, MemoryError) as error:
         reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-        raise DesignError(f"{path} cannot be read as a mesh ({reason}). Export it again.") from error
+        raise DesignError(Reason("design.mesh_unread", path=path, why=reason)) from error
     bodies = [body for name, (vertices, corners) in parts for body in _connected(name, vertices, corners, units)]
     if not bodies:
-        raise DesignError(f"{path} holds no triangles: export the model as a mesh with faces.")
+        raise DesignError(Reason("design.no_triangles", path=path))
     return bodies
 
 
@@ -116,9 +116,9 @@ def _placed(scene: Any, node: str) -> tuple[Array, IntArray]:
     vertices = np.asarray(getattr(mesh, "vertices", np.zeros((0, 3))), dtype=np.float64)
     corners = np.asarray(getattr(mesh, "faces", np.zeros((0, 3))), dtype=np.int64).reshape(-1, 3)
     if not np.isfinite(vertices).all():
-        raise ValueError("it has coordinates that are no numbers")
+        raise ValueError(Reason("design.no_coordinates"))
     if len(corners) and (corners.min() < 0 or corners.max() >= len(vertices)):
-        raise ValueError("it has faces of vertices that are not there")
+        raise ValueError(Reason("design.no_vertices"))
     return vertices @ T_scene_node[:3, :3].T + T_scene_node[:3, 3], corners
 
 

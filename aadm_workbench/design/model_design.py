@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
@@ -12,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.errors import DesignError
-from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Reason
+from aadm_workbench.model.reason import listed
 
 _GLOBAL_ID_LENGTH = 22  # 22 characters (IFC): a name that long is one
 _DASHES = {ord(dash): "-" for dash in "\u2010\u2011\u2012\u2013\u2014\u2015\u2212"}
@@ -116,8 +116,8 @@ class ModelDesign:
         if len(found) == 1:
             return found[0]
         if found:
-            ids = _listed([column.id for column in found])
-            raise DesignError(f"{key!r} names {len(found)} columns of {self.source}: {ids}. Use one of these.")
+            ids = listed([column.id for column in found], _SHOWN)
+            raise DesignError(Reason("design.several", key=repr(key), count=len(found), source=self.source, ids=ids))
         raise DesignError(self._missing(wanted))
 
     def _missing(self, key: str) -> str:
@@ -126,28 +126,21 @@ class ModelDesign:
             None,
         )
         if without is not None:
-            return f"Column {key!r} of {self.source} {without.reason}. {self._help()}"
+            return Reason("design.without", key=repr(key), source=self.source, why=without.reason, help=self._help())
         if not self.columns:
-            return f"{self.source} has no column with grouting sleeves in its foot. {self._help()}"
+            return Reason("design.no_sleeves", source=self.source, help=self._help())
         names = sorted({name for column in self.columns for name in column.names if len(name) != _GLOBAL_ID_LENGTH})
         holding = [name for name in names if key.casefold() in name.casefold()]
         near = list(dict.fromkeys([*holding, *get_close_matches(key, names, n=_SHOWN, cutoff=0.5)]))
-        shown = f"Near to it: {_listed(near)}" if near else f"It has {_listed([column.id for column in self.columns])}"
-        return f"{self.source} has no column called {key!r}. {shown}."
+        names = near or [column.id for column in self.columns]
+        shown = Reason("design.near" if near else "design.has", names=listed(names, _SHOWN))
+        return Reason("design.no_column", source=self.source, key=repr(key), shown=shown)
 
     def _help(self) -> str:
-        how = self.hint or (
-            "Where sleeves are called something else, name them with "
-            'sleeves = "..." in [model], for instance sleeves = "IfcDiscreteAccessory, Name=/套筒/".'
-        )
-        return f"The model holds {self.holdings}. {how}"
+        how = self.hint or (Reason("design.name_sleeves"))
+        return Reason("design.holds", holdings=self.holdings, how=how)
 
 
 def _folded(name: str) -> str:
     """A name as it is compared: full-width letters, upper case and the dashes of typographers make no difference."""
     return unicodedata.normalize("NFKC", name).translate(_DASHES).strip().casefold()
-
-
-def _listed(names: Sequence[str]) -> str:
-    more = f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else ""
-    return ", ".join(names[:_SHOWN]) + more

@@ -8,6 +8,7 @@ from types import MappingProxyType
 
 from aadm_workbench.bounded import BoundsError, open_bounded
 from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Reason
 
 LARGEST_MODEL_BYTES = 2**31
 """The largest models that people exchange have one or two gigabytes."""
@@ -37,11 +38,13 @@ def sha256_of(path: Path) -> str:
                 found.update(piece)
                 size += len(piece)
     except FileNotFoundError as error:
-        raise DesignError(f"{path} does not exist. Paths in a job are relative to the job file.") from error
+        raise DesignError(Reason("design.no_file", path=path)) from error
     except BoundsError as error:
-        raise DesignError(f"{path} {error}: name the model's file.") from error
+        raise DesignError(Reason("design.refused", path=path, why=error)) from error
     except (OSError, ValueError) as error:
-        raise DesignError(f"{path} cannot be opened: {getattr(error, 'strerror', None) or error}.") from error
+        raise DesignError(
+            Reason("design.unopened", path=path, why=getattr(error, "strerror", None) or error)
+        ) from error
     if not size:
-        raise DesignError(f"{path} is empty: export the model again.")
+        raise DesignError(Reason("design.empty", path=path))
     return found.hexdigest()

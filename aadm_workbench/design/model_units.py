@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from types import MappingProxyType
 
 from aadm_workbench.errors import DesignError
-from aadm_workbench.model import Array, ColumnDesign
+from aadm_workbench.model import Array, ColumnDesign, Reason
 
 MM_PER_UNIT = MappingProxyType({"mm": 1.0, "cm": 10.0, "m": 1000.0, "inch": 25.4, "foot": 304.8})
 
@@ -34,7 +34,7 @@ def check_units(source: str, units: str, span_mm: Array, columns_in: Callable[[s
         Naming the size that the model has by the declared unit, and the unit that fits.
     """
     sizes = " x ".join(f"{side:.4g}" for side in span_mm)
-    declared = f"{source} is declared in {units}, so it measures {sizes} mm"
+    declared = Reason("design.measures", source=source, units=units, sizes=sizes)
     for other, mm in MM_PER_UNIT.items():
         factor = mm / MM_PER_UNIT[units]
         if other == units or not SMALLEST_MM <= factor * float(span_mm.max()) <= LARGEST_MM:
@@ -43,11 +43,13 @@ def check_units(source: str, units: str, span_mm: Array, columns_in: Callable[[s
         if columns:
             sleeves = columns[0].sleeves
             raise DesignError(
-                f"{declared} and holds no column with grouting sleeves; in {other} it holds one with {len(sleeves)} "
-                f'sleeves of {sleeves[0].diameter_mm:.4g} mm: write units = "{other}" in [model], or --units {other}.'
+                Reason(
+                    "design.other_unit",
+                    declared=declared,
+                    other=other,
+                    count=len(sleeves),
+                    diameter_mm=sleeves[0].diameter_mm,
+                )
             )
     if not SMALLEST_MM <= float(span_mm.max()) <= LARGEST_MM:
-        raise DesignError(
-            f"{declared}: no column has that size. Declare its unit with units in [model], or --units: "
-            f"{', '.join(MM_PER_UNIT)}."
-        )
+        raise DesignError(Reason("design.no_size", declared=declared, known=MM_PER_UNIT))

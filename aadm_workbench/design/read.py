@@ -9,6 +9,7 @@ from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.model_file import KERNEL, MESHES
 from aadm_workbench.design.recognise.columns import Rules
 from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Reason
 
 _IFC = (".ifc", ".ifczip")
 SUPPORTED = (".ifc", ".FCStd", *KERNEL, *MESHES, ".pcd", ".ifczip")
@@ -61,8 +62,5 @@ def read_model(
         from aadm_workbench.design.mesh import read_mesh
 
         return read_mesh(path, rules, units=units)
-    called = f"models of the format {suffix}" if suffix else "models without an extension"
-    raise DesignError(
-        f"{path}: {called} are not supported. Supported: {', '.join(SUPPORTED)}. Export the model as IFC, or describe "
-        "the column in the job, in [columns.design]."
-    )
+    called = Reason("design.of_format", suffix=suffix) if suffix else Reason("design.no_extension")
+    raise DesignError(Reason("design.unsupported", path=path, called=called, supported=SUPPORTED))

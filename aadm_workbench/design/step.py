@@ -16,6 +16,7 @@ from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.model_file import KERNEL, sha256_of
 from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
 from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Reason
 
 _HEAD_BYTES = 4096  # what the format begins and ends with stands in the first, and the last, of them
 
@@ -40,14 +41,14 @@ def _check(path: Path) -> None:
     content = path.read_bytes()
     if KERNEL[path.suffix.lower()] == "BREP":
         if b"CASCADE Topology" not in content[:_HEAD_BYTES]:
-            raise DesignError(f"{path} is no BREP file: it does not begin with 'CASCADE Topology'. Export it again.")
+            raise DesignError(Reason("design.no_brep", path=path))
         return
     if b"ISO-10303-21" not in content[:_HEAD_BYTES]:
-        raise DesignError(f"{path} is no STEP file: it does not begin with ISO-10303-21. Export it again.")
+        raise DesignError(Reason("design.no_step", path=path))
     if b"END-ISO-10303-21" not in content[-_HEAD_BYTES:]:
-        raise DesignError(f"{path} is cut short: it does not end with END-ISO-10303-21. Copy it again.")
+        raise DesignError(Reason("design.step_cut", path=path))
     if b"IFC" in content[:_HEAD_BYTES].split(b"FILE_SCHEMA", 1)[-1][:64]:
-        raise DesignError(f"{path} is an IFC model: name it .ifc.")
+        raise DesignError(Reason("design.is_ifc", path=path))
 
 
 def read_with_kernel(path: Path, check: Callable[[Path], None], rules: Rules, *, schema: str) -> ModelDesign:
@@ -75,6 +76,6 @@ def read_with_kernel(path: Path, check: Callable[[Path], None], rules: Rules, *,
         elements = from_json(answer["elements"])
         problems = tuple(dict.fromkeys(str(problem) for problem in answer["problems"]))
     except (LookupError, TypeError, ValueError) as error:
-        raise DesignError(f"{path}: what FreeCAD answered about it makes no sense ({error}).") from error
+        raise DesignError(Reason("design.kernel", path=path, why=error)) from error
     found = recognise(elements, Origin(str(path), sha256, schema, problems), rules)
     return replace(found, seconds=perf_counter() - began)

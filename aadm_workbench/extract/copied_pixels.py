@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from aadm_workbench.model import BoolArray, FloatArray, Scan
+from aadm_workbench.model import BoolArray, FloatArray, Reason, Scan
 
 _EVERY = 12  # rows, then columns: edges have thousands of pixels, and hundreds tell
 _STEP_MM, _FLAT_MM = 5.0, 2.0  # as cameras' software tells edges; neighbours on one surface that is seen well
@@ -18,7 +18,7 @@ _FEWEST = 60  # pairs; a share of fewer is known to worse than the least excess
 _LEAST_EXCESS = 0.1  # three pixels out of ten are copies where edges grow by a single pixel
 _SIGMAS = 6.0  # of a difference of two shares: none of ten million sound scans
 
-COPIED = "the camera copied depths over the edges of this scan: its surfaces are larger than what was measured"
+COPIED = Reason("extract.copied")
 """Reason of what is not measured: how far an edge was moved nobody knows."""
 
 

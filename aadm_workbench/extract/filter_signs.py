@@ -13,7 +13,7 @@ import numpy as np
 
 from aadm_workbench.extract.edges.edge_shift import BLURRED
 from aadm_workbench.extract.patches import Patches
-from aadm_workbench.model import Array, BoolArray, FloatArray
+from aadm_workbench.model import Array, BoolArray, FloatArray, Reason
 
 _FALL_MM = (1.0, 60.0)  # from pixel to pixel on a ramp
 _SOME = 8  # runs: noise is the same in all
@@ -28,8 +28,8 @@ _RAMPED, _RAMPED_UNLOST = 0.1, 0.03  # slips of the fringe order and flying pixe
 # with none lost a few ramps tell of a filter that path-traced scans, which lose some, never showed
 _UNLOST, _UNLOST_OF, _RAMPED_COMPLETE = 1e-4, 20_000, 0.005
 
-SMOOTHED = "the camera smoothed this scan: its surfaces run into each other at their edges"
-GAPS_FILLED = "the camera filled in what it did not measure: surfaces lie where nothing is"
+SMOOTHED = Reason("extract.smoothed")
+GAPS_FILLED = Reason("extract.gaps_filled")
 """Reasons of what is not measured: what a filter made of an edge nobody knows."""
 
 _KEPT = 0.9  # of second differences; strays and edges make the largest

@@ -11,7 +11,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Scan
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Scan, in_one
 
 Recipe: TypeAlias = Callable[..., Extraction]
 
@@ -144,7 +144,7 @@ def extract_sizes(
         return found[0]
     most = max(found, key=lambda one: len(one.points))
     if not most.points:
-        return replace(most, reason="; ".join(dict.fromkeys(one.reason for one in found)))
+        return replace(most, reason=in_one(one.reason for one in found))
     finds = [find for one, size in zip(found, sizes_mm, strict=True) for find in _finds(one, size)]
     kept = _one_for_each_place(finds)
     exposed = tuple(find[1] for find in kept) if any(one.exposed_length_mm for one in found) else ()

@@ -6,7 +6,10 @@ import numpy as np
 
 from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm, thinned
-from aadm_workbench.model import Array, Extraction, Kind, Scan
+from aadm_workbench.model import Array, Extraction, Kind, Reason, Scan
+
+NOT_FOUND = Reason("extract.not_found")
+"""Where nothing more can be said."""
 
 _SAMPLE = 250_000  # every third row and column of 1920 × 1200
 _FACE_BAND_MM = 3.0  # twice that of what is measured: a plug may stand a little before the face or behind it
@@ -21,7 +24,7 @@ def explain_missing(
     The extraction gives the plane that the other centres lie in; without it nothing can be said.
     """
     if extraction.plane is None:
-        return (extraction.reason or "not found in the scan",) * len(places)
+        return (extraction.reason or NOT_FOUND,) * len(places)
     sample = thinned(scan, _SAMPLE, rng)
     local = in_plane(sample.points, extraction.plane)
     expected = in_plane(np.atleast_2d(places), extraction.plane)[:, :2]
@@ -34,10 +37,10 @@ def _explain_sleeve(sample: Thinned, local: Array, place: Array, radius_mm: floa
     closed = _filled(sample, on_face, place, 0.0, 0.7 * radius_mm)
     around = _filled(sample, on_face, place, 1.2 * radius_mm, 1.8 * radius_mm)
     if around < 0.3:
-        return "outside of what the scan shows of the foot"
+        return Reason("extract.foot_out_of_view")
     if closed > 0.5:
-        return "no opening: the mouth is plugged or covered"
-    return "too little of the mouth's rim is seen to measure it"
+        return Reason("extract.plugged")
+    return Reason("extract.rim_unseen")
 
 
 def _explain_bar(sample: Thinned, local: Array, place: Array, radius_mm: float) -> str:
@@ -45,10 +48,10 @@ def _explain_bar(sample: Thinned, local: Array, place: Array, radius_mm: float) 
     near = local[distance < 4.0 * radius_mm]
     tops = (np.abs(near[:, 2]) < 4.0 * _BAR_HEIGHT_MM) & (np.hypot(*(near[:, :2] - place).T) < radius_mm)
     if len(near) == 0:
-        return "outside of what the scan shows"
+        return Reason("extract.out_of_view")
     if tops.sum() < 8:
-        return "no bar stands there, or it is hidden from the camera"
-    return "its top could not be measured: too little of its outline is seen"
+        return Reason("extract.no_bar")
+    return Reason("extract.top_unseen")
 
 
 def _filled(sample: Thinned, on_plane: Array, place: Array, inner_mm: float, outer_mm: float) -> float:

@@ -121,8 +121,8 @@ def patches_around(scan: Scan, sample: Thinned, plane: Plane, centres: Array, re
     if sample.taken is not None:
         low, high = _pixel_boxes(scan, sample, plane, centres, reach_mm)
         x, y, height = _windows(scan.points, low, high, plane, centres)
-        plane_of_pixel = _plane_of_pixel(scan, sample, plane)
-        seen = (None, None) if plane_of_pixel is None else _crossings(plane_of_pixel, low, high, centres)
+        homography = plane_of_pixel(scan, sample, plane)
+        seen = (None, None) if homography is None else _crossings(homography, low, high, centres)
         return Patches(x, y, height, eye, int((high - low)[:, 1].max()), *seen)
     return Patches(*_gathered(scan, plane, centres, reach_mm), eye, 0)
 
@@ -176,7 +176,7 @@ def _sampled_boxes(
     return _inside(low, high, scan)
 
 
-def _plane_of_pixel(scan: Scan, sample: Thinned, plane: Plane) -> Array | None:
+def plane_of_pixel(scan: Scan, sample: Thinned, plane: Plane) -> Array | None:
     """Homography (3, 3) from (column, row) to where a pixel's line of sight crosses the plane, mm in its axes.
 
     A pinhole's pixels map so exactly; with other lenses it is the best fit to what was returned, and None where that

@@ -28,7 +28,7 @@ from aadm_workbench.extract.pooled.system import Priors, State
 from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.extract.top_planes import TopPlanes, top_planes
 from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, Tops, tops_in, with_sides_that_lean
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Scan
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Reason, Scan
 
 _SAMPLE = 90_000  # every fifth row and column of 1920 × 1200
 _START_DEPTH_MM = 15.0  # of a side below its top: bars that lean as usual move by 0.08 mm there
@@ -98,7 +98,7 @@ def extract_rebars(
     if standing is not None and standing.floor is None:
         standing = _turned_to_the_bars(scan, sample, standing, sizes_mm, rng)
     if standing is None:
-        return _nothing(f"the scan shows no upright bar of {diameter_mm:g} mm")
+        return _nothing(Reason("extract.no_upright_bar", diameter_mm=diameter_mm))
     bars = _measured(scan, sample, standing, places, sizes_mm, _BAR_PRIORS, rng)
     for _ in range(_SIZES_TRIED):
         if isinstance(bars, str) or _is_of_size(bars, sizes_mm[0]):
@@ -150,7 +150,7 @@ def _measured(
     planes = top_planes(patches, radius_mm, rng)
     tops = tops_in(patches, centres, radius_mm, rng, tuple(others_mm), beside, planes)
     if len(tops.place) == 0:
-        return f"no bar of {sizes_mm[0]:g} mm has a top that could be measured"
+        return Reason("extract.no_top", diameter_mm=sizes_mm[0])
     lines = _lines(patches, planes, tops)
     bend = _bend(lines, tops, radius_mm)
     pitch_mm = float(np.median(tops.pitch_mm))
@@ -219,7 +219,7 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
     right = np.abs(2 * fit.outline_radius / diameter_mm - 1.0) < _RADIUS_MISFIT
     points = tuple(bars.points[k] for k in np.flatnonzero(right & (agree > _SOUND_SHARE)).tolist())
     if not points:
-        return _nothing(f"what stands in the scan has no round top of {diameter_mm:g} mm")
+        return _nothing(Reason("extract.no_round_top", diameter_mm=diameter_mm))
     vertical, source = standing.vertical, "floor"
     if standing.floor is None:
         vertical, source = _mean_axis(points), "bar axes"
@@ -293,7 +293,7 @@ def _points(tops: Tops, fit: PooledFit, lean_prior: float, level: Plane) -> tupl
         tops.residual_mm,
         2 * fit.outline_radius,
         [
-            f"{edges} edge and {sides} side points"
+            Reason("extract.edges_and_sides", edges=edges, sides=sides)
             for edges, sides in zip(fit.edge_count.tolist(), fit.wall_count.tolist(), strict=True)
         ],
         lean_covariance,

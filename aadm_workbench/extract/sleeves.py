@@ -31,7 +31,7 @@ from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw, Rims, Wal
 from aadm_workbench.extract.pooled.fit import Evidence, PooledFit, fit_pooled, settled
 from aadm_workbench.extract.pooled.system import PUSH, WALL, Priors, State
 from aadm_workbench.extract.sample import Thinned, thinned
-from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, Kind, Plane, Scan
+from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, Kind, Plane, Reason, Scan
 
 _SAMPLE = 90_000  # every fifth row and column of 1920 × 1200
 # points of a bore: fewer do not tell on which side its wall shows; a choice: ±30 % moves centres by up to 0.3 u
@@ -93,13 +93,13 @@ def extract_sleeves(
     sample = thinned(scan, _SAMPLE, rng)
     found = face_with_holes(scan, sample, diameter_mm / 2, rng)
     if found is None:
-        return Extraction(Kind.SLEEVE, "refined", (), None, None, reason="no flat foot face was found in the scan")
+        return Extraction(Kind.SLEEVE, "refined", (), None, None, reason=Reason("extract.no_face"))
     layer, centres, pitch_mm = found
     face = layer.plane
     if places is not None and len(places):
         centres = with_places(centres, in_plane(places, face)[:, :2], diameter_mm / 2)
     if len(centres) == 0:
-        reason = f"the face shows no round hole of {diameter_mm:g} mm"
+        reason = Reason("extract.no_hole", diameter_mm=diameter_mm)
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
     if scan.viewpoint is None:
         face, centres = _facing_away_from_walls(face, centres, sample, diameter_mm / 2)
@@ -131,7 +131,7 @@ def _facing_away_from_walls(face: Plane, centres: Array, sample: Thinned, radius
 def _measured(mouths: Mouths, patches: Patches, layer: FootFace, diameter_mm: float, pitch_mm: float) -> Extraction:
     face = layer.plane
     if len(mouths.place) == 0:
-        reason = f"no hole of {diameter_mm:g} mm in the face could be measured"
+        reason = Reason("extract.no_measured_hole", diameter_mm=diameter_mm)
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
     own = patches.of(mouths.kept)
     lines = sight_lines_on_face(own) if layer.flat else None  # on what is no plane nobody knows where they end
@@ -144,7 +144,7 @@ def _measured(mouths: Mouths, patches: Patches, layer: FootFace, diameter_mm: fl
     sound = (np.abs(fit.radius / (diameter_mm / 2) - 1.0) < _RADIUS_MISFIT) & _are_round(mouths, fit, pitch_mm)
     points = tuple(point for point, kept in zip(_points(mouths, fit, face, pitch_mm), sound, strict=True) if kept)
     if not points:
-        reason = f"the openings in the face are no round mouths of {diameter_mm:g} mm"
+        reason = Reason("extract.no_round_mouth", diameter_mm=diameter_mm)
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
     quality = {
         "point_pitch_mm": pitch_mm,
@@ -282,7 +282,7 @@ def _points(mouths: Mouths, fit: PooledFit, face: Plane, pitch_mm: float) -> tup
         np.full(count, face.residual_mm),
         2 * fit.radius,
         [
-            f"{walls} wall and {edges} edge points at {pitch_mm:.2f} mm"
+            Reason("extract.walls_and_edges", walls=walls, edges=edges, pitch_mm=pitch_mm)
             for walls, edges in zip(fit.wall_count.tolist(), fit.edge_count.tolist(), strict=True)
         ],
         fit.lean_covariance + _BORE_LEAN_U**2 * np.eye(2),

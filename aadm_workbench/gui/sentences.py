@@ -12,6 +12,7 @@ from PySide import QtCore, QtGui
 
 from aadm_workbench.document.display.messages import complain
 from aadm_workbench.errors import AadmError, NoEnvironmentError
+from aadm_workbench.gui.language import in_language
 
 translate = FreeCAD.Qt.translate
 WINDOW_NAME = "AADM_Sentence"
@@ -54,7 +55,7 @@ def show_error(title: str, error: BaseException, *offers: tuple[str, Callable[[]
 def sentence_of(error: BaseException) -> str:
     """An error as people read it; where an unforeseen one came from goes to FreeCAD's log."""
     if isinstance(error, AadmError):
-        return str(error)
+        return in_language(error.reason)
     FreeCAD.Console.PrintLog("".join(traceback.format_exception(error)))
     if isinstance(error, MemoryError):
         return translate("AADM", "There is not enough memory for this scan: crop it to the component, or close others.")

@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from aadm_workbench.extract.plane import refined_plane
 from aadm_workbench.hoisting.frame import HoistingFrame, LocalAxes
-from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane
+from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane, Reason
 
 _SAMPLE_PIXELS = 90_000  # every fifth row and column of 1920 × 1200
 # sides of the column, floor and walls have more points than a foot that is seen along (a choice: ±30 % moves nothing
@@ -67,7 +67,7 @@ def find_foot(frame: HoistingFrame, diameter_mm: float, rng: np.random.Generator
     """Find the face with round openings of about ``diameter_mm``."""
     coarse, pixels, stride = _thinned(frame)
     if len(coarse) < _FEWEST:
-        return NoFace("the frame is empty: it holds too few points to show a column")
+        return NoFace(Reason("hoisting.empty"))
     left = np.ones(len(coarse), bool)
     best: FootFace | None = None
     for _ in range(_PLANES_MAX):
@@ -83,7 +83,7 @@ def find_foot(frame: HoistingFrame, diameter_mm: float, rng: np.random.Generator
         if left.sum() < _FEWEST or (best is not None and len(best.mouths) >= 5):
             break
     if best is None:
-        return NoFace(f"no foot of a column with sleeves of {diameter_mm:g} mm is seen in the frame")
+        return NoFace(Reason("hoisting.no_foot", diameter_mm=diameter_mm))
     return best
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.model import OPENGL_AXES, Array, BoolArray, FloatArray, Scan
+from aadm_workbench.model import OPENGL_AXES, Array, BoolArray, FloatArray, Reason, Scan
 
 _SAMPLE = 20_000  # points: enough for the two numbers of a lens along each side, and for quantiles
 # median: a pinhole's pixels are off by rounding alone; lenses that bend the picture more need intrinsics
@@ -119,7 +119,7 @@ def _rays_of(scan: Scan) -> HoistingFrame | NoFrame:
         return HoistingFrame(scan.points, (camera.fx, camera.fy, camera.cx, camera.cy), np.eye(4))
     sample, pixels = _sampled(scan.points)
     if len(sample) < _FEWEST_POINTS:
-        return NoFrame("the frame is empty: it holds too few points to show a column")
+        return NoFrame(Reason("hoisting.empty"))
     eye = np.zeros(3) if scan.viewpoint is None else np.asarray(scan.viewpoint, np.float64)
     if pixels is not None and not eye.any():
         lens = _lens_of(sample, pixels)
@@ -127,7 +127,7 @@ def _rays_of(scan: Scan) -> HoistingFrame | NoFrame:
             return HoistingFrame(scan.points, lens, np.eye(4))
     rotation = _facing_along(sample - eye)
     if rotation is None:
-        return NoFrame("the file does not tell where the camera stood: give [camera], or export it with its pose")
+        return NoFrame(Reason("hoisting.no_viewpoint"))
     return _laid_out(scan, eye, rotation)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from aadm_workbench.assembly.matching.pattern_search import PlanarPlacement, search_placements
 from aadm_workbench.assembly.pose.eopa import turn, wrap
-from aadm_workbench.model import Array, IntArray
+from aadm_workbench.model import Array, IntArray, Reason
 
 # half of a quarter turn, at which the next one begins, and a degree for what is measured
 _LARGEST_TURN = np.radians(46.0)
@@ -74,15 +74,15 @@ def match_hoisting(
         final turn. None where nobody said it: then a symmetric pattern leaves several answers.
     """
     if len(mouths) < _FEWEST:
-        return NoMatch(f"only {len(mouths)} sleeves of the foot are seen: too few to tell how it hangs")
+        return NoMatch(Reason("hoisting.few_sleeves", count=len(mouths)))
     if len(bars) < _FEWEST:
-        return NoMatch(f"only {len(bars)} bars are seen under the foot: too few to tell which is which")
+        return NoMatch(Reason("hoisting.few_bars", count=len(bars)))
     on_bars = _worth(search_placements(bars, rebar_places))
     on_foot = _worth(search_placements(mouths, sleeve_places))
     if not on_bars:
-        return NoMatch("the bars in the frame do not stand as the design says: are they those of another column?")
+        return NoMatch(Reason("hoisting.bars_unfit"))
     if not on_foot:
-        return NoMatch("the sleeves in the frame do not lie as the design says: is it another column?")
+        return NoMatch(Reason("hoisting.sleeves_unfit"))
     best = on_bars[0]
     alike = [found for found in on_bars if found.cost_mm < best.cost_mm + _SAME_COST_MM and _elsewhere(found, best)]
     chosen, orientation = best, "ambiguous" if alike else "resolved"
@@ -94,7 +94,7 @@ def match_hoisting(
         orientation = "declared" if alike else "resolved"
     turned = [found for found in on_foot if abs(wrap(chosen.yaw - found.yaw)) < _LARGEST_TURN]
     if not turned:
-        return NoMatch("the column hangs turned by more than 45 degrees against its bars: turn it first")
+        return NoMatch(Reason("hoisting.turned_far"))
     cheapest = turned[0].cost_mm
     close = [found for found in turned if found.cost_mm < cheapest + _SAME_COST_MM]
     foot = min(close, key=lambda found: abs(wrap(chosen.yaw - found.yaw)))
@@ -134,10 +134,7 @@ def _from_corner(found: PlanarPlacement, eye: Array, places: Array) -> float:
 
 def _contradiction(near: tuple[int, int], seen: tuple[int, int]) -> str:
     said, found = corner_name(near), corner_name(seen)
-    return (
-        f'near = "{said}" contradicts the bars in the frame: their pattern puts corner "{found}" next to the camera; '
-        "correct near in the job, or see whether these are the bars of another column"
-    )
+    return Reason("hoisting.near_contradicted", said=said, found=found)
 
 
 def _laid(found: PlanarPlacement) -> Laid:

@@ -33,6 +33,7 @@ from aadm_workbench.model import (
     HoistingMeasurement,
     Kind,
     Profile,
+    Reason,
     Scan,
 )
 from aadm_workbench.scan.plausible import check_plausible, extent_mm
@@ -89,12 +90,12 @@ def measure_hoisting(
     """
     settings = settings or HoistingSettings()
     if len(design.rebars) != len(design.sleeves) or not design.sleeves:
-        return unmeasured(scan, design, METHOD, "the design has not one bar for every sleeve")
+        return unmeasured(scan, design, METHOD, Reason("hoisting.unpaired"))
     try:
         if check_plausible(_thinned(scan), extent_mm(design.sleeves)).declared_scale != scan.declared_scale:
             scan = check_plausible(scan, extent_mm(design.sleeves))
     except ScanError as error:
-        return unmeasured(scan, design, METHOD, str(error))
+        return unmeasured(scan, design, METHOD, error.reason)
     frame = frame_of(scan)
     if isinstance(frame, NoFrame):
         return unmeasured(scan, design, METHOD, frame.reason)
@@ -127,7 +128,7 @@ def _measured(
     reach_mm = 1.5 * float(np.hypot(*np.ptp(rebar_places, axis=0))) + 200.0
     bars = find_bars(frame, face, bar_mm, reach_mm)
     if not len(bars.centres):
-        reason = f"no bar of {bar_mm:g} mm is seen under the foot"
+        reason = Reason("hoisting.no_bar", bar_mm=bar_mm)
         return unmeasured(scan, design, METHOD, reason)
     matched = match_hoisting(face.mouths, bars.centres, face.eye[:2], sleeve_places, rebar_places, near)
     if isinstance(matched, NoMatch):
@@ -148,9 +149,9 @@ def _measured(
     before = *measured_labels(sleeves_before, design.sleeves), *measured_labels(rebars_before, design.rebars)
     hung = replace(hung, before=before)
     half = why_half(frame, face, foot)
-    reason = why_not_foot(face, foot, sleeve_mm) or why_not_bars(frame, hung, bars, matched, bar_mm)
-    if reason:
-        return unmeasured(scan, design, METHOD, half or reason)
+    unlike = why_not_foot(face, foot, sleeve_mm) or why_not_bars(frame, hung, bars, matched, bar_mm)
+    if unlike:
+        return unmeasured(scan, design, METHOD, half or unlike)
     measured = report_pairs(scan, frame, design, hung, matched.orientation, settings.profile, settings.decision, half)
     report = with_scans_named(measured.report, (*moved, *bent), before)
     report = replace(report, near=None if near is None else corner_name(near))

@@ -113,7 +113,7 @@ def _from_rest(
     still = None if limit_mm is None else swing.amplitude_mm + largest_mm + _SURE_SIGMAS * u_mm <= limit_mm
     # a correction that is no surer than half of what it has to keep may as well push away
     unsure = limit_mm is not None and _SURE_SIGMAS * u_mm > limit_mm / 2.0
-    rest = None if unsure else _moved(correction, swing.rest, math.degrees(yaw))
+    rest = None if unsure else moved_correction(correction, swing.rest, math.degrees(yaw))
     return Motion(swing, unsure, still, rest, largest_mm)
 
 
@@ -148,7 +148,7 @@ def _reach_mm(places: Array) -> float:
     return float(np.hypot(*places.T).max())
 
 
-def _moved(correction: Correction, displacement: Array, yaw_deg: float) -> Correction:
+def moved_correction(correction: Correction, displacement: Array | tuple[float, float], yaw_deg: float) -> Correction:
     """The correction of a column that stands displaced against where it was measured."""
     dx, dy = correction.dx_mm - displacement[0], correction.dy_mm - displacement[1]
     camera = correction.camera

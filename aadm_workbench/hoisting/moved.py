@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.assembly.pose.eopa import robust_offsets
-from aadm_workbench.model import Array, AssemblyPoint, BoolArray, HoistingReport, MovedSince, Verdict
+from aadm_workbench.model import Array, AssemblyPoint, BoolArray, HoistingReport, MovedSince, Reason, Verdict
 
 _CHI2 = 18.42  # of two axes at one in ten thousand: a frame of twelve bars accuses wrongly once in a thousand
 _LEAST_MM = 0.3  # a tenth of the limit of 3 mm; less is of no account, and cameras warp by as much as a third of it
@@ -71,13 +71,18 @@ def with_scans_named(report: HoistingReport, moved: Sequence[MovedSince], before
     resting = tuple(label for label in hidden if label in before)
     reasons = report.reasons
     if resting and report.verdict is Verdict.PASS:
-        reasons = (*reasons, f"{', '.join(resting)} not seen: where it was measured before hoisting")
+        reasons = (*reasons, Reason("hoisting.not_seen", labels=resting))
     if moved:
-        said = ", ".join(f"{one.label} moved {one.moved_mm:.1f} mm" for one in moved)
         open_now = [label for label in hidden if label not in before]
-        look = f"; look at {', '.join(open_now)}, which the frame does not show" if open_now else ""
-        reasons = (*reasons, f"{said} since the scan from before hoisting{look}")
+        reasons = (*reasons, moved_in_words([(one.label, one.moved_mm) for one in moved], open_now))
     return replace(report, reasons=reasons, moved_since=tuple(moved), rests_on_scans=resting)
+
+
+def moved_in_words(moved: Sequence[tuple[str, float]], unseen: Sequence[str]) -> Reason:
+    """Labels that moved, by how much, mm, and those that nobody sees: they may have moved too."""
+    points = [Reason("hoisting.moved", label=label, moved_mm=moved_mm) for label, moved_mm in moved]
+    code = "hoisting.moved_since.look" if unseen else "hoisting.moved_since"
+    return Reason(code, points=points, labels=unseen)
 
 
 def _hidden(report: HoistingReport) -> list[str]:

@@ -10,7 +10,7 @@ import numpy as np
 from aadm_workbench.assembly.decision import DecisionRule, decide_radial, standard_uncertainty
 from aadm_workbench.assembly.pose.eopa import NoFit, turn
 from aadm_workbench.assembly.pose.minimax import fit_minimax
-from aadm_workbench.assembly.tolerances import describe_clause, rules_for
+from aadm_workbench.assembly.tolerances import describe_limit, rules_for
 from aadm_workbench.hoisting.bar_fit import BarFit
 from aadm_workbench.hoisting.face import FootFace
 from aadm_workbench.hoisting.foot import FootFit
@@ -26,6 +26,7 @@ from aadm_workbench.model import (
     HoistingPair,
     HoistingReport,
     Profile,
+    Reason,
     Rule,
     Scan,
     Vector2,
@@ -234,15 +235,22 @@ def _reasons(pairs: Sequence[HoistingPair], rule: Rule | None, reason: str) -> t
         return (reason,)
     if rule is None:
         return ()
-    clause = f"limit {rule.upper:g} mm ({describe_clause(rule)})"
+    clause = describe_limit(rule)
     inferred = [pair for pair in pairs if would_pass(pair)]
     beyond = [
-        f"{pair.sleeve} is {pair.distance_mm:.2f} mm from {pair.rebar}, {clause}"
+        Reason("hoisting.far", sleeve=pair.sleeve, distance_mm=pair.distance_mm, rebar=pair.rebar, clause=clause)
         for pair in pairs
         if pair.verdict is Verdict.FAIL
     ]
     unsure = [
-        f"{pair.sleeve}-{pair.rebar}: {pair.distance_mm:.2f} mm, u = {pair.u_mm:.2f} mm, is too close to the {clause}"
+        Reason(
+            "hoisting.close",
+            sleeve=pair.sleeve,
+            rebar=pair.rebar,
+            distance_mm=pair.distance_mm,
+            u_mm=pair.u_mm,
+            clause=clause,
+        )
         for pair in pairs
         if pair.verdict is Verdict.INCONCLUSIVE and pair not in inferred
     ]

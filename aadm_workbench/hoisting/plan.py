@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.hoisting.unseen import hidden_shares
-from aadm_workbench.model import Array, BoolArray, Camera, ColumnDesign
+from aadm_workbench.model import Array, BoolArray, Camera, ColumnDesign, Reason
 
 AIMED_AT_GAP_SHARE = 0.45
 """Of the gap under the foot, at which the camera is aimed, as in the scenes that the figures come from."""
@@ -25,7 +25,7 @@ _HIDDEN_SHARE = 0.55  # of a bar's width behind nearer bars: the rest is too nar
 # what frames of the virtual camera came to when it was made; the last as in hoisting_pairs.py
 _FLOOR_MM, _OF_PITCH, _NORMAL_U = 0.075, 0.022, 1.5e-4
 _SHOWN_SHARE, _FEWEST_LAID = 2 / 3, 4  # a frame that shows less is not measured as a whole; three points test nothing
-_OTHERWISE = "take a larger u, or a longer lens; with scans from before hoisting, plan with --before"
+_OTHERWISE = Reason("hoisting.plan_otherwise")
 # from the first bar: nearer no camera measures, farther none is sharp; in steps that a person can set
 _DISTANCES_MM = (400.0, 3001.0, 50.0)
 _BELOW_MM = (40.0, 60.0, 90.0, 120.0)  # below the tops: the reference scene's 60, and places about it
@@ -122,9 +122,9 @@ def _with_before(views: list[View], wanted: tuple[str, ...], wanted_u_mm: float)
     known = tuple(view for view in views if view.u_of_all_mm is not None)
     best = min(known, key=lambda view: view.u_of_all_mm or 0.0, default=None)
     if best is None:
-        return CameraPlan((), (), None, "no place shows two thirds of the foot: take a shorter lens"), known
+        return CameraPlan((), (), None, Reason("hoisting.plan_short_lens")), known
     if (best.u_of_all_mm or 0.0) > wanted_u_mm:
-        reason = f"no place gives u = {wanted_u_mm:g} mm: take a larger u, or scan more surely before hoisting"
+        reason = Reason("hoisting.plan_known", wanted_u_mm=wanted_u_mm)
         return CameraPlan((best,), wanted, best.u_of_all_mm, reason), known
     return CameraPlan((best,), wanted, best.u_of_all_mm), known
 
@@ -145,10 +145,10 @@ def _two_views(
                 if best is None or (len(seen), -u_mm) > (len(best.seen), -(best.u_mm or 0.0)):
                     best = CameraPlan((first, second), seen, u_mm)
     if best is None:
-        return CameraPlan((), (), None, f"no place gives u = {wanted_u_mm:g} mm: {_OTHERWISE}")
+        return CameraPlan((), (), None, Reason("hoisting.plan_none", wanted_u_mm=wanted_u_mm, otherwise=_OTHERWISE))
     lacking = [label for label in wanted if label not in best.seen]
     if lacking:
-        reason = f"two frames do not see {', '.join(lacking)} at u = {wanted_u_mm:g} mm"
+        reason = Reason("hoisting.plan_two", lacking=lacking, wanted_u_mm=wanted_u_mm)
         return CameraPlan(best.views, best.seen, best.u_mm, reason)
     return best
 

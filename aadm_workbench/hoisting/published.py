@@ -15,6 +15,7 @@ from aadm_workbench.model import (
     HoistingPair,
     HoistingReport,
     Profile,
+    Reason,
     Scan,
     Verdict,
     worst,
@@ -57,7 +58,7 @@ def measure_published(
         verdict = Verdict.NOT_ASSESSED
         if distance is not None and limit_mm is not None:
             verdict = decide_radial(np.array([distance, 0.0]), None, limit_mm, "simple").verdict
-        reason = "" if distance is not None else "the method measures three key pairs only"
+        reason = "" if distance is not None else Reason("hoisting.three_pairs")
         pairs.append(
             HoistingPair(
                 sleeve.label,

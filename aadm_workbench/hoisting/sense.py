@@ -13,7 +13,7 @@ from aadm_workbench.hoisting.match import Matched
 from aadm_workbench.hoisting.pairs import HungFit
 from aadm_workbench.hoisting.pattern_fit import placed
 from aadm_workbench.hoisting.unseen import hidden_shares
-from aadm_workbench.model import Array, BoolArray
+from aadm_workbench.model import Array, BoolArray, Reason
 
 _FEWEST_SEEN = 3  # a pose has three unknowns, and two points leave nothing to check it by
 _SLEEVE_MISFIT, _BAR_MISFIT = 0.08, 0.15  # relative, as in sleeves.py and rebars.py
@@ -32,10 +32,7 @@ def why_half(frame: HoistingFrame, face: FootFace, foot: FootFit) -> str:
     shown = int((in_picture & foot.shown).sum())
     if shown >= (1.0 - _OUT_OF_PICTURE_SHARE) * count:
         return ""
-    return (
-        f"only {shown} of {count} sleeves are in what the frame shows: aim at the whole foot, move the camera back, or "
-        "measure the column in two frames"
-    )
+    return Reason("hoisting.half", shown=shown, count=count)
 
 
 def why_not_foot(face: FootFace, foot: FootFit, diameter_mm: float) -> str:
@@ -43,17 +40,11 @@ def why_not_foot(face: FootFace, foot: FootFit, diameter_mm: float) -> str:
     apart = np.hypot(*(face.mouths[:, None] - foot.centres[None]).transpose(2, 0, 1)).min(axis=1)
     stray = int((apart > max(_RESIDUAL_MM, 0.6 * foot.radius_mm)).sum())
     if stray > max(1.0, _STRAY_SHARE * len(face.mouths)):
-        return f"{stray} openings of the foot lie where the design has no sleeve: is it another column?"
+        return Reason("hoisting.stray", stray=stray)
     if foot.seen.sum() < _FEWEST_SEEN:
-        return (
-            f"only {int(foot.seen.sum())} sleeves can be measured: their mouths are covered, hidden, too far away or "
-            "seen too flat"
-        )
+        return Reason("hoisting.few_measured", seen=int(foot.seen.sum()))
     if abs(2.0 * foot.radius_mm / diameter_mm - 1.0) > _SLEEVE_MISFIT:
-        return (
-            f"openings of {2.0 * foot.radius_mm:.1f} mm are seen in the foot, the design's sleeves have "
-            f"{diameter_mm:g} mm: is it another column?"
-        )
+        return Reason("hoisting.other_sleeves", measured_mm=2.0 * foot.radius_mm, diameter_mm=diameter_mm)
     return ""
 
 
@@ -61,21 +52,15 @@ def why_not_bars(frame: HoistingFrame, hung: HungFit, found: SeenBars, matched: 
     """What speaks against the bars; empty where nothing does."""
     bars = hung.bars
     if bars.seen.sum() < _FEWEST_SEEN:
-        return f"only {int(bars.seen.sum())} bars under the foot can be measured"
+        return Reason("hoisting.few_bars_measured", seen=int(bars.seen.sum()))
     if abs(2.0 * bars.radius_mm / diameter_mm - 1.0) > _BAR_MISFIT:
-        return (
-            f"the bars in the frame are {2.0 * bars.radius_mm:.1f} mm thick, the design's {diameter_mm:g} mm: are they "
-            "those of another column?"
-        )
+        return Reason("hoisting.other_bars", measured_mm=2.0 * bars.radius_mm, diameter_mm=diameter_mm)
     unexpected = _unexpected(hung, found, matched)
     if unexpected > _UNEXPECTED_MAX:
-        return f"{unexpected} bars stand where the design has none: are they those of another column?"
+        return Reason("hoisting.unexpected_bars", unexpected=unexpected)
     absent, expected = _absent(frame, hung)
     if absent > max(1.0, _ABSENT_SHARE * expected):
-        return (
-            f"{absent} of {expected} bars that should be in view are not where the design has them: are they those of "
-            "another column?"
-        )
+        return Reason("hoisting.absent_bars", absent=absent, expected=expected)
     return ""
 
 

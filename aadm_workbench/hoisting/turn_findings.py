@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from aadm_workbench.assembly.findings.finding import make_finding
 from aadm_workbench.hoisting.match import corner_name
-from aadm_workbench.model import Finding, HoistingReport, Verdict, worst
+from aadm_workbench.model import Finding, HoistingReport, Reason, Verdict, worst
 
 DOUBTFUL_DEG = 40.5
 """More than 40°, to the degree. At 45° a square ring is as near to its next turn as to this one."""
@@ -46,5 +46,5 @@ def held_while_ambiguous(report: HoistingReport) -> HoistingReport:
     if report.orientation != "ambiguous":
         return report
     verdict = Verdict.NOT_MEASURED if report.verdict is Verdict.NOT_MEASURED else Verdict.INCONCLUSIVE
-    said = "it is open which sleeve is which: say near, the corner of the bars nearest to the camera"
+    said = Reason("hoisting.which_sleeve")
     return replace(report, verdict=verdict, correction=None, reasons=(said, *report.reasons))

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from aadm_workbench.assembly.decision import PASS_PROBABILITY
-from aadm_workbench.model import Array, AssemblyPoint, HoistingPair, Verdict
+from aadm_workbench.model import Array, AssemblyPoint, HoistingPair, Reason, Verdict, in_one
 
 _RAYS = 41  # over the width of a bar: shares to 2.5 %
 
@@ -29,9 +29,9 @@ def unseen_in_words(unseen: Sequence[str], before: Sequence[str]) -> str:
     """Of a pair: which of its points were not seen, and where their places come from; empty where both were seen."""
     inferred = [label for label in unseen if label not in before]
     resting = [label for label in unseen if label in before]
-    said = [f"{' and '.join(inferred)} not seen: inferred from the others"] if inferred else []
-    said += [f"{' and '.join(resting)} not seen: where it was measured before hoisting"] if resting else []
-    return "; ".join(said)
+    said = [Reason("hoisting.inferred", labels=inferred)] if inferred else []
+    said += [Reason("hoisting.resting", labels=resting)] if resting else []
+    return in_one(said)
 
 
 def would_pass(pair: HoistingPair) -> bool:
@@ -43,7 +43,7 @@ def would_pass(pair: HoistingPair) -> bool:
 def look_again(pairs: Sequence[HoistingPair]) -> tuple[str, ...]:
     """A sentence on the pairs that only their own evidence could let pass, where there are any."""
     points = [point for pair in pairs for point in _hidden(pair)]
-    text = f"{', '.join(points)} not seen: what is only inferred does not pass, look from another corner"
+    text = Reason("hoisting.look_again", labels=points)
     return (text,) if points else ()
 
 

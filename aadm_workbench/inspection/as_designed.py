@@ -17,7 +17,7 @@ from aadm_workbench.design.model_units import MM_PER_UNIT, check_units
 from aadm_workbench.design.published import PublishedPoint, published_points, sampled_surfaces
 from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
 from aadm_workbench.errors import AadmError, DesignError, ScanError
-from aadm_workbench.model import Array, ColumnDesign
+from aadm_workbench.model import Array, ColumnDesign, Reason
 
 _SEED = 2026  # any: the same design gives the same points
 
@@ -75,10 +75,7 @@ def unforeseen_in(model: str) -> Iterator[None]:
         raise
     except Exception as error:
         said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-        raise DesignError(
-            f"{model} cannot be evaluated: something in it is not as its format wants it ({said}); export it again "
-            "(--debug shows where)"
-        ) from error
+        raise DesignError(Reason("run.not_evaluated", model=model, error=said)) from error
 
 
 def read_cloud(path: Path, rules: Rules | None = None, *, units: str = "mm") -> ModelDesign:
@@ -93,7 +90,7 @@ def read_cloud(path: Path, rules: Rules | None = None, *, units: str = "mm") -> 
 
     began = perf_counter()
     if units not in MM_PER_UNIT:
-        raise DesignError(f"the unit of models is {units!r}; it must be one of {', '.join(MM_PER_UNIT)}")
+        raise DesignError(Reason("design.units", units=repr(units), known=MM_PER_UNIT))
     sha256 = sha256_of(path)
     points = MM_PER_UNIT[units] * _points(path)
     origin = Origin(str(path), sha256, "PCD")
@@ -125,7 +122,7 @@ def published_route(design: ColumnDesign) -> list[PublishedPoint]:
             write_pcd(path, cloud.astype(np.float32), mode="binary")
             return published_points(design, _points(path))
     except OSError as error:
-        raise DesignError(f"the model's cloud cannot be written for the published route: {error}") from error
+        raise DesignError(Reason("design.cloud_unwritten", why=error)) from error
 
 
 def _points(path: Path) -> Array:
@@ -135,7 +132,7 @@ def _points(path: Path) -> Array:
     try:
         scan = read_scan(path, axes="camera")
     except ScanError as error:
-        raise DesignError(str(error)) from error
+        raise DesignError(error.reason) from error
     points = scan.points.reshape(-1, 3).astype(np.float64)
     finite: Array = points[np.isfinite(points).all(axis=1)]
     return finite

@@ -43,11 +43,13 @@ from aadm_workbench.model import (
     GroupReport,
     Kind,
     Profile,
+    Reason,
     RepairReport,
     Scan,
     TrialReport,
     Verdict,
 )
+from aadm_workbench.model.section import SectionReport
 
 if TYPE_CHECKING:
     from aadm_workbench.assembly.survey.control import ControlPose
@@ -127,15 +129,31 @@ def check_column(
     checks = _wanted(design, scans, settings)
     measured = measure_column(design, scans, settings, stage)
     trial, repair = None, None
-    if "trial" in checks:
-        with stage("assembly"):
+    with stage("assembly"):
+        if "trial" in checks:
             trial = _try(design, measured[Kind.SLEEVE], measured[Kind.REBAR], settings)
             trial, repair = _repair(design, measured[Kind.SLEEVE], measured[Kind.REBAR], trial, settings)
-    report = replace(_report(design, measured, trial, checks, settings.profile), repair=repair)
+        section = _section(design, scans, measured, settings)
+    report = replace(_report(design, measured, trial, checks, settings.profile), repair=repair, section=section)
     seen = {kind: Seen(_seen(design, kind, scans, measured[kind]), scans.of(kind)[0]) for kind in measured}
     rng = np.random.default_rng([settings.seed, 4])
     with stage("assembly"):
         return with_findings(report, design, seen, method=settings.method, rng=rng, others=scans.others, checks=checks)
+
+
+def _section(
+    design: ColumnDesign, scans: ColumnScans, measured: Mapping[Kind, Measured], settings: CheckSettings
+) -> SectionReport | None:
+    """The foot's own section, from the first of its scans."""
+    sleeves = measured.get(Kind.SLEEVE)
+    if sleeves is None or len(scans.sleeves) > 1 or settings.method != "refined":
+        return None
+    from aadm_workbench.inspection.section import section_of
+
+    rng = np.random.default_rng([settings.seed, 5])
+    return section_of(
+        design, scans.sleeves[0], sleeves.extraction, sleeves.match, settings.profile, settings.decision, rng
+    )
 
 
 def _seen(design: ColumnDesign, kind: Kind, scans: ColumnScans, measured: Measured) -> SeenGroup:
@@ -183,14 +201,15 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
         found = [_matched(points, *one, settings, rng) for one in zip(views, seen, ups, strict=True)]
         extraction, match = found[0]
         if control is not None and not match:
-            control = NoFit("the points in the first scan of the rebars, that of the control points, were not matched")
+            control = NoFit(Reason("survey.control_unmatched"))
         notes: tuple[str, ...] = ()
         if len(views) > 1:
             from aadm_workbench.assembly.matching.views import merge_views
 
             extraction, notes = merge_views([one for one, _ in found], [one for _, one in found])
             match = match_extraction(points, extraction, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
-            reasons = dict.fromkeys(missing_places(points, match), f"in none of the {len(views)} views")
+            unseen: str = Reason("assembly.in_no_view", views=len(views))
+            reasons = dict.fromkeys(missing_places(points, match), unseen)
         else:
             reasons = reasons_of_missing(scan, extraction, missing_places(points, match), diameter_mm, rng)
     scale_error = _scale_error(scan)

@@ -14,10 +14,11 @@ from aadm_workbench.errors import AadmError, DesignError
 from aadm_workbench.inspection.check import ColumnScans, check_column
 from aadm_workbench.inspection.stopwatch import Stopwatch
 from aadm_workbench.inspection.tasks import ColumnTask
-from aadm_workbench.model import ColumnDesign, ColumnReport, Kind, Scan, Verdict
+from aadm_workbench.model import ColumnDesign, ColumnReport, Kind, Reason, Scan, Verdict
+from aadm_workbench.model.reason import reason_of, renamed
 from aadm_workbench.scan.plausible import check_plausible, extent_mm
 
-_NO_MEMORY = "there is not enough memory for its scans: check fewer columns at a time, or raise --memory-limit"
+_NO_MEMORY = Reason("run.no_memory")
 _WITHOUT_MEMORY = ("Insufficient memory", "bad_alloc")  # as OpenCV and C++ say it
 
 
@@ -40,8 +41,12 @@ def inspect_column(task: ColumnTask) -> ColumnOutcome:
                 scans = read_scans(task, task.design)
             report = check_column(task.design, scans, task.settings, watch.stage)
             report = replace(report, id=task.column.id)
+            if task.column.set_pose is not None:
+                from aadm_workbench.assembly.trial.aim import with_aim
+
+                report = with_aim(report, task.column.set_pose)
         else:
-            report = _bare_report(task, Verdict.NOT_MEASURED, "the job names no scan of its sleeves or rebars")
+            report = _bare_report(task, Verdict.NOT_MEASURED, Reason("run.no_scan"))
         if task.column.hoisting:
             from aadm_workbench.inspection.hoisting import measure_frames
 
@@ -53,17 +58,17 @@ def inspect_column(task: ColumnTask) -> ColumnOutcome:
 @contextmanager
 def attempt(task: ColumnTask) -> Iterator[tuple[ColumnOutcome, Stopwatch]]:
     """Do some work on a column; whatever goes wrong becomes the outcome, a report with the verdict ``error``."""
-    outcome, watch = lost(task, "it was not checked"), Stopwatch()
+    outcome, watch = lost(task, Reason("run.not_checked")), Stopwatch()
     try:
         with watch.stage("total"):
             yield outcome, watch
     except MemoryError:
         outcome.report = lost(task, _NO_MEMORY).report
     except (AadmError, OSError) as error:
-        outcome.report = lost(task, _as_named(task, str(error) or type(error).__name__)).report
+        outcome.report = lost(task, _as_named(task, reason_of(error) or type(error).__name__)).report
     except Exception as error:  # noqa: BLE001 - a night's batch must not end at one column
         described = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-        reason = f"internal error ({_as_named(task, described)}); --debug shows where"
+        reason = Reason("run.internal", error=_as_named(task, described))
         if any(words in str(error) for words in _WITHOUT_MEMORY):
             reason = _NO_MEMORY
         outcome.report, outcome.where = lost(task, reason).report, traceback.format_exc()
@@ -118,7 +123,7 @@ def _group(
     if not names:
         return ()
     if not design.points(kind):
-        raise DesignError(f"the design has no {kind.plural}, but the job names a scan of them ({names[0]})")
+        raise DesignError(Reason("run.no_group", kind=kind.plural, names=names[0]))
     longest_mm = extent_mm(design.points(kind))
     images = (image, *[None] * len(names))
     read = (task.read(name, image=picture) for name, picture in zip(names, images, strict=False))
@@ -128,5 +133,5 @@ def _group(
 def _as_named(task: ColumnTask, message: str) -> str:
     """A message with files called as the job calls them: where a job lies must not show in its report."""
     for name in task.column.files():
-        message = message.replace(str(task.path_of(name)), name)
+        message = renamed(message, str(task.path_of(name)), name)
     return message

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.hoisting.aim import aimed
 from aadm_workbench.hoisting.contradiction import contradiction_of
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
 from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.inspection.stopwatch import Stopwatch
 from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.model import (
+    AimedPose,
     AssemblyPoint,
     ColumnDesign,
     ColumnReport,
@@ -24,6 +26,7 @@ from aadm_workbench.model import (
     Scan,
     Verdict,
 )
+from aadm_workbench.model.reason import renamed
 
 Points = tuple[AssemblyPoint | None, ...] | None
 
@@ -32,16 +35,20 @@ Points = tuple[AssemblyPoint | None, ...] | None
 class Before:
     """Where sleeves and bars were measured before hoisting, in the column frame, in the order of the design.
 
-    None where nothing was measured, or where it is open which is which.
+    None where nothing was measured, or where it is open which is which. ``target`` is where the crane is to set the
+    column.
     """
 
     sleeves: Points = None
     rebars: Points = None
+    target: AimedPose | None = None
 
     @classmethod
     def of(cls, report: ColumnReport) -> Before:
         """What the scans before hoisting have told of a column."""
-        return cls(_points(Kind.SLEEVE, report.sleeves), _points(Kind.REBAR, report.rebars))
+        trial = report.trial_assembly
+        target = None if trial is None else trial.target
+        return cls(_points(Kind.SLEEVE, report.sleeves), _points(Kind.REBAR, report.rebars), target)
 
 
 def measure_frames(
@@ -56,7 +63,7 @@ def measure_frames(
             with watch.stage("read"):
                 scan = task.read(name)
         except AadmError as error:
-            reason = str(error).replace(str(task.path_of(name)), name)
+            reason = renamed(error.reason, str(task.path_of(name)), name)
             measured.append(unread(name, reason, task.settings.method))
             continue
         with watch.stage("hoisting"):
@@ -67,7 +74,14 @@ def measure_frames(
 def measure_frame(
     task: ColumnTask, design: ColumnDesign, scan: Scan, near: tuple[int, int] | None, before: Before
 ) -> HoistingMeasurement:
-    """Measure one frame by the settings of its column's task."""
+    """Measure one frame by the settings of its column's task; its correction leads to where the column is to be set."""
+    measured = _measured(task, design, scan, near, before)
+    return replace(measured, report=aimed(measured.report, before.target))
+
+
+def _measured(
+    task: ColumnTask, design: ColumnDesign, scan: Scan, near: tuple[int, int] | None, before: Before
+) -> HoistingMeasurement:
     settings = task.settings
     if settings.method != "refined":
         from aadm_workbench.hoisting.published import measure_published

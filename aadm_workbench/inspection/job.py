@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Literal
 
-from aadm_workbench.model import Camera, ColumnDesign, ControlPoint, Profile
+from aadm_workbench.model import Camera, ColumnDesign, ControlPoint, Profile, StackSettings, Vector3
 
 _NO_FILES = ("id", "axes")
 
@@ -29,7 +29,7 @@ class JobColumn:
     ``..._up_deg``: column-frame direction at the top of the image, degrees from +x counter-clockwise from above.
     ``axes``: those of its clouds, None where they are to be found out. ``near``: signs of x and y of the corner of the
     bars nearest to the hoisting camera, ``hoisting_near`` the same for each of ``hoisting``. ``control_points`` are
-    measured in the scan of the rebars.
+    measured in the scan of the rebars. ``set_pose``: dx, dy mm and yaw degrees at which the crane is to set it.
     """
 
     id: str
@@ -45,6 +45,7 @@ class JobColumn:
     near: tuple[int, int] | None = None
     design: ColumnDesign | None = None
     control_points: tuple[ControlPoint, ...] = ()
+    set_pose: Vector3 | None = None
 
     def files(self) -> tuple[str, ...]:
         """The files that the column is checked from, as it names them: every other text of it is one."""
@@ -79,4 +80,5 @@ class Job:
     depth_scale_mm: float | None
     columns: tuple[JobColumn, ...]
     capture: dict[str, str] = field(default_factory=dict)
+    stack: StackSettings = field(default_factory=StackSettings)
     lines: dict[str, int] = field(default_factory=dict)

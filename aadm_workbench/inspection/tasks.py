@@ -18,7 +18,18 @@ from aadm_workbench.assembly.findings.finding import with_same_scans
 from aadm_workbench.errors import DesignError, JobError, did_you_mean
 from aadm_workbench.inspection.check import CheckSettings
 from aadm_workbench.inspection.job import Job, JobColumn
-from aadm_workbench.model import Array, Camera, ColumnDesign, ColumnReport, JobReport, Kind, MouldDrift, Profile, Scan
+from aadm_workbench.model import (
+    Array,
+    Camera,
+    ColumnDesign,
+    ColumnReport,
+    JobReport,
+    Kind,
+    MouldDrift,
+    Profile,
+    Scan,
+    StackSettings,
+)
 from aadm_workbench.scan.read import read_scan
 
 if TYPE_CHECKING:
@@ -104,7 +115,7 @@ def plan_job(job: Job, *, only: Sequence[str] = (), method: str = "refined") -> 
         # It costs only the columns that are looked up in it.
         if not any(column.design is not None for column in columns):
             raise
-        unreadable = str(error)
+        unreadable = error.reason
     if model is not None:
         _check_named_once(job, model)
     settings = CheckSettings(job.profile, method, job.decision, job.checks, job.turns)
@@ -172,7 +183,7 @@ def _designed(model: ModelDesign, column: JobColumn) -> ColumnDesign | str:
     try:
         return model.column(column.id)
     except DesignError as error:
-        return str(error)
+        return error.reason
 
 
 def _task(
@@ -250,6 +261,7 @@ def job_entry(plan: JobPlan) -> dict[str, str]:
         "method": settings.method,
         "decision": settings.decision,
         "seed": str(settings.seed),
+        **({} if plan.job.stack == StackSettings() else {"stack": plan.job.stack.text}),
     }
 
 

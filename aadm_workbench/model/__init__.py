@@ -52,6 +52,11 @@ from aadm_workbench.model.measured import (
     Vector2,
     Vector3,
 )
+from aadm_workbench.model.reason import (
+    Reason,
+    codes_of,
+    in_one,
+)
 from aadm_workbench.model.repairs import (
     RepairAction,
     RepairReport,
@@ -62,6 +67,7 @@ from aadm_workbench.model.reports import (
     JobReport,
 )
 from aadm_workbench.model.results import (
+    AimedPose,
     BestPair,
     BestPose,
     Candidate,
@@ -89,6 +95,9 @@ from aadm_workbench.model.shipment import (
     ShipmentProblem,
     ShipmentReport,
 )
+from aadm_workbench.model.stack import (
+    StackSettings,
+)
 from aadm_workbench.model.verdicts import (
     SUMMED,
     WORST_FIRST,
@@ -105,6 +114,7 @@ __all__ = [
     "WORST_FIRST",
     "AbsolutePoint",
     "AbsolutePosition",
+    "AimedPose",
     "Array",
     "AssemblyPoint",
     "Assignment",
@@ -144,6 +154,7 @@ __all__ = [
     "PointResult",
     "PoseWindow",
     "Profile",
+    "Reason",
     "RepairAction",
     "RepairReport",
     "RepairStep",
@@ -155,11 +166,14 @@ __all__ = [
     "ShipmentReport",
     "SleeveDrift",
     "SpacingResult",
+    "StackSettings",
     "TrialPose",
     "TrialReport",
     "TurnResult",
     "Vector2",
     "Vector3",
     "Verdict",
+    "codes_of",
+    "in_one",
     "worst",
 ]

@@ -85,7 +85,8 @@ class ColumnDesign:
     ``rebars[k]`` belongs into ``sleeves[k]``. ``T_model_column`` (4, 4) places the column frame in the
     model; None for a design without a model. ``names`` holds every name that a job may call it by
     (Name, Tag, PieceMark, GlobalId). ``exposed_length_mm`` is how far the rebars stick out of the floor. ``shared_ids``
-    are the labels of points, and "column", whose GlobalId another element of the model has too.
+    are the labels of points, and "column", whose GlobalId another element of the model has too. ``section_middle_mm``
+    is the middle of a rectangular section of ``size_mm``; None where the design does not say.
     """
 
     id: str
@@ -103,6 +104,7 @@ class ColumnDesign:
     exposed_length_mm: float | None = None
     warnings: tuple[str, ...] = ()
     shared_ids: tuple[str, ...] = ()
+    section_middle_mm: tuple[float, float] | None = None
 
     def points(self, kind: Kind) -> tuple[AssemblyPoint, ...]:
         """The points of one kind, in the order of their labels."""

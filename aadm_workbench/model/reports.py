@@ -11,6 +11,7 @@ from aadm_workbench.model.measured import Array
 from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, PairResult, PointResult, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile
+from aadm_workbench.model.section import SectionReport
 from aadm_workbench.model.verdicts import SUMMED, Kind, Verdict
 
 LONGEST_ID = 1024
@@ -21,7 +22,8 @@ LONGEST_ID = 1024
 class ColumnReport:
     """Everything that report.json holds about one column; ``repair`` where its trial did not pass.
 
-    ``findings`` are what contradicts the design, what was declared, or the camera.
+    ``findings`` are what contradicts the design, what was declared, or the camera. ``section`` is that of the foot;
+    None where the design does not say where its section lies, or nothing says which edge is which.
     """
 
     id: str
@@ -42,6 +44,7 @@ class ColumnReport:
     notes: tuple[str, ...] = ()
     repair: RepairReport | None = None
     findings: tuple[Finding, ...] = ()
+    section: SectionReport | None = None
 
     def group(self, kind: Kind) -> GroupReport | None:
         """Its sleeves or its rebars."""

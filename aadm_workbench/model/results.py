@@ -215,6 +215,30 @@ class PoseWindow:
 
 
 @dataclass(frozen=True, slots=True)
+class AimedPose:
+    """Where in its play the column is to be set: what the job ``asked`` for, as far as every limit is kept.
+
+    Parameters
+    ----------
+    dx_mm, dy_mm, yaw_deg
+        From where its bars have it by design: turned by yaw about the origin of the column frame, then moved.
+    asked
+        The same as the job has it.
+    max_mm
+        Largest distance of a bar from its sleeve there.
+    from_minimax
+        dx, dy mm and yaw degrees from the pose with the smallest largest distance, in the bars' frame.
+    """
+
+    dx_mm: float
+    dy_mm: float
+    yaw_deg: float
+    asked: Vector3
+    max_mm: float
+    from_minimax: Vector3
+
+
+@dataclass(frozen=True, slots=True)
 class TurnResult:
     """The trial in one of the column's symmetric turns."""
 
@@ -231,7 +255,8 @@ class TrialReport:
     ``best`` is the pose that leaves most of both, and ``margin`` what it leaves (negative: no pose meets them all);
     ``probability`` that a pose exists, ``window`` the room about the best pose where there is any. ``collisions`` are
     the sleeves whose bars have no room at the best pose, ``in_the_way`` the bars, or sleeves, that would have to be
-    put right, ``rescan`` the points whose uncertainty leaves the verdict open.
+    put right, ``rescan`` the points whose uncertainty leaves the verdict open. ``target`` is where in the play
+    the job asks the column to be set.
     """
 
     verdict: Verdict
@@ -251,6 +276,7 @@ class TrialReport:
     best: BestPose | None = None
     in_the_way: tuple[str, ...] = ()
     rescan: tuple[str, ...] = ()
+    target: AimedPose | None = None
 
     @property
     def shown(self) -> TrialPose | None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aadm_workbench.model import ColumnReport, JobReport
+from aadm_workbench.model import ColumnReport, JobReport, codes_of
 from aadm_workbench.report.hoist import Hoist, hoist_of, worst_first
 from aadm_workbench.report.words.labels import Phrase
-from aadm_workbench.report.words.reasons import in_both_languages
+from aadm_workbench.report.words.reasons import in_both_languages, recognised
 
 _SHOWN = 2  # reasons: a person reads two, the table has all
 
@@ -36,9 +36,10 @@ def findings(report: JobReport) -> list[Finding]:
 def _decisive(column: ColumnReport) -> list[str]:
     """The column's reasons; those of the trial first where it is the trial that fails."""
     reasons = list(column.reasons)
+    codes = [codes_of(recognised(reason)) for reason in reasons]
     # "not measured: S7" of the trial says less than "S7 not measured: the mouth is plugged" of the foot.
-    if any(" not measured: " in reason for reason in reasons):
-        reasons = [reason for reason in reasons if not reason.startswith("not measured: ")]
+    if any("assembly.not_measured" in one for one in codes):
+        reasons = [reason for reason, one in zip(reasons, codes, strict=True) if one != {"assembly.missing"}]
     if column.goes_on == "fail" and column.trial_assembly is not None:
         of_trial = set(column.trial_assembly.reasons)
         reasons.sort(key=lambda reason: reason not in of_trial)

@@ -12,6 +12,9 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
+from aadm_workbench.hoisting.moved import moved_in_words
+from aadm_workbench.model import Reason
+
 VALID_FOR_S = 15.0
 """How long a frame counts, from its capture: two to four swings of a hanging column; its crane has acted by then."""
 
@@ -43,7 +46,7 @@ def fitness_of(state: Mapping[str, Any], now_s: float | None) -> Fitness:
         Seconds since 1970, UTC; None for what was recorded: it is never ready, and may be looked at at any time.
     """
     stale = "" if now_s is None else _not_fresh(state, now_s)
-    recorded = "recorded, not live" if now_s is None else ""
+    recorded = Reason("hoisting.recorded") if now_s is None else ""
     unmeasured, open_turn, contradicted = _not_measured(state), _not_oriented(state), _contradicted(state)
     rest: Sequence[Callable[[Mapping[str, Any]], str]] = (
         _not_still,
@@ -115,13 +118,13 @@ def _first_reason(state: Mapping[str, Any]) -> str:
 def _not_fresh(state: Mapping[str, Any], now_s: float) -> str:
     captured = seconds_of(state.get("captured"))
     if captured is None:
-        return "when the frame was captured is not known: take a new one"
+        return Reason("hoisting.no_time")
     age_s = now_s - captured
     if age_s < -_AHEAD_S:
-        return f"the frame's time lies {-age_s:.0f} s ahead: set the clocks alike"
+        return Reason("hoisting.ahead", ahead_s=-age_s)
     valid_s = number(state.get("valid_for_s"))
     if age_s > (VALID_FOR_S if valid_s is None else valid_s):
-        return f"captured {age_s:.0f} s ago: take a new frame"
+        return Reason("hoisting.stale", age_s=age_s)
     return ""
 
 
@@ -129,13 +132,13 @@ def _not_measured(state: Mapping[str, Any]) -> str:
     frame = _frame(state)
     if frame.get("verdict") in ("pass", "fail", "inconclusive", "not_assessed") and frame.get("max_mm") is not None:
         return ""
-    return _first_reason(state) or "not measured"
+    return _first_reason(state) or Reason("hoisting.not_measured")
 
 
 def _not_oriented(state: Mapping[str, Any]) -> str:
     if _frame(state).get("orientation") in ("declared", "resolved"):
         return ""
-    return "it is open which sleeve is which: say near, the corner of the bars nearest to the camera"
+    return Reason("hoisting.which_sleeve")
 
 
 def _contradicted(state: Mapping[str, Any]) -> str:
@@ -148,18 +151,16 @@ def _not_still(state: Mapping[str, Any]) -> str:
     swing, largest_mm, limit_mm = state.get("swing"), largest_of(state), number(state.get("limit_mm"))
     if not isinstance(swing, Mapping):
         if state.get("moving"):
-            return "moving: wait for three frames that tell where it comes to rest"
-        return "seen in fewer than three frames: whether it moves is not known"
+            return Reason("hoisting.moving")
+        return Reason("hoisting.few_frames")
     if limit_mm is None:
-        return "no limit is given"
+        return Reason("hoisting.no_limit")
     if largest_mm is not None and largest_mm > limit_mm:
-        return f"largest distance {largest_mm:.1f} mm, limit {limit_mm:g} mm"
+        return Reason("hoisting.largest", largest_mm=largest_mm, limit_mm=limit_mm)
     amplitude_mm = number(swing.get("amplitude_mm"))
     if amplitude_mm is None or largest_mm is None or move_of(state) is None:
-        return "moving: wait for three frames that tell where it comes to rest"
-    return (
-        f"swings by {amplitude_mm:.1f} mm, {largest_mm:.1f} mm off at rest, limit {limit_mm:g} mm: let it come to rest"
-    )
+        return Reason("hoisting.moving")
+    return Reason("hoisting.swings", amplitude_mm=amplitude_mm, largest_mm=largest_mm, limit_mm=limit_mm)
 
 
 def _not_seen(state: Mapping[str, Any]) -> str:
@@ -170,12 +171,12 @@ def _not_seen(state: Mapping[str, Any]) -> str:
     resting = set(frame.get("rests_on_scans") or ())
     seen = [name for name in over or () if pairs.get(str(name), {}).get("seen") is True]
     if len(seen) < _FEWEST_DECIDE:
-        return f"only {len(seen)} pairs are seen: three decide where the column goes"
+        return Reason("hoisting.few_pairs", count=len(seen))
     for name in over or ():
         pair = pairs.get(str(name), {})
         hidden = {pair.get(key) for key in ("sleeve", "rebar") if pair.get(f"{key}_seen") is not True}
         if pair.get("seen") is not True and not hidden <= resting:
-            return f"{name} decides where the column goes, and is not seen"
+            return Reason("hoisting.decides", label=str(name))
     return ""
 
 
@@ -184,30 +185,31 @@ def _tilted(state: Mapping[str, Any]) -> str:
     frame, limit_mm, largest_mm = _frame(state), number(state.get("limit_mm")), largest_of(state)
     tilt, height_mm = number(frame.get("column_tilt_deg")), number(frame.get("height_mm"))
     if tilt is None or height_mm is None:
-        return "the tilt of the column is not known"
+        return Reason("hoisting.no_tilt")
     aside_mm = height_mm * math.tan(math.radians(tilt))
     if limit_mm is None or largest_mm is None or aside_mm + largest_mm <= limit_mm:
         return ""
-    return f"tilted by {tilt:.2f}°: on its way down that moves the foot by {aside_mm:.1f} mm"
+    return Reason("hoisting.tilted", tilt_deg=tilt, aside_mm=aside_mm)
 
 
 def _moved_since(state: Mapping[str, Any]) -> str:
     moved = _entries(_frame(state).get("moved_since"))
     if not moved:
         return ""
-    said = ", ".join(f"{one.get('label')} moved {number(one.get('moved_mm')) or 0.0:.1f} mm" for one in moved)
+    said = [(str(one.get("label")), number(one.get("moved_mm")) or 0.0) for one in moved]
     hidden = [str(pair.get("rebar")) for pair in _entries(_frame(state).get("pairs")) if not pair.get("rebar_seen")]
-    look = f"; look at {', '.join(hidden)}, which the frame does not show" if hidden else ""
-    return f"{said} since the scan from before hoisting{look}"
+    return moved_in_words(said, hidden)
 
 
 def _not_passed(state: Mapping[str, Any]) -> str:
     verdict = _frame(state).get("verdict")
     if verdict == "pass":
         return ""
-    return _first_reason(state) or ("no limit is given" if verdict == "not_assessed" else "the frame does not pass")
+    return _first_reason(state) or Reason(
+        "hoisting.no_limit" if verdict == "not_assessed" else "hoisting.frame_no_pass"
+    )
 
 
 def _rests(state: Mapping[str, Any]) -> str:
     resting = [str(label) for label in _frame(state).get("rests_on_scans") or ()]
-    return f"{', '.join(resting)} not seen: where it was measured before hoisting" if resting else ""
+    return Reason("hoisting.not_seen", labels=resting) if resting else ""

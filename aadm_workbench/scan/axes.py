@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from aadm_workbench.model import AXES_UNKNOWN, CAMERA_AXES, OPENGL_AXES, Array, FloatArray
+from aadm_workbench.model import AXES_UNKNOWN, CAMERA_AXES, OPENGL_AXES, Array, FloatArray, Reason
 from aadm_workbench.scan.file import ScanFile
 
 AXES = (CAMERA_AXES, OPENGL_AXES)
@@ -20,10 +20,7 @@ _ALL = 0.999
 _WIDEST_TANGENT = 1.2
 """Of half the angle of view, to 50 degrees: cameras for measuring have 15 to 40."""
 
-TAKEN_FOR_OPENGL = (
-    "all its points lie at z < 0, as in OpenGL's axes (x right, y up, z backward): the top of the picture was taken "
-    'for +y of the file; write axes = "camera" where it is -y'
-)
+TAKEN_FOR_OPENGL = Reason("scan.opengl_axes")
 """Note of a cloud whose axes were found out."""
 
 
@@ -49,10 +46,7 @@ def axes_of(file: ScanFile, points: FloatArray, viewpoint: Array | None, declare
     if declared is None:
         return found
     if declared == OPENGL_AXES and found == CAMERA_AXES:
-        raise file.wrong(
-            'its points lie at z > 0, before a camera that looks along z, but axes = "opengl" says that z runs '
-            'backward; write axes = "camera"'
-        )
+        raise file.wrong(Reason("scan.not_opengl"))
     return declared
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from aadm_workbench.errors import CameraError
-from aadm_workbench.model import Array, Camera, FloatArray
+from aadm_workbench.model import Array, Camera, FloatArray, Reason
 from aadm_workbench.scan import intrinsics
 from aadm_workbench.scan.file import load
 
@@ -102,12 +102,11 @@ def seen_by(name: str, points: FloatArray, camera: Camera) -> FloatArray:
     shape = (camera.height, camera.width)
     if points.ndim == 3:
         if points.shape[:2] != shape:
-            size = f"{points.shape[1]} x {points.shape[0]}"
-            message = f"{name}: the cloud is {size} pixels, [camera] says {camera.width} x {camera.height}"
-            raise CameraError(f"{message}; write the intrinsics that belong to the scan")
+            size = {"cloud_width": points.shape[1], "cloud_height": points.shape[0]}
+            raise CameraError(Reason("scan.size_differs", name=name, **size, width=camera.width, height=camera.height))
         offset = _pixel_offset(points, camera)
         if offset > LARGEST_PIXEL_OFFSET:
-            raise CameraError(f"{name}: its points lie {offset:.1f} pixels beside the rays of their pixels; {_REMEDY}")
+            raise CameraError(Reason("scan.beside_rays", name=name, offset_pixels=offset, remedy=_REMEDY))
         return points
     if len(points) == camera.width * camera.height:
         image = points.reshape(*shape, 3)
@@ -115,14 +114,11 @@ def seen_by(name: str, points: FloatArray, camera: Camera) -> FloatArray:
             return image
     fraction = _fraction_in_view(points, camera)
     if fraction < LEAST_FRACTION_IN_VIEW:
-        raise CameraError(f"{name}: only {fraction:.0%} of its points lie in the view of [camera]; {_REMEDY}")
+        raise CameraError(Reason("scan.out_of_camera", name=name, fraction=fraction, remedy=_REMEDY))
     return points
 
 
-_REMEDY = (
-    "either [camera] holds the intrinsics of another camera, or the cloud is not in the camera's frame: "
-    "then check it in a job without [camera]"
-)
+_REMEDY = Reason("scan.other_camera")
 
 
 def _sample(points: FloatArray) -> tuple[FloatArray, Array]:
@@ -176,7 +172,7 @@ def read_camera(path: Path, size: tuple[int, int] | None = None) -> Camera:
     path = Path(path)
     content = load(path, str(path)).content
     if len(content) > LARGEST_INTRINSICS_BYTES:
-        raise CameraError(f"{path}: has {len(content)} bytes, which is no file of intrinsics; name the right one")
+        raise CameraError(Reason("scan.no_intrinsics_size", path=path, size_bytes=len(content)))
     text = content.decode("utf-8-sig", errors="replace")
     try:
         found = intrinsics.parse(text, path.suffix.lower())
@@ -184,7 +180,7 @@ def read_camera(path: Path, size: tuple[int, int] | None = None) -> Camera:
             found = replace(found, width=size[0], height=size[1])
         return intrinsics.checked_camera(found)
     except CameraError as error:
-        raise type(error)(f"{path}: {error}") from error
+        raise type(error)(Reason("said.of_file", file=path, why=error)) from error
 
 
 def read_depth_scale_mm(path: Path) -> float | None:

@@ -10,8 +10,9 @@ from pathlib import Path
 
 from aadm_workbench.camera.frame import RECORD_NAME
 from aadm_workbench.camera.record import Record, record_of
-from aadm_workbench.errors import CameraError, ScanError
-from aadm_workbench.model import Camera
+from aadm_workbench.errors import AadmError, CameraError, ScanError
+from aadm_workbench.model import Camera, Reason
+from aadm_workbench.model.reason import said_of
 from aadm_workbench.scan.camera import (
     LARGEST_INTRINSICS_BYTES,
     LARGEST_PIXEL_OFFSET,
@@ -80,15 +81,15 @@ def find_capture(folder: Path, name: str, declared: Declared) -> Capture:
             raise
         # The camera's program has straightened its cloud.
         scan = scan if scan in clouds else clouds[0]
-        intrinsics, camera, notes = None, declared.camera, [f"{scan.name} was taken: {error}"]
+        intrinsics, camera, notes = None, declared.camera, [Reason("scan.taken_since", name=scan.name, why=error)]
     if camera is None and scan not in clouds and len(clouds) == 1:
-        notes.append(f"{clouds[0].name} was taken: {scan.name} has no intrinsics beside it")
+        notes.append(Reason("scan.taken_without", name=clouds[0].name, scan=scan.name))
         scan = clouds[0]
     if intrinsics is not None and declared.depth_scale_mm is None:
         declared = replace(declared, depth_scale_mm=read_depth_scale_mm(intrinsics))
     texture = _texture(files, scan)
     if texture is not None and camera is not None and _size(texture) != (camera.width, camera.height):
-        notes.append(f"{texture.name} is left out: it is not of the size of the depth map")
+        notes.append(Reason("scan.texture_left_out", name=texture.name))
         texture = None
     notes += (record_of(folder) or Record()).notes
     return Capture(scan, replace(declared, camera=camera), texture, intrinsics, tuple(notes))
@@ -98,9 +99,9 @@ def _files(folder: Path, name: str) -> list[Path]:
     try:
         found = list(islice(folder.iterdir(), MOST_FILES + 1))
     except OSError as error:
-        raise ScanError(f"{name}: the folder cannot be read ({error.strerror}); check its permissions") from error
+        raise ScanError(said_of(name, "scan.folder_unreadable", why=error.strerror)) from error
     if len(found) > MOST_FILES:
-        raise ScanError(f"{name}: holds more than {MOST_FILES} files; name the folder of one capture, or one file")
+        raise ScanError(Reason("scan.folder_full", name=name, most=MOST_FILES))
     return sorted(path for path in found if path.is_file() and not path.name.startswith("."))
 
 
@@ -131,11 +132,8 @@ def _scan(files: Sequence[Path], name: str) -> Path:
             return candidates[0]
         if candidates:
             listed = ", ".join(path.name for path in candidates[:5])
-            raise ScanError(f"{name}: holds several scans ({listed}); name the one that is meant")
-    raise ScanError(
-        f"{name}: is a folder without a scan in it; name the folder of a capture, with a depth map (such as "
-        "depth.tiff) or a point cloud, or name one file"
-    )
+            raise ScanError(Reason("scan.several_scans", name=name, listed=listed))
+    raise ScanError(Reason("scan.folder_empty", name=name))
 
 
 def _camera(files: Sequence[Path], scan: Path, declared: Declared) -> tuple[Path | None, Camera | None, list[str]]:
@@ -152,16 +150,11 @@ def _camera(files: Sequence[Path], scan: Path, declared: Declared) -> tuple[Path
     path, camera = found[0]
     for other_path, other in found[1:]:
         if not _same(camera, other):
-            raise CameraError(
-                f"{path.name} and {other_path.name} in one folder hold different intrinsics; call those of the depth "
-                "map depth..., or keep them alone"
-            )
+            raise CameraError(Reason("scan.intrinsics_differ", first=path.name, second=other_path.name))
     if declared.camera is None:
-        return path, camera, [f"intrinsics from {path.name}"]
+        return path, camera, [Reason("scan.intrinsics_from", name=path.name)]
     if not _same(declared.camera, camera):
-        raise CameraError(
-            f"{path.name} beside the scan holds other intrinsics than [camera] of the job; keep the right ones"
-        )
+        raise CameraError(Reason("scan.intrinsics_not_job", name=path.name))
     return path, declared.camera, []
 
 
@@ -182,12 +175,14 @@ def _intrinsics(
             bent.append((path, error))
         except (CameraError, ScanError) as error:
             # Most texts beside a scan hold something else; of what is meant for intrinsics it is said why not.
-            unread.append(f"{path.name} was not understood as intrinsics: it {_reason(error, path)}")
+            unread.append(Reason("scan.not_intrinsics", name=path.name, why=_reason(error)))
     return found, bent, unread
 
 
-def _reason(error: Exception, path: Path) -> str:
-    return str(error).removeprefix(f"{path}: ")
+def _reason(error: AadmError) -> str:
+    """What is wrong, without the file of which it is said."""
+    said = error.reason
+    return str(said.values["why"]) if isinstance(said, Reason) and said.code == "said.of_file" else said
 
 
 def _same(one: Camera, other: Camera) -> bool:

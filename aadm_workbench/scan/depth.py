@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.errors import CameraError
-from aadm_workbench.model import Camera, FloatArray
+from aadm_workbench.model import Camera, FloatArray, Reason
 from aadm_workbench.scan.camera import depth_to_points
 from aadm_workbench.scan.depth_picture import depth_picture
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
@@ -51,7 +51,7 @@ def cloud_of_depth_map(file: ScanFile, depth: Pixels, declared: Declared) -> Clo
         (h, w, 3) float32, mm, camera frame; the camera stands at the origin.
     """
     if depth.ndim != 2:
-        raise file.wrong(f"has {depth.shape[-1]} channels: it is a picture, not a depth map, which has one")
+        raise file.wrong(Reason("scan.channels", channels=depth.shape[-1]))
     height, width = depth.shape
     camera = _checked_camera(file, width, height, declared)
     depth_mm = _in_millimetres(file, depth, declared)
@@ -61,12 +61,18 @@ def cloud_of_depth_map(file: ScanFile, depth: Pixels, declared: Declared) -> Clo
 def _checked_camera(file: ScanFile, width: int, height: int, declared: Declared) -> Camera:
     camera = declared.camera
     if camera is None:
-        wanted = f"fx, fy, cx, cy, width = {width} and height = {height}"
-        raise CameraError(f"{file.name}: a depth map needs its intrinsics; add [camera] with {wanted} to the job")
+        wanted = Reason("scan.wanted_intrinsics", width=width, height=height)
+        raise CameraError(Reason("scan.needs_intrinsics", name=file.name, wanted=wanted))
     if (width, height) != (camera.width, camera.height):
         raise CameraError(
-            f"{file.name}: the depth map is {width} x {height} pixels, [camera] says {camera.width} x {camera.height}; "
-            "write the intrinsics of the depth map (those of the texture camera may differ by a factor of 2)"
+            Reason(
+                "scan.depth_size",
+                name=file.name,
+                width=width,
+                height=height,
+                camera_width=camera.width,
+                camera_height=camera.height,
+            )
         )
     return camera
 
@@ -75,9 +81,9 @@ def _in_millimetres(file: ScanFile, depth: Pixels, declared: Declared) -> FloatA
     if depth.dtype.kind == "f":
         return depth if declared.mm_per_unit == 1.0 else depth * depth.dtype.type(declared.mm_per_unit)
     if depth.dtype == np.uint8:
-        raise file.wrong("has 8 bits a pixel: it is a picture or a preview; export the depth map itself")
+        raise file.wrong(Reason("scan.eight_bits"))
     if depth.dtype != np.uint16:
-        raise file.wrong(f"has pixels of type {depth.dtype}; a depth map is uint16, float32 or float64")
+        raise file.wrong(Reason("scan.depth_type", dtype=depth.dtype))
     if declared.depth_scale_mm is None:
-        raise CameraError(f"{file.name}: an integer depth map needs its step; add depth_scale_mm to [camera]")
+        raise CameraError(Reason("scan.depth_step", name=file.name))
     return depth * np.float32(declared.depth_scale_mm)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from aadm_workbench.errors import ScanError
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.formats.tiff_pages import SIGNATURES as TIFF_SIGNATURES
 from aadm_workbench.scan.formats.tiff_pages import Page, pages_of
@@ -58,8 +59,8 @@ def depth_picture(file: ScanFile) -> DepthPicture:
         if content.startswith(TIFF_SIGNATURES):
             return _of_pages(file, pages_of(content))
     except (struct.error, KeyError, OverflowError) as error:
-        raise file.wrong(f"ends or breaks off within its header ({len(content)} bytes); copy it again") from error
-    raise file.wrong("is neither a TIFF nor a PNG; a depth map is one of the two, check its extension")
+        raise file.wrong(Reason("scan.header_breaks", size_bytes=len(content))) from error
+    raise file.wrong(Reason("scan.not_depth_picture"))
 
 
 def _of_pages(file: ScanFile, pages: Sequence[Page]) -> DepthPicture:
@@ -72,12 +73,9 @@ def _of_pages(file: ScanFile, pages: Sequence[Page]) -> DepthPicture:
         _refuse_colours(file, _COLOURS if page.is_palette else page.samples, page.bits)
     notes = []
     if len(pages) > 1:
-        notes.append(f"holds {len(pages)} pictures, of which number {page.number} was taken for the depth map")
+        notes.append(Reason("scan.pages", count=len(pages), number=page.number))
     if page.orientation != _UPRIGHT:
-        notes.append(
-            f"its pixels were taken as they are stored, to which the intrinsics belong, and not turned as its "
-            f"orientation ({page.orientation}) would show them"
-        )
+        notes.append(Reason("scan.orientation", orientation=page.orientation))
     return DepthPicture(page.width, page.height, page, is_point_map, notes=tuple(notes))
 
 
@@ -88,8 +86,8 @@ def _one_of(file: ScanFile, pages: Sequence[Page]) -> Page:
     for candidates in (possible, called):
         if len(candidates) == 1:
             return candidates[0]
-    kinds = ", ".join(_described(page) for page in pages[:5])
-    raise file.wrong(f"holds {len(pages)} pictures ({kinds}), and none or several may be the depth map; save it alone")
+    kinds = [_described(page) for page in pages[:5]]
+    raise file.wrong(Reason("scan.which_page", count=len(pages), kinds=kinds))
 
 
 def _can_be_depths(page: Page) -> bool:
@@ -100,12 +98,10 @@ def _can_be_depths(page: Page) -> bool:
 
 def _described(page: Page) -> str:
     channels = f"{page.samples} x " if page.samples > 1 else ""
-    return f"{page.width} x {page.height} pixels of {channels}{page.bits} bits{' floating' if page.is_float else ''}"
+    code = "formats.page.floating" if page.is_float else "formats.page"
+    return Reason(code, width=page.width, height=page.height, bits=f"{channels}{page.bits}")
 
 
 def _refuse_colours(file: ScanFile, channels: int, bits: int) -> None:
     if channels > 1:
-        raise ColourPictureError(
-            f"{file.name}: has {channels} channels: it is a picture in colour, not a depth map, which has one; colours "
-            "show depths and do not hold them: save the depth map itself, as TIFF or 16-bit PNG, or the cloud as .ply"
-        )
+        raise ColourPictureError(Reason("scan.colour", name=file.name, channels=channels))

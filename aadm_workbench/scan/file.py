@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from aadm_workbench.errors import ScanError
-from aadm_workbench.model import Array, BoolArray, Camera, FloatArray
+from aadm_workbench.model import Array, BoolArray, Camera, FloatArray, Reason
+from aadm_workbench.model.reason import said_of
 
 DEPTH_MAPS = (".tif", ".tiff", ".png")
 """Pictures of depths: they are read with a camera alone."""
@@ -57,7 +58,7 @@ class ScanFile:
 
     def wrong(self, what: str) -> ScanError:
         """Return the error that says what is wrong with this file."""
-        return ScanError(f"{self.name}: {what}")
+        return ScanError(Reason("said.of_file", file=self.name, why=what))
 
 
 @dataclass(frozen=True)
@@ -115,11 +116,10 @@ def load(path: Path, name: str) -> ScanFile:
     try:
         content = _content(path)
     except FileNotFoundError as error:
-        message = f"{path}: there is no such file; check its name, upper and lower case included, and its folder"
-        raise ScanError(message) from error
+        raise ScanError(said_of(path, "scan.no_file")) from error
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
-        raise ScanError(f"{path}: cannot be read ({reason}); check the permissions and the disk it is on") from error
+        raise ScanError(said_of(path, "scan.unreadable", why=reason)) from error
     return ScanFile(name, content, hashlib.sha256(content).hexdigest())
 
 
@@ -137,14 +137,14 @@ def _content(path: Path) -> bytes:
 
 def _check_status(mode: int, size_bytes: int, path: Path) -> None:
     if stat.S_ISDIR(mode):
-        raise ScanError(f"{path}: is a folder; name one file in it")
+        raise ScanError(said_of(path, "scan.is_folder"))
     if not stat.S_ISREG(mode):
-        raise ScanError(f"{path}: is a device or a pipe; name a scan file")
+        raise ScanError(said_of(path, "scan.is_device"))
     if size_bytes == 0:
-        raise ScanError(f"{path}: is empty (0 bytes); the export or the copy did not finish, export it again")
+        raise ScanError(said_of(path, "scan.is_empty"))
     if size_bytes > LARGEST_FILE_BYTES:
-        limit_gb = LARGEST_FILE_BYTES / 2**30
-        raise ScanError(f"{path}: has {size_bytes} bytes, more than {limit_gb:.0f} GiB; crop the scan to the component")
+        sizes = {"size_bytes": size_bytes, "limit_gb": LARGEST_FILE_BYTES / 2**30}
+        raise ScanError(said_of(path, "scan.too_large", **sizes))
 
 
 def without_return(points: FloatArray) -> BoolArray:

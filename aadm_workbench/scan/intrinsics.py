@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 from aadm_workbench.errors import CameraError
-from aadm_workbench.model import Camera
+from aadm_workbench.model import Camera, Reason
 from aadm_workbench.scan.distortion import as_float, coefficients_in, is_coefficients, numbers_in
 from aadm_workbench.scan.formats.xml_table import parse_xml
 from aadm_workbench.scan.printed import Entry, entries_of, kind_of
@@ -85,9 +85,9 @@ def parse(text: str, suffix: str) -> Intrinsics:
         said = [(kind_of(path), numbers) for path, numbers in coefficients_in(table)]
         return replace(chosen, distortion=_of_the_camera(said, chosen.camera))
     except RecursionError as error:
-        raise CameraError("is nested deeper than any file of intrinsics") from error
+        raise CameraError(Reason("scan.intrinsics_deep")) from error
     except ValueError as error:
-        raise CameraError(f"is no valid {suffix[1:].upper()}: {error}") from error
+        raise CameraError(Reason("scan.intrinsics_invalid", kind=suffix[1:].upper(), why=error)) from error
 
 
 _READERS: dict[str, Callable[[str], Any]] = {".json": json.loads, ".toml": tomllib.loads, ".xml": parse_xml}
@@ -103,23 +103,17 @@ def checked_camera(found: Intrinsics) -> Camera:
     """
     fx, fy, cx, cy, width, height = found.fx, found.fy, found.cx, found.cy, found.width, found.height
     if fx is None or fy is None or cx is None or cy is None:
-        raise CameraError("holds no fx, fy, cx and cy that belong together; write them as fx = ..., fy = ..., ...")
+        raise CameraError(Reason("scan.no_fx"))
     if width is None or height is None:
-        raise CameraError("does not say how large the depth map is; add a line such as: width: 1920, height: 1200")
+        raise CameraError(Reason("scan.no_size"))
     if not (min(fx, fy) >= _SHORTEST_FOCAL_LENGTH and math.isfinite(fx) and math.isfinite(fy)):
-        raise CameraError(f"has focal lengths fx = {fx}, fy = {fy}, which cannot be; they are in pixels")
+        raise CameraError(Reason("scan.focal", fx=fx, fy=fy))
     if width * height > _LARGEST_PIXEL_COUNT:
-        raise CameraError(f"has {width} x {height} pixels, more than any camera")
+        raise CameraError(Reason("scan.most_pixels", width=width, height=height))
     if not (0 < cx < width and 0 < cy < height):
-        raise CameraError(
-            f"has its centre (cx, cy) = ({cx:.1f}, {cy:.1f}) outside of its {width} x {height} pixels: "
-            "the size belongs to another camera or another resolution"
-        )
+        raise CameraError(Reason("scan.centre", cx=cx, cy=cy, width=width, height=height))
     if any(value != 0 for value in found.distortion):
-        raise BentLensError(
-            f"has distortion coefficients {list(found.distortion)}, but points are computed for an undistorted camera: "
-            "export undistorted depth maps, or point clouds instead of depth maps"
-        )
+        raise BentLensError(Reason("scan.distorted", distortion=list(found.distortion)))
     return Camera(fx, fy, cx, cy, width, height, found.scale_error)
 
 
@@ -131,7 +125,7 @@ def _chosen(candidates: list[Intrinsics]) -> Intrinsics:
         return Intrinsics()
     values = {(item.fx, item.fy, item.cx, item.cy) for item in meant}
     if len(values) > 1:
-        raise CameraError("describes cameras that differ, and none is called depth; keep the depth camera's only")
+        raise CameraError(Reason("scan.cameras_differ"))
     return meant[0]
 
 
@@ -182,7 +176,7 @@ def _without_shape(value: Any) -> Any:
 
 def _plain_number(value: Any, key: str) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise CameraError(f"has {key} = {value!r}, which is no number")
+        raise CameraError(Reason("scan.no_number", key=key, value=repr(value)))
     return as_float(value)
 
 
@@ -191,7 +185,7 @@ def _size(known: Mapping[str, Any], key: str) -> int | None:
     if value is None:
         return None
     if isinstance(value, bool) or not isinstance(value, int) or value <= 0:
-        raise CameraError(f"has {key} = {value!r}; it must be a whole number of pixels")
+        raise CameraError(Reason("scan.no_whole", key=key, value=repr(value)))
     return value
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from aadm_workbench.model import Array, FloatArray
+from aadm_workbench.model import Array, FloatArray, Reason
 from aadm_workbench.scan.file import Cloud, without_return
 
 
@@ -46,7 +46,7 @@ def joined(clouds: Sequence[Cloud]) -> Cloud:
         unit_from=first.unit_from,
         dropped=dropped,
         notes=(
-            f"holds {len(clouds)} scans, which were joined by the poses that they carry",
+            Reason("scan.joined", count=len(clouds)),
             *dict.fromkeys(note for cloud in clouds for note in cloud.notes),
         ),
     )

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.depth_picture import DepthPicture
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.formats.packed_tiff import is_beyond_opencv, unpacked
@@ -73,7 +74,7 @@ def grey_of(file: ScanFile) -> npt.NDArray[np.uint8]:
 
 def _check_size(file: ScanFile, width: int, height: int) -> None:
     if width * height > LARGEST_PIXEL_COUNT:
-        raise file.wrong(f"announces {width} x {height} pixels, more than any camera has; export it again")
+        raise file.wrong(Reason("scan.picture_large", width=width, height=height))
 
 
 def _decoded(file: ScanFile, page: Page | None, flags: int) -> Pixels:
@@ -86,7 +87,7 @@ def _decoded(file: ScanFile, page: Page | None, flags: int) -> Pixels:
     except cv2.error:
         pixels = None
     if pixels is None:
-        raise file.wrong("cannot be decoded: it is no picture, damaged or cut off; copy or export it again")
+        raise file.wrong(Reason("scan.no_picture"))
     return pixels
 
 

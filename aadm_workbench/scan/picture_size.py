@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import struct
 
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.formats.tiff_pages import SIGNATURES as TIFF_SIGNATURES
 from aadm_workbench.scan.formats.tiff_pages import pages_of
@@ -35,9 +36,9 @@ def picture_size(file: ScanFile) -> tuple[int, int]:
         elif content.startswith(_BMP_SIGNATURE):
             width, height = map(abs, struct.unpack_from("<ii", content, 18))
         else:
-            raise file.wrong("is no picture that is read here; save it as PNG, TIFF, JPEG or BMP")
+            raise file.wrong(Reason("scan.picture_kind"))
     except (struct.error, KeyError, OverflowError) as error:
-        raise file.wrong(f"ends or breaks off within its header ({len(content)} bytes); copy it again") from error
+        raise file.wrong(Reason("scan.header_breaks", size_bytes=len(content))) from error
     return int(width), int(height)
 
 
@@ -56,7 +57,7 @@ def check_whole(file: ScanFile) -> None:
         kind = content[position + 4 : position + 8]
         position += 12 + length
         if position > len(content):
-            raise file.wrong(f"ends at byte {len(content)}, before its last chunk: it is cut off; copy it again")
+            raise file.wrong(Reason("scan.png_ends", size_bytes=len(content)))
 
 
 def _jpeg_size(content: bytes) -> tuple[int, int]:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.errors import ScanError
-from aadm_workbench.model import Array, AssemblyPoint, Scan
+from aadm_workbench.model import Array, AssemblyPoint, Reason, Scan, codes_of
 from aadm_workbench.scan.ray_distance import refuse_ray_distances
 
 FEWEST_POINTS = 500
@@ -58,9 +58,7 @@ def check_plausible(scan: Scan, expected_extent_mm: float) -> Scan:
     name = scan.source or "the scan"
     measured = np.flatnonzero(np.isfinite(scan.points.reshape(-1, 3)[:, 2]))
     if len(measured) < FEWEST_POINTS:
-        raise ScanError(
-            f"{name}: has {len(measured)} points, {FEWEST_POINTS} are the least to measure on; scan it again"
-        )
+        raise ScanError(Reason("scan.few_points", name=name, count=len(measured), needed=FEWEST_POINTS))
     sample = scan.points.reshape(-1, 3)[measured[:: max(1, len(measured) // _SAMPLE_SIZE)]].astype(np.float64)
     spans_mm = _robust_spans(sample)
     ratio = float(spans_mm.max()) / expected_extent_mm
@@ -71,20 +69,19 @@ def check_plausible(scan: Scan, expected_extent_mm: float) -> Scan:
         return check_plausible(_in_declared_unit(scan), expected_extent_mm)
     sizes = " x ".join(f"{span:.4g}" for span in spans_mm)
     raise ScanError(
-        f"{name}: its points span {sizes} mm, but the pattern to be found in it spans {expected_extent_mm:.4g} mm; "
-        f"{_suggestion(ratio)}"
+        Reason("scan.span", name=name, sizes=sizes, expected_mm=expected_extent_mm, remedy=_suggestion(ratio))
     )
 
 
 def _in_declared_unit(scan: Scan) -> Scan:
     """The scan in the unit that the job declares, against what its file says."""
     scale = scan.declared_scale
-    note = "the unit that the job declares was taken: with the one that the file gives the scan cannot show its pattern"
+    note = Reason("scan.unit_of_job")
     return replace(
         scan,
         points=scan.points * scan.points.dtype.type(scale),
         viewpoint=None if scan.viewpoint is None else scan.viewpoint * scale,
-        notes=(*(text for text in scan.notes if not text.startswith("the unit of the file was taken")), note),
+        notes=(*(text for text in scan.notes if "scan.unit_of_file" not in codes_of(text)), note),
         declared_scale=1.0,
     )
 
@@ -104,7 +101,7 @@ def _without_strays(scan: Scan, middle: Array, reach_mm: float) -> Scan:
         points.reshape(-1, 3)[is_stray] = np.nan
     else:
         points = flat[~is_stray]
-    note = f"{count} points more than {reach_mm / 1000.0:.0f} m away from the others were left out"
+    note = Reason("scan.stray", count=count, reach_m=reach_mm / 1000.0)
     return replace(scan, points=points, dropped=scan.dropped + count, notes=(*scan.notes, note))
 
 
@@ -122,11 +119,8 @@ def _is_plausible(ratio: float) -> bool:
 def _suggestion(ratio: float) -> str:
     if _is_plausible(ratio * 1000):
         if _is_plausible(ratio * _MM_PER_INCH):
-            return 'it looks like metres or inches declared as mm: write units = "m" in the job, or convert the inches'
-        return (
-            'it looks like metres declared as mm: write units = "m" in the job, or for a 16-bit depth map the right '
-            "depth_scale_mm"
-        )
+            return Reason("scan.metres_or_inches")
+        return Reason("scan.metres")
     if _is_plausible(ratio / 1000):
-        return 'it looks like mm declared as metres: write units = "mm" in the job'
-    return "no unit explains that: check that the scan shows this component, and crop what does not belong to it"
+        return Reason("scan.millimetres")
+    return Reason("scan.no_unit")

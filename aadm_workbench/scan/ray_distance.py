@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from aadm_workbench.errors import ScanError
-from aadm_workbench.model import Array, BoolArray, IntArray, Scan
+from aadm_workbench.model import Array, BoolArray, IntArray, Reason, Scan
 
 _SAMPLE_SIZE = 2_000  # points: a bowl shows on far fewer
 _TRIALS, _FIRST_TRIALS = 300, 40
@@ -60,11 +60,7 @@ def refuse_ray_distances(scan: Scan, sample: Array) -> None:
         return
     bowl_mm, flat_mm = _scatter_mm(points[flat]), _scatter_mm(along_rays[flat])
     if bowl_mm > max(_LEAST_BOWL_MM, _TIMES_FLATTER * flat_mm):
-        raise ScanError(
-            f"{scan.source or 'the scan'}: its depths look like distances from the camera: as depths along the optical "
-            f"axis its largest face is a bowl, {bowl_mm:.1f} mm off a plane, along the rays it is flat to "
-            f"{flat_mm:.2f} mm; export depths (z), or a point cloud"
-        )
+        raise ScanError(Reason("scan.ray_distances", name=scan.source or "the scan", bowl_mm=bowl_mm, flat_mm=flat_mm))
 
 
 def _largest_face(points: Array, triples: IntArray) -> BoolArray:

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aadm_workbench.errors import CameraError, ScanError
-from aadm_workbench.model import CAMERA_AXES, OPENGL_AXES, Array, Camera, FloatArray, Scan
+from aadm_workbench.model import CAMERA_AXES, OPENGL_AXES, Array, Camera, FloatArray, Reason, Scan
 from aadm_workbench.scan.axes import AXES, TAKEN_FOR_OPENGL, axes_of, turned
 from aadm_workbench.scan.file import DEPTH_MAPS, Cloud, Declared, ScanFile, load, to_millimetres, without_return
 from aadm_workbench.scan.pixels import is_picture, on_pixels
@@ -127,7 +127,7 @@ def _read_capture(path: Path, name: str, declared: Declared, image: Path | None)
     except CameraError as error:
         if capture.declared.camera is not None or not capture.notes:
             raise
-        raise CameraError(f"{error}; {'; '.join(capture.notes)}") from error
+        raise CameraError(Reason("said.with_notes", why=error, notes=capture.notes)) from error
     return replace(scan, source=name, sha256=capture.sha256(scan.sha256), notes=(*capture.notes, *scan.notes))
 
 
@@ -164,7 +164,7 @@ def _read_file(path: Path, name: str, declared: Declared, image: Path | None) ->
 def _reader_of(path: Path) -> Reader:
     if path.suffix.lower() not in _READERS:
         known = " ".join(supported_formats())
-        raise ScanError(f"{path}: files of type {path.suffix or '(none)'} are not read; export one of {known}")
+        raise ScanError(Reason("scan.format", path=path, suffix=path.suffix or "(none)", known=known))
     module, _, name = _READERS[path.suffix.lower()].rpartition(".")
     reader: Reader = getattr(import_module(f"aadm_workbench.scan.{module}"), name)
     return reader
@@ -189,16 +189,16 @@ def _unit_note(cloud: Cloud, declared: Declared) -> tuple[str, ...]:
     """Return a note where a file gives its unit itself, and it is not the one that the job declares."""
     if not cloud.unit_from or math.isclose(cloud.mm_per_unit, declared.mm_per_unit):
         return ()
-    return (f"the unit of the file was taken, {cloud.mm_per_unit:.7g} mm: {cloud.unit_from}",)
+    return (Reason("scan.unit_of_file", mm_per_unit=cloud.mm_per_unit, why=cloud.unit_from),)
 
 
 def _declared(units: str, camera: Camera | None, depth_scale_mm: float | None, axes: str | None) -> Declared:
     if units not in MM_PER_UNIT:
-        raise ScanError(f"the unit of scans is {units!r}; it must be one of {', '.join(map(repr, MM_PER_UNIT))}")
+        raise ScanError(Reason("scan.units", units=repr(units), known=map(repr, MM_PER_UNIT)))
     if depth_scale_mm is not None and not (math.isfinite(depth_scale_mm) and depth_scale_mm > 0):
-        raise CameraError(f"depth_scale_mm is {depth_scale_mm}; it must be greater than 0, such as 0.02")
+        raise CameraError(Reason("scan.depth_scale", depth_scale_mm=depth_scale_mm))
     if axes is not None and axes not in AXES:
-        raise ScanError(f"the axes of scans are {axes!r}; they must be one of {', '.join(map(repr, AXES))}")
+        raise ScanError(Reason("scan.axes", axes=repr(axes), known=map(repr, AXES)))
     return Declared(MM_PER_UNIT[units], camera, depth_scale_mm, axes)
 
 
@@ -207,7 +207,7 @@ def _measured(file: ScanFile, cloud: Cloud, camera: Camera | None, axes: str) ->
     missing = without_return(cloud.points)
     dropped = int(np.count_nonzero(missing))
     if dropped == missing.size:
-        raise file.wrong(f"none of its {missing.size} points is a measurement; scan again, or export the right frame")
+        raise file.wrong(Reason("scan.nothing_measured", count=missing.size))
     # A declared camera fixes the frame to its own, in which the files of all cameras hold their points.
     T_scan_file = None if camera is not None else cloud.T_scan_file
     if dropped and (camera is not None or cloud.points.ndim == 3):
@@ -253,7 +253,12 @@ def _grey_picture(path: Path, points: FloatArray, camera: Camera | None) -> npt.
     size = (camera.height, camera.width) if camera is not None else points.shape[:2] if points.ndim == 3 else grey.shape
     if grey.shape != size:
         raise file.wrong(
-            f"is {grey.shape[1]} x {grey.shape[0]} pixels, its scan {size[1]} x {size[0]}; name the picture of the "
-            "depth camera, or leave it out"
+            Reason(
+                "scan.grey_size",
+                width=grey.shape[1],
+                height=grey.shape[0],
+                scan_width=size[1],
+                scan_height=size[0],
+            )
         )
     return grey

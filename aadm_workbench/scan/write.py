@@ -11,7 +11,7 @@ import numpy as np
 
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import ScanError
-from aadm_workbench.model import FloatArray
+from aadm_workbench.model import FloatArray, Reason
 from aadm_workbench.scan.formats.pcd import compress
 from aadm_workbench.scan.formats.pcd_header import STORAGES
 from aadm_workbench.scan.picture import encode_tiff
@@ -41,8 +41,13 @@ def write_depth_tiff(path: Path, depth_mm: FloatArray, depth_scale_mm: float) ->
         # Rounded up: what the message proposes must do.
         least_mm = math.ceil(deepest * depth_scale_mm / _LARGEST_STEP * 1e4) / 1e4
         raise ScanError(
-            f"{path}: a depth of {deepest * depth_scale_mm:.0f} mm does not fit into 65535 steps of "
-            f"{depth_scale_mm} mm; take a depth_scale_mm of {least_mm:.4g} or more"
+            Reason(
+                "scan.write_depth",
+                path=path,
+                deepest_mm=deepest * depth_scale_mm,
+                depth_scale_mm=depth_scale_mm,
+                least_mm=least_mm,
+            )
         )
     write_atomically(path, encode_tiff(steps.astype(np.uint16)))
 
@@ -81,7 +86,7 @@ def write_pcd(path: Path, points: FloatArray, mode: str = "binary_compressed") -
         For "binary_compressed" without the LZF library.
     """
     if mode not in STORAGES:
-        raise ValueError(f"mode {mode!r} of a PCD file is not one of {', '.join(STORAGES)}")
+        raise ValueError(Reason("scan.write_mode", mode=repr(mode), known=STORAGES))
     coordinates = _coordinates(points)
     flat = coordinates.reshape(-1, 3)
     height, width = coordinates.shape[:2] if coordinates.ndim == 3 else (1, len(flat))
@@ -132,7 +137,7 @@ def write_npz(path: Path, points: FloatArray) -> None:
 def _coordinates(points: FloatArray) -> np.ndarray[Any, np.dtype[Any]]:
     """Return points as little-endian float32 or, whatever else they are, float64."""
     if points.ndim not in (2, 3) or points.shape[-1] != 3:
-        raise ValueError(f"points of shape {points.shape} are neither (n, 3) nor (h, w, 3)")
+        raise ValueError(Reason("scan.write_shape", shape=points.shape))
     return np.ascontiguousarray(points, "<f4" if points.dtype == np.float32 else "<f8")
 
 

@@ -12,6 +12,7 @@ from aadm_workbench.atomic import write_atomically
 from aadm_workbench.camera.frame import RECORD_NAME, Frame
 from aadm_workbench.errors import AadmError, CaptureError
 from aadm_workbench.model import Camera
+from aadm_workbench.model.reason import reason_of, renamed, said_of
 from aadm_workbench.scan.picture import encode_float_tiff, encode_png
 from aadm_workbench.scan.write import write_pcd
 
@@ -42,13 +43,10 @@ def write_capture(folder: Path, frame: Frame, stamp: str) -> None:
     except CaptureError:
         raise
     except AadmError as error:
-        raise CaptureError(str(error).replace(str(aside), str(folder))) from error
+        raise CaptureError(renamed(reason_of(error), str(aside), str(folder))) from error
     except OSError as error:
         reason = error.strerror or type(error).__name__
-        raise CaptureError(
-            f"{folder}: the capture cannot be written ({reason}); check that the folder around it is writable, and "
-            "has room"
-        ) from error
+        raise CaptureError(said_of(folder, "scan.capture_unwritten", why=reason)) from error
     finally:
         shutil.rmtree(aside, ignore_errors=True)
 
@@ -56,7 +54,7 @@ def write_capture(folder: Path, frame: Frame, stamp: str) -> None:
 def _put(aside: Path, folder: Path) -> None:
     with contextlib.suppress(FileNotFoundError):
         if any(folder.iterdir()):
-            raise CaptureError(f"{folder}: holds files already; name another folder for this capture")
+            raise CaptureError(said_of(folder, "scan.capture_there"))
         folder.rmdir()  # another system's rename does not replace even an empty one
     aside.rename(folder)
 

@@ -120,14 +120,14 @@ def simulated_pair(setting: Setting, rng: np.random.Generator, taken: Taken | No
     sleeves = shoot(foot, random_pose(setting, True, rng), rng)
     rebars = shoot(bars, random_pose(setting, False, rng), rng)
     sleeves, rebars = seen_with(sleeves, taken.slip, rng, is_foot=True), seen_with(rebars, taken.slip, rng)
-    return Pair(setting, inline_design(_column_id(setting), _design_table(setting)), foot, bars, sleeves, rebars)
+    return Pair(setting, inline_design(_column_id(setting), design_table(setting)), foot, bars, sleeves, rebars)
 
 
 def _column_id(setting: Setting) -> str:
     return f"{setting.name}-1"
 
 
-def _design_table(setting: Setting) -> dict[str, float | list[float] | list[list[float]]]:
+def design_table(setting: Setting) -> dict[str, float | list[float] | list[list[float]]]:
     """What ``[columns.design]`` of the job says."""
     return {
         "sleeve_diameter": setting.sleeve_diameter,
@@ -146,13 +146,13 @@ def _truth(pair: Pair, seed: int) -> dict[str, Any]:
         "goes_on": true.goes_on.value,
         "least_squares": true.least_squares,
         "minimax": true.minimax,
-        "sleeves": _scan_truth(pair.sleeves, pair.design.sleeves),
-        "rebars": _scan_truth(pair.rebars, pair.design.rebars),
+        "sleeves": scan_truth(pair.sleeves, pair.design.sleeves),
+        "rebars": scan_truth(pair.rebars, pair.design.rebars),
     }
     return {"synthetic": True, "seed": seed, "setting": pair.setting.name, "columns": {pair.design.id: column}}
 
 
-def _scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, Json]:
+def scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, Json]:
     """True centres of one scan, mm, in the column frame that it was made in and in the scan frame."""
     points = zip(scan.points, design, scan.points_scan(), strict=True)
     return {
@@ -174,7 +174,7 @@ def _scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, 
 def _job_text(setting: Setting, seed: int, scan_format: str, taken: Taken) -> str:
     slip, made_with = taken.slip, taken.words
     foot, bars = ("bars", "foot") if slip.swapped else ("foot", "bars")
-    design = "".join(f"{key} = {value}\n" for key, value in _design_table(setting).items())
+    design = "".join(f"{key} = {value}\n" for key, value in design_table(setting).items())
     command = f"aadm simulate pair --setting {setting.name} --seed {seed}{made_with}"
     return f"""# Synthetic scans of a virtual camera: {command}
 schema = 1

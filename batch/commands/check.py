@@ -21,6 +21,7 @@ from aadm_workbench.errors import AadmError, JobError
 from ..exit_codes import INTERNAL, INTERRUPTED, exit_code_of
 from ..job.command import add_job_arguments, pool_options, report_folder
 from ..report_files import add_format_switches, chosen_formats, require_packages
+from ..shown.told import told
 
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
@@ -93,7 +94,7 @@ def run(options: argparse.Namespace) -> int:
         except (AadmError, KeyboardInterrupt) as stop:
             if isinstance(stop, AadmError) and not shown.done:
                 raise
-            return _stopped(stop, shown, journal, events)
+            return _stopped(stop, told(stop, options), shown, journal, events)
         code = _hand_over(done, job, folder, options)
         if code != INTERNAL:
             journal.finish()
@@ -137,13 +138,13 @@ def _interrupt(number: int, frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 
-def _stopped(stop: BaseException, shown: ShownCheck, journal: Journal, events: Events) -> int:
+def _stopped(stop: BaseException, said: str, shown: ShownCheck, journal: Journal, events: Events) -> int:
     """Say that a check ends before its end, and what is kept of it."""
     from ..shown.terminal import say
 
     journal.stop()
     events.send("interrupted", done=shown.done, columns=shown.total)
-    say(f"aadm: {str(stop) or 'interrupted'}")
+    say(f"aadm: {said or 'interrupted'}")
     kept = f"{shown.done} of {shown.total} columns are kept in {journal.path}"
     say(f"aadm: {kept}; repeat the command with --resume")
     return INTERRUPTED if isinstance(stop, KeyboardInterrupt) else INTERNAL
@@ -168,7 +169,7 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
         _write_reports(folder, options)
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
-        say(f"aadm: {error}")
+        say(f"aadm: {told(error, options)}")
         code = INTERNAL
     if options.json:
         show_json(encoded_report(report))
@@ -202,7 +203,7 @@ def _write_model(report: JobReport, job: Job, folder: Path, options: argparse.Na
     try:
         written = write_checked_model(read_report(folder / "report.json"), job, folder)
     except AadmError as error:
-        say(f"aadm: {error}")
+        say(f"aadm: {told(error, options)}")
         return INTERNAL
     if not options.quiet:
         say("\n".join(written_lines(written)))

@@ -1,8 +1,8 @@
 """Say what changed between two inspections: A.json is the earlier report, B.json the later one.
 
-Lists columns that are new or missing, verdicts that changed, and sleeves and bars that moved: those whose offset from
-design differs by more than 2.45 times the standard uncertainty of the difference, which 95 % of the points that did not
-move stay within.
+Lists columns that are new or missing, verdicts that changed, columns that come to stand elsewhere, and sleeves and bars
+that moved: those whose offset from design differs by more than 2.45 times the standard uncertainty of the difference,
+which 95 % of the points that did not move stay within.
 
 Exit codes: 0 nothing changed, 11 something changed and no column is worse than before, 10 some column is worse.
 """
@@ -10,7 +10,7 @@ Exit codes: 0 nothing changed, 11 something changed and no column is worse than 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from aadm_workbench.report.changes import Changes, ColumnChange, PointChange
+    from aadm_workbench.stack.changes import SetChange
 
 EXAMPLE = """\
 examples:
@@ -43,21 +44,25 @@ def run(options: argparse.Namespace) -> int:
     """Compare two reports."""
     from aadm_workbench.report.changes import compare_reports
     from aadm_workbench.report.read import read_report
+    from aadm_workbench.stack.changes import set_changes
+    from aadm_workbench.stack.measured import measured_floor
 
     from ..shown.terminal import show, show_json
 
-    changes = compare_reports(read_report(options.before), read_report(options.after))
+    before, after = read_report(options.before), read_report(options.after)
+    changes = compare_reports(before, after)
+    set_otherwise = set_changes(measured_floor(before), measured_floor(after))
     if options.json:
         from aadm_workbench.report.json import encode
 
         trends = [{**asdict(change), "trend": change.trend} for change in changes.changed]
         summed = {"any_change": changes.any_change, "any_worse": changes.any_worse}
-        show_json(encode({**asdict(changes), "changed": trends, **summed}))
+        show_json(encode({**asdict(changes), "changed": trends, **summed, "set": [*map(asdict, set_otherwise)]}))
     elif not options.quiet:
-        show(*_parts(changes))
+        show(*([_settings(set_otherwise)] if set_otherwise else []), *_parts(changes))
     if changes.any_worse:
         return WORSE
-    return CHANGED if changes.any_change else NO_CHANGE
+    return CHANGED if changes.any_change or set_otherwise else NO_CHANGE
 
 
 def _parts(changes: Changes) -> Iterator[Table | str]:
@@ -97,6 +102,23 @@ def _columns(changes: Changes) -> Table:
             _step(change.from_goes_on, change.to_goes_on),
             _distances(change),
             Text(change.new_reasons[0] if change.new_reasons and change.trend == "worse" else ""),
+        )
+    return table
+
+
+def _settings(changes: Sequence[SetChange]) -> Table:
+    from rich.text import Text
+
+    from ..shown.terminal import new_table
+
+    table = new_table("Column", "Comes to stand", "Then", "Moved", "u", numbers=("Moved", "u"))
+    for change in changes:
+        table.add_row(
+            Text(change.id),
+            _offset(change.from_pose and change.from_pose[:2]),
+            _offset(change.to_pose and change.to_pose[:2]),
+            "" if change.moved_mm is None else f"{change.moved_mm:.2f} mm",
+            "" if change.u_mm is None else f"{change.u_mm:.2f} mm",
         )
     return table
 

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
 from ..exit_codes import ALL_PASS
-from ..switches import add_switches
+from ..switches import add_switches, whole_number
 
 EXAMPLE = """\
 example:
   aadm simulate pair --setting field --out pair --seed 7
-  aadm simulate floor --out floor --seed 2026"""
+  aadm simulate floor --out floor --seed 2026
+  aadm simulate tower --out tower --columns 8"""
 _PAIR = "a column foot and the bars under it: two scans, truth.json and a job.toml that aadm check runs"
 _PAIR_EXAMPLE = """\
 example:
@@ -44,6 +46,7 @@ _SLIP = (
 _JOBS = {
     "floor": "the sample floor: scans, truth.json and job.toml of eight columns; the job wants floor3.ifc beside it",
     "lab": "the laboratory model: clouds, truth.json and job.toml of two columns",
+    "tower": "columns that will be set with known errors: scans, control points, truth.json, and a job for aadm stack",
 }
 _PACKAGES = ("manifold3d", "open3d")
 
@@ -80,6 +83,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         )
         job.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files")
         job.add_argument("--seed", type=int, default=2026, metavar="N", help="other errors (default: 2026)")
+        if name == "tower":
+            job.add_argument("--columns", type=whole_number, default=8, metavar="N", help="how many (default: 8)")
         add_switches(job, prints_json=None)
         job.set_defaults(run=_simulate_job, what=name)
 
@@ -114,13 +119,10 @@ def _simulate_pair(options: argparse.Namespace) -> int:
 
 def _simulate_job(options: argparse.Namespace) -> int:
     _require_virtual_camera()
-    from aadm_workbench.twin.floor import make_floor
-    from aadm_workbench.twin.lab import make_lab
-
     from ..shown.terminal import say, show
 
     _prepare(options)
-    for line in {"floor": make_floor, "lab": make_lab}[options.what](options.out, options.seed):
+    for line in _made(options):
         if not options.quiet:
             say(line)
     if not options.quiet:
@@ -128,6 +130,17 @@ def _simulate_job(options: argparse.Namespace) -> int:
             f"Wrote scans, truth.json and job.toml to {options.out}", f"Check it: aadm check {options.out / 'job.toml'}"
         )
     return ALL_PASS
+
+
+def _made(options: argparse.Namespace) -> Iterator[str]:
+    """The files of a job, one column after another, a line of each."""
+    from aadm_workbench.twin.floor import make_floor
+    from aadm_workbench.twin.lab import make_lab
+    from aadm_workbench.twin.tower import make_tower
+
+    if options.what == "tower":
+        return make_tower(options.out, options.seed, options.columns)
+    return {"floor": make_floor, "lab": make_lab}[options.what](options.out, options.seed)
 
 
 def _prepare(options: argparse.Namespace) -> None:

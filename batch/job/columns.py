@@ -10,10 +10,11 @@ from aadm_workbench.model.reports import LONGEST_ID
 from aadm_workbench.scan.axes import AXES
 
 from .direction import near_corner, read_frames, up_deg
+from .stack import read_set_pose
 from .table import JobTable
 
 _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
-_COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "axes", "near", "design", "control_points")
+_COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "axes", "near", "design", "control_points", "set_pose")
 MOST_COLUMNS = 20_000
 """Ten shipments of the largest kind."""
 
@@ -76,6 +77,7 @@ def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
         axes=table.one_of("axes", AXES, "") or None,
         near=near_corner(table),
         design=design,
+        set_pose=read_set_pose(table),
         control_points=_control_points(table, units=units, has_own_design=design is not None),
     )
 
@@ -106,4 +108,4 @@ def _design(column: JobTable, name: str) -> ColumnDesign | None:
     try:
         return inline_design(name, dict(table.values))
     except DesignError as error:
-        raise table.wrong(None, str(error)) from error
+        raise table.wrong(None, error.reason) from error

@@ -20,6 +20,7 @@ from aadm_workbench.scan.file import load
 from ..shown.printable import steering_character
 from .columns import read_columns
 from .lines import lines_of
+from .stack import read_stack
 from .table import WINDOWS_PATHS, JobTable
 
 LARGEST_JOB_BYTES = 16 * 2**20
@@ -29,7 +30,20 @@ _MOST_PARTS_OF_A_KEY = 64  # keys of a job have three; tables nested a thousand 
 _DOTTED = re.compile(r"[\w\"'-][ \t]*\.")
 
 CHECKS = ("sleeves", "rebars", "trial")
-_TOP = ("schema", "name", "units", "tolerances", "decision", "checks", "turns", "model", "camera", "capture", "columns")
+_TOP = (
+    "schema",
+    "name",
+    "units",
+    "tolerances",
+    "decision",
+    "checks",
+    "turns",
+    "model",
+    "camera",
+    "capture",
+    "stack",
+    "columns",
+)
 _MODEL = ("path", "columns", "sleeves", "rebars", "units")
 _CAMERA = ("fx", "fy", "cx", "cy", "width", "height", "depth_scale_mm", "scale_error")
 _CAPTURE = ("date", "operator", "camera_serial", "calibration", "settings")
@@ -65,6 +79,7 @@ def read_job(path: Path) -> Job:
         depth_scale_mm=depth_scale_mm,
         columns=(columns := read_columns(top, units=units, has_model=model is not None)),
         capture=_capture(top),
+        stack=read_stack(top),
         lines={column.id: top.line("columns", place, "id") for place, column in enumerate(columns)},
     )
 

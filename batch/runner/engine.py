@@ -11,6 +11,8 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeVar
 
+from aadm_workbench.model import Reason
+
 Task = TypeVar("Task")
 Outcome = TypeVar("Outcome")
 
@@ -173,7 +175,6 @@ class Unwatched:
 
 def _reason(died: Sequence[Death]) -> str:
     last = died[-1]
-    words = f"; the last that it wrote: {last.last_words}" if last.last_words else ""
-    if len(died) == 1:
-        return f"the process that checked it was {last.cause}{words}"
-    return f"{len(died)} processes that checked it died, the last was {last.cause}{words}"
+    code = "run.died" if len(died) == 1 else "run.died.several"
+    how = Reason(code, count=len(died), cause=last.cause)
+    return Reason("run.last_words", what=how, words=last.last_words) if last.last_words else how

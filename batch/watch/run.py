@@ -22,6 +22,7 @@ from aadm_workbench.inspection.column import inspect_column
 from aadm_workbench.inspection.hoisting import Before, measure_frame, unread
 from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.model import HoistingMeasurement, Verdict
+from aadm_workbench.model.reason import reason_of, renamed
 from aadm_workbench.report.json import encode
 
 from .folder import FolderWatch, corner_of
@@ -138,9 +139,9 @@ class Watcher:
         except (ScanError, OSError) as error:
             if self._may_be_unfinished(path):
                 return
-            measurement = _bad(name, str(error).replace(str(path), name))
+            measurement = _bad(name, renamed(reason_of(error), str(path), name))
         except (AadmError, MemoryError) as error:
-            measurement = _bad(name, str(error) or type(error).__name__)
+            measurement = _bad(name, reason_of(error) or type(error).__name__)
         except Exception as error:  # noqa: BLE001 - a crane must not wait because of one frame
             self.say(traceback.format_exc())
             measurement = _bad(name, f"internal error ({type(error).__name__}: {error})")

@@ -28,7 +28,7 @@ from aadm_workbench.model import (
     TrialReport,
     Verdict,
 )
-from aadm_workbench.model.finding_sentences import FINDING_SENTENCES
+from aadm_workbench.model.sentences.finding import SENTENCES
 from aadm_workbench.report.words.reasons import in_both_languages
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -315,9 +315,9 @@ def test_what_was_not_scanned_is_not_measured_and_a_failure_stays_one() -> None:
     assert (noted.verdict, noted.notes, noted.findings) == (Verdict.PASS, (told.text,), (told,))
 
 
-@pytest.mark.parametrize("name", FINDING_SENTENCES)
+@pytest.mark.parametrize("name", [code.removeprefix("finding.") for code in SENTENCES])
 def test_every_sentence_is_told_in_chinese_with_all_its_numbers(name: str) -> None:
-    english, chinese = FINDING_SENTENCES[name]
+    english, chinese = SENTENCES[f"finding.{name}"]
     places = sorted(re.findall(r"{(\w+)", english))
     assert set(places) == set(re.findall(r"{(\w+)", chinese))
     values: dict[str, Any] = {

@@ -18,7 +18,7 @@ from aadm_workbench import errors
 from aadm_workbench.assembly.tolerances import QUANTITIES
 from aadm_workbench.extract.method import METHODS
 from aadm_workbench.model import Verdict
-from aadm_workbench.model.finding_sentences import FINDING_SENTENCES
+from aadm_workbench.model.sentences.finding import SENTENCES
 from aadm_workbench.scan.read import supported_formats
 from aadm_workbench.twin.filters import NAMES as FILTERS
 from batch import exit_codes
@@ -131,7 +131,8 @@ def test_every_error_exit_code_verdict_and_finding(language: str) -> None:
     codes_of_exit = {value for value in vars(exit_codes).values() if type(value) is int}
     assert len(codes_of_exit) >= 7
     assert {value for value in codes_of_exit if not re.search(rf"^\| {value} \|", text, flags=re.MULTILINE)} == set()
-    assert missing({name.partition(".")[0] for name in FINDING_SENTENCES}, text) == []
+    findings = [code.removeprefix("finding.") for code in SENTENCES]
+    assert missing({name.partition(".")[0] for name in findings}, text) == []
     words = {"en": {verdict.value.replace("_", " ") for verdict in Verdict}, "zh": chinese_verdicts()}[language]
     assert {word for word in words if word not in text} == {"not assessed"} & words
 

@@ -72,7 +72,7 @@ def checked(case: Case) -> ColumnReport:
         design = replace(design, grid=case.grid, storey="3F", piece_mark="PCZ-1", T_model_column=T)
     if not case.kinds:
         named = {"grid": design.grid, "storey": design.storey, "T_model_column": design.T_model_column}
-        reason = (f"scans/{case.name}.tiff: ends or breaks off within its header; copy it again",)
+        reason = (f"scans/{case.name}.tiff: ends or breaks off within its header (12 bytes); copy it again",)
         return ColumnReport(case.name, Verdict.ERROR, Verdict.NOT_ASSESSED, reason, **named)
     scans = {kind: (Scan(np.zeros((9, 3)), f"{case.name}-{kind.plural}.ply", "a" * 64),) for kind in case.kinds}
     up = {f"{kind.plural}_up_deg": 90.0 for kind in case.kinds}

@@ -19,11 +19,11 @@ from aadm_workbench.model import (
     Finding,
     GroupReport,
     Kind,
+    Reason,
     TrialReport,
     Verdict,
     worst,
 )
-from aadm_workbench.model.finding_sentences import FINDING_SENTENCES
 
 NOT_MEASURED = ("mirrored", "swapped", "turn_contradicted", "other_column")
 """What was scanned is not what was to be measured; all else that holds back leaves a verdict open."""
@@ -40,13 +40,13 @@ def make_finding(name: str, about: Sequence[str], **values: Any) -> Finding:
     Parameters
     ----------
     name
-        A key of :data:`~aadm_workbench.model.finding_sentences.FINDING_SENTENCES`.
+        The code of its sentence in :mod:`aadm_workbench.model.sentences.finding`, without the first part.
     about
         Labels of points, or ``sleeves``, ``rebars``, ``column``.
     values
         What the sentence says; numbers as they are, the sentence rounds them.
     """
-    text = FINDING_SENTENCES[name].en.format(about=", ".join(about), **values)
+    text = Reason(f"finding.{name}", about=about, **values)
     return Finding(name.partition(".")[0], tuple(about), values, text, holds_back=True)
 
 

@@ -23,12 +23,12 @@ from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
 from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.edges.edge_shift import BLURRED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
-from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Finding, Kind
+from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Finding, Kind, codes_of
 
 _BADLY_BUILT_MM = 3.0  # root mean square: a half more than the limit of every single point
 _FITS_BETTER = 2.0  # on its own design, or on one like it, a group scatters by as much: by half is no chance
 _LOOKS = 3  # in one scan, for other columns' sizes: each takes as long as a check
-_UNFIT_REASONS = (SMOOTHED, GAPS_FILLED, COPIED, BLURRED)
+_UNFIT = {SMOOTHED.code, GAPS_FILLED.code, COPIED.code, BLURRED.code}
 _NEXT_BORE = 1.15  # sleeves for the next bar are 2 to 6 mm wider; found are those within 8 %
 _SIZES_EACH_WAY = 2  # bars two sizes off have been delivered; more would be seen from afar
 
@@ -108,7 +108,7 @@ def _is_told(findings: Sequence[Finding], kind: Kind) -> bool:
 
 def _is_lost(group: SeenGroup) -> bool:
     """Whether nothing explains yet that a group lies nowhere."""
-    explained = group.match.contradiction or any(reason in group.extraction.reason for reason in _UNFIT_REASONS)
+    explained = group.match.contradiction or _UNFIT & codes_of(group.extraction.reason)
     return not group.match and not explained
 
 

@@ -14,6 +14,7 @@ from aadm_workbench.assembly.findings.diameters import odd_bar_findings
 from aadm_workbench.assembly.findings.finding import SeenGroup, held_back, make_finding
 from aadm_workbench.assembly.findings.mistaken import NamedScan, mistaken_findings
 from aadm_workbench.assembly.findings.rules import findings_of
+from aadm_workbench.assembly.section.findings import section_findings
 from aadm_workbench.assembly.tolerances import sum_up
 from aadm_workbench.extract.method import extract_sizes
 from aadm_workbench.model import (
@@ -24,6 +25,7 @@ from aadm_workbench.model import (
     GroupReport,
     Kind,
     PointResult,
+    Reason,
     Scan,
     SpacingResult,
     TrialReport,
@@ -77,11 +79,11 @@ def with_findings(
     found = _without_turns(
         [*findings_of(design, list(groups.values())), *mistaken_findings(design, groups, scans, others)]
     )
-    found += shared_id_findings(design)
+    found += [*shared_id_findings(design), *section_findings(report.section)]
     if Kind.REBAR in seen and method == "refined":
         found += odd_bar_findings(groups[Kind.REBAR], seen[Kind.REBAR].scan, found, rng)
     lost = {kind for kind, group in groups.items() if not group.match}
-    said = [f"{kind.plural}: {groups[kind].match.reason}" for kind in lost if _told(found, kind)]
+    said = [Reason("said.of", what=kind.plural, why=groups[kind].match.reason) for kind in lost if _told(found, kind)]
     return held_back(without_spoilt(report, found, checks), found, said)
 
 
@@ -189,7 +191,7 @@ def _unmeasured(point: PointResult, reason: str) -> PointResult:
         cov_mm2=None,
         probability=None,
         verdict=Verdict.NOT_MEASURED,
-        reason=f"{point.label}: {reason}",
+        reason=Reason("said.of", what=point.label, why=reason),
     )
 
 

@@ -30,9 +30,9 @@ from aadm_workbench.assembly.matching.pattern_search import USUAL_SCATTER_MM
 from aadm_workbench.assembly.pose.eopa import wrap
 from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
-from aadm_workbench.model import Array, ColumnDesign, Finding, Kind
+from aadm_workbench.model import Array, ColumnDesign, Finding, Kind, codes_of
 
-_CODES = {SMOOTHED: "smoothed", GAPS_FILLED: "gaps_filled", COPIED: "edges_fattened"}
+_FILTERS = {SMOOTHED.code: "smoothed", GAPS_FILLED.code: "gaps_filled", COPIED.code: "edges_fattened"}
 
 PLAY_MM = 20.0
 """What a sleeve gives at the end that is assembled on site, beyond the embedded length: JG/T 398-2019 (recalled)."""
@@ -81,11 +81,12 @@ def filter_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
 
     Where holes were filled in one scan of a column, another one in which no pixel is lost was filled, too.
     """
-    filled = any(GAPS_FILLED in group.extraction.reason for group in groups)
+    filled = any(GAPS_FILLED.code in codes_of(group.extraction.reason) for group in groups)
     for group in groups:
-        for reason, code in _CODES.items():
-            also = reason == GAPS_FILLED and filled and group.extraction.complete
-            if reason in group.extraction.reason or also:
+        told = codes_of(group.extraction.reason)
+        for filtered, code in _FILTERS.items():
+            also = filtered == GAPS_FILLED.code and filled and group.extraction.complete
+            if filtered in told or also:
                 yield make_finding(code, [group.kind.plural], group=group.kind.plural)
 
 

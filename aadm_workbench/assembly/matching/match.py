@@ -24,7 +24,7 @@ from aadm_workbench.assembly.matching.pattern_search import (
 )
 from aadm_workbench.assembly.matching.symmetry import is_its_own_mirror
 from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar, plane_basis, upright_transform, wrap
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Orientation
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Orientation, Reason
 
 DECLARED_WITHIN_RAD = math.radians(44.0)
 """A declared direction chooses the nearest turn within this; half of the 90° between the turns of a square."""
@@ -139,9 +139,9 @@ def match_extraction(
 ) -> Match:
     """Match the points of one extraction to the design points of their kind; parameters as :func:`match_points`."""
     if not extraction.points:
-        return Match(reason=extraction.reason or f"no {extraction.kind.value} was found in the scan")
+        return Match(reason=extraction.reason or Reason("assembly.none_found", kind=extraction.kind.value))
     if extraction.vertical is None:
-        return Match(reason=extraction.reason or "the scan does not show which way is up")
+        return Match(reason=extraction.reason or Reason("assembly.no_vertical"))
     measured = np.array([point.centre for point in extraction.points])
     centres = np.array([point.centre for point in design])
     return match_points(measured, extraction.vertical, centres, up=up, image_up_scan=image_up_scan)
@@ -173,22 +173,22 @@ def match_points(
     """
     needed = max(2, min(3, len(design)))
     if len(measured) < needed:
-        return Match(reason=f"only {len(measured)} points were found, {needed} are needed to lay them on the design")
+        return Match(reason=Reason("assembly.few_points", count=len(measured), needed=needed))
     basis = plane_basis(vertical)
     image_angle = _image_angle(basis, image_up_scan)
     if up is not None and image_angle is None:
-        return Match(reason="up was declared, but the scan has no direction across the vertical that it could describe")
+        return Match(reason=Reason("assembly.up_says_nothing"))
     flat, places = (measured @ basis.T)[:, :2], np.ascontiguousarray(design[:, :2])
     fewest = max(needed, _half(len(measured), len(design)))
     planar = [found for found in search_placements(flat, places) if found.found >= fewest]
     if _fits_better_mirrored(planar, flat, places, fewest):
         return Match(reason=_mirrored(len(flat), len(design)), contradiction="mirrored")
     if not planar:
-        return Match(reason=f"the {len(flat)} points found do not fit the pattern of the {len(design)} design points")
+        return Match(reason=Reason("assembly.unfit", measured=len(flat), design=len(design)))
     placements = [_placement(found, measured, basis, design, image_angle) for found in planar]
     possible = [found for found in placements if found is not None]
     if not possible:
-        return Match(reason="the points that were found coincide")
+        return Match(reason=Reason("assembly.coincide"))
     answer = _oriented(possible, _plausible(possible, planar[0]), up)
     return _with_extra(answer, len(measured))
 
@@ -231,10 +231,7 @@ def _best_likelihood(planar: list[PlanarPlacement]) -> float:
 
 
 def _mirrored(measured: int, design: int) -> str:
-    return (
-        f"the {measured} points found do not fit the pattern of the {design} design points, but their mirror image "
-        "does: the scan is mirrored, or it was taken from the other side than supposed"
-    )
+    return Reason("assembly.mirrored", measured=measured, design=design)
 
 
 def _plausible(placements: list[Placement], best: PlanarPlacement) -> list[Placement]:
@@ -282,7 +279,7 @@ def _scatter_mm(fit: EopaFit, places: Array) -> float:
 def _oriented(possible: list[Placement], plausible: list[Placement], up: Array | float | None) -> Match:
     """The match that the data and a declared ``up`` leave, of the placements that are ``possible`` at all."""
     if not plausible:
-        return Match(reason="the points that were found coincide")
+        return Match(reason=Reason("assembly.coincide"))
     if up is None:
         return Match(tuple(plausible), "resolved" if len(plausible) == 1 else "ambiguous")
     declared = math.radians(up) if isinstance(up, int | float) else math.atan2(float(up[1]), float(up[0]))
@@ -323,10 +320,13 @@ def _open_turn(chosen: Placement, others: list[Placement], declared: float) -> f
 def _contradicted(declared: float, fitting: Placement, as_declared: Placement | None) -> Match:
     said, actual = (round(math.degrees(angle or 0.0)) % 360 for angle in (declared, fitting.up))
     turned = math.degrees(_off(fitting, declared))
-    how = "it fits only with" if as_declared is None else f"it fits to {fitting.rms_mm:.2f} mm with"
-    reason = f"the pattern contradicts the declared up of {said}°: {how} {actual}° at the top of the image"
-    reason += f", {turned:.0f}° away" if as_declared is None else f", to {as_declared.rms_mm:.2f} mm as declared"
-    rivals = (fitting,) if as_declared is None else (fitting, as_declared)
+    if as_declared is None:
+        rivals: tuple[Placement, ...] = (fitting,)
+        reason = Reason("assembly.up_contradicted", said=said, actual=actual, turned=turned)
+    else:
+        fits = {"fitting_mm": fitting.rms_mm, "declared_mm": as_declared.rms_mm}
+        reason = Reason("assembly.up_contradicted.worse", said=said, actual=actual, **fits)
+        rivals = (fitting, as_declared)
     return Match(reason=reason, contradiction="turn_contradicted", contradicting=rivals, declared=declared)
 
 

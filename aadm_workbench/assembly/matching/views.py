@@ -19,7 +19,7 @@ from aadm_workbench.assembly.matching.match import Match, Placement
 from aadm_workbench.assembly.matching.overlap import Overlap, View, overlap_of
 from aadm_workbench.assembly.matching.pattern_search import DISTINCT_LOG_RATIO
 from aadm_workbench.assembly.place import moved_point
-from aadm_workbench.model import AssemblyPoint, Extraction
+from aadm_workbench.model import AssemblyPoint, Extraction, Reason
 
 _SHARED_MIN = 3  # a pose has three unknowns, and two points leave nothing to check it by
 _APART_MM = 1.0  # two views of one point may differ by this much; beyond it the views do not belong together
@@ -73,7 +73,11 @@ def merge_views(extractions: Sequence[Extraction], matches: Sequence[Match]) -> 
     usable = [k for k, match in enumerate(matches) if match]
     if not usable:
         return extractions[0], ()
-    notes = [f"view {k + 1} was left out: {matches[k].reason}" for k in range(len(matches)) if k not in usable]
+    notes = [
+        Reason("assembly.view_left_out", view=k + 1, why=matches[k].reason)
+        for k in range(len(matches))
+        if k not in usable
+    ]
     merged = _Merged(extractions[usable[0]], _labellings(matches[usable[0]], extractions[usable[0]], 0))
     waiting = {k: _labellings(matches[k], extractions[k], k) for k in usable[1:]}
     refused: dict[int, str] = {}
@@ -87,7 +91,7 @@ def merge_views(extractions: Sequence[Extraction], matches: Sequence[Match]) -> 
         k = max(joins, key=lambda number: joins[number].overlap.shared)
         merged = _joined(merged, extractions[k], joins[k])
         del waiting[k]
-    notes += [f"view {k + 1} was left out: {refused[k]}" for k in waiting]
+    notes += [Reason("assembly.view_left_out", view=k + 1, why=refused[k]) for k in waiting]
     return merged.extraction, tuple(notes)
 
 
@@ -111,13 +115,13 @@ def _best_join(merged: _Merged, view: Extraction, labellings: Sequence[_Labellin
     shared = best.overlap.shared
     rivals = [join for join in others if join.log_likelihood > best.log_likelihood - DISTINCT_LOG_RATIO]
     if rivals:
-        return f"it is open which points it shares with the others: it lies on them in {len(rivals) + 1} ways"
+        return Reason("assembly.open_shared", ways=len(rivals) + 1)
     if shared < _SHARED_MIN:
-        return f"it shares {shared} points with the others, {_SHARED_MIN} are needed"
+        return Reason("assembly.few_shared", shared=shared, needed=_SHARED_MIN)
     if best.overlap.apart_mm > max(_APART_MM, _APART_SIGMAS * best.overlap.u_mm):
-        return f"the points it shares with the others lie up to {best.overlap.apart_mm:.2f} mm apart"
+        return Reason("assembly.shared_apart", apart_mm=best.overlap.apart_mm)
     if others and not best.overlap.agrees:
-        return "the points it shares with the others differ by more than their uncertainty: it is open which they are"
+        return Reason("assembly.shared_differ")
     return best
 
 

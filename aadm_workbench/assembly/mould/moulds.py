@@ -14,7 +14,17 @@ import numpy as np
 
 from aadm_workbench.assembly.mould.drift import CONFIDENCE, SharedDisplacement, cp_index, cpk_index, shared_displacement
 from aadm_workbench.assembly.tolerances import applicable_rules
-from aadm_workbench.model import Capability, ColumnReport, GroupReport, MouldDrift, Profile, Rule, SleeveDrift, Vector2
+from aadm_workbench.model import (
+    Capability,
+    ColumnReport,
+    GroupReport,
+    MouldDrift,
+    Profile,
+    Reason,
+    Rule,
+    SleeveDrift,
+    Vector2,
+)
 
 FEWEST_COLUMNS = 3
 """Columns of one mould: of two nobody can say what is the mould's and what is scatter."""
@@ -77,10 +87,10 @@ def _assess(feet: Sequence[tuple[ColumnReport, GroupReport]], rule: Rule | None)
 
 def _axis_limit(rule: Rule | None) -> tuple[float | None, float | None, str]:
     if rule is None:
-        return None, None, "the profile has no limit for the position of sleeves"
+        return None, None, Reason("assembly.no_position_limit")
     if rule.kind == "per_axis":
-        return rule.upper, rule.upper, "the limit holds for each axis"
-    return rule.upper, rule.upper / math.sqrt(2.0), "the square inscribed in the circle of the limit: limit / sqrt(2)"
+        return rule.upper, rule.upper, Reason("assembly.limit_per_axis")
+    return rule.upper, rule.upper / math.sqrt(2.0), Reason("assembly.inscribed")
 
 
 def _sleeve(label: str, shared: SharedDisplacement, k: int, u_mm: float, axis_limit_mm: float | None) -> SleeveDrift:
@@ -112,19 +122,19 @@ def _capability(axis: str, limit_mm: float | None, mean_mm: float, scatter_mm: f
 
 def _conclusion(sleeves: Sequence[SleeveDrift], columns: int, scatter_mm: float) -> str:
     drifting = [
-        f"{sleeve.label} by ({sleeve.mean_mm[0]:+.2f}, {sleeve.mean_mm[1]:+.2f}) mm"
+        Reason("assembly.displaced", label=sleeve.label, dx_mm=sleeve.mean_mm[0], dy_mm=sleeve.mean_mm[1])
         for sleeve in sleeves
         if sleeve.drifts
     ]
     loose = [sleeve.label for sleeve in sleeves if sleeve.scatters_more]
     parts = [
-        f"displaced alike in {columns} columns: {', '.join(drifting)}; look at the mould"
+        Reason("assembly.displaced_alike", columns=columns, sleeves=drifting)
         if drifting
-        else f"no sleeve is displaced alike in these {columns} columns"
+        else Reason("assembly.none_displaced", columns=columns)
     ]
     if loose:
-        parts.append(f"scatters more than the others: {', '.join(loose)}; look at its fixing")
-    return f"{'. '.join(parts)} (scatter {scatter_mm:.2f} mm per axis)"
+        parts.append(Reason("assembly.scatters", sleeves=loose))
+    return Reason("assembly.mould", parts=parts, scatter_mm=scatter_mm)
 
 
 def _vector(values: Sequence[float]) -> Vector2:

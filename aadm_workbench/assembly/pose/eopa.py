@@ -17,7 +17,7 @@ from typing import Literal
 import numpy as np
 
 from aadm_workbench.errors import AadmError
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 COLLINEAR_RATIO = 1e-6
 """Points whose second extent is below this part of the first lie on a line, and leave a turn about it open."""
@@ -109,7 +109,7 @@ def fit_eopa(X: Array, Y: Array, weights: Array | None = None, huber_mm: float |
     """
     _check_shapes(X, Y, 3)
     if len(X) < 3:
-        return NoFit(f"{len(X)} points given, a pose in space needs 3")
+        return NoFit(Reason("assembly.fit_few_space", count=len(X)))
     return _fit(X, Y, weights, huber_mm, rank=2)
 
 
@@ -124,7 +124,7 @@ def fit_eopa_planar(X: Array, Y: Array, weights: Array | None = None, huber_mm: 
     """
     _check_shapes(X, Y, 2)
     if len(X) < 2:
-        return NoFit(f"{len(X)} points given, a pose in the plane needs 2")
+        return NoFit(Reason("assembly.fit_few_plane", count=len(X)))
     return _fit(X, Y, weights, huber_mm, rank=1)
 
 
@@ -150,16 +150,18 @@ def _fit(X: Array, Y: Array, weights: Array | None, huber_mm: float | None, rank
 
 def _why_not(X: Array, Y: Array, weights: Array, rank: int) -> str:
     if not (np.isfinite(X).all() and np.isfinite(Y).all()):
-        return "a coordinate is not finite"
+        return Reason("assembly.fit_not_finite")
     if weights.shape != (len(X),) or not np.isfinite(weights).all() or (weights < 0).any():
         return f"weights must be {len(X)} numbers, none negative"
     used = weights > 0
     for points, name in ((X[used], "source"), (Y[used], "target")):
         if len(points) <= rank:
-            return f"only {len(points)} points have a weight"
+            return Reason("assembly.fit_few_weights", count=len(points))
         extents = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
         if extents[rank - 1] <= COLLINEAR_RATIO * max(extents[0], 1e-9 * float(np.abs(points).max()) + 1e-12):
-            return f"the {name} points {'lie on one line' if rank == 2 and extents[0] > 0 else 'coincide'}"
+            return Reason(
+                "assembly.fit_on_line" if rank == 2 and extents[0] > 0 else "assembly.fit_coincide", name=name
+            )
     return ""
 
 

@@ -29,11 +29,13 @@ from aadm_workbench.model import (
     BoolArray,
     ColumnDesign,
     Profile,
+    Reason,
     RepairAction,
     RepairReport,
     RepairStep,
     TrialReport,
     Verdict,
+    in_one,
 )
 
 SAMPLES = 1000
@@ -41,13 +43,12 @@ SAMPLES = 1000
 
 _GRAVEST_FIRST = tuple(reversed(RepairAction))
 
-DISPOSAL_PLAN = "a disposal plan (特殊处理方案) agreed with the designer is needed"
-NOTHING_FOUND = f"no set of bars was found whose bending would let the column in: {DISPOSAL_PLAN}"
+DISPOSAL_PLAN = Reason("assembly.disposal_plan")
+NOTHING_FOUND = Reason("assembly.no_bars_found", plan=DISPOSAL_PLAN)
 
-ADVICE_TO_RESCAN = "rescan closer: at the measured values the column goes in, no bar has to be bent"
+ADVICE_TO_RESCAN = Reason("assembly.rescan")
 
 _MOST_NAMED = 3  # more of them make no line
-_RELEASE = "subject to the engineer's release"
 
 
 def advise_repair(
@@ -85,7 +86,7 @@ def advise_repair(
         plan, exact = found
     report = _tried_again(_report(case, plan, exact), case, plan, decision, generator)
     advice = advice_on_steps(report, trial) if plan.bends else ADVICE_TO_RESCAN
-    notes = (f"not measured, and not in this advice: {', '.join(trial.missing)}",) if trial.missing else ()
+    notes = (Reason("assembly.not_in_advice", labels=trial.missing),) if trial.missing else ()
     return replace(report, advice=advice, notes=(*report.notes, *notes))
 
 
@@ -159,40 +160,34 @@ def _tried_again(
     )
 
 
-def advice_on_steps(report: RepairReport, trial: TrialReport) -> str:
+def advice_on_steps(report: RepairReport, trial: TrialReport) -> Reason:
     """What to do about each pair, and what the trial comes to once it is done."""
     if report.action is RepairAction.DISPOSAL_PLAN:
         why = [step.reason for step in report.steps if step.action is RepairAction.DISPOSAL_PLAN]
-        more = f"; and {len(why) - _MOST_NAMED} more" if len(why) > _MOST_NAMED else ""
-        return f"{_RELEASE}: no bend can be advised; {DISPOSAL_PLAN}: {'; '.join(why[:_MOST_NAMED])}{more}"
-    parts = [_of_step(step) for step in report.steps]
-    first = "rescan closer; if that confirms it, " if trial.verdict is Verdict.INCONCLUSIVE else ""
-    bars = "" if report.exact else " (the best that was found; fewer bars might do)"
-    return f"{_RELEASE}: {first}{'; '.join(parts)}{bars}{_outcome(report)}{_still(report)}"
+        more = [Reason("assembly.more", count=len(why) - _MOST_NAMED)] if len(why) > _MOST_NAMED else []
+        return Reason("assembly.advise_plan", plan=DISPOSAL_PLAN, why=[*why[:_MOST_NAMED], *more])
+    what = Reason("said.all", parts=[_of_step(step) for step in report.steps])
+    if not report.exact:
+        what = Reason("assembly.best_found", what=what)
+    if report.after is not None:
+        what = _outcome(what, report.after.max_mm, report.probability)
+    if report.still_fails:
+        one = len(report.still_fails) == 1
+        code = "assembly.still_beyond" if one else "assembly.still_beyond.several"
+        what = Reason(code, what=what, labels=report.still_fails)
+    doubtful = trial.verdict is Verdict.INCONCLUSIVE
+    return Reason("assembly.advise.if_confirmed" if doubtful else "assembly.advise", what=what)
 
 
 def _of_step(step: RepairStep) -> str:
     if step.action is RepairAction.REJECT_SLEEVE:
-        return f"reject the position of {step.sleeve}: {step.reason}"
+        return Reason("assembly.reject", sleeve=step.sleeve, why=step.reason)
     dx, dy = step.bend_mm or (0.0, 0.0)
-    text = f"bend {step.rebar} by ({dx:+.1f}, {dy:+.1f}) mm"
-    if step.upright:
-        text += " and set it upright"
-    return text + (f"; {step.reason}" if step.reason else "")
+    text = Reason("assembly.bend.upright" if step.upright else "assembly.bend", rebar=step.rebar, dx=dx, dy=dy)
+    return in_one([text, step.reason] if step.reason else [text])
 
 
-def _outcome(report: RepairReport) -> str:
-    if report.after is None:
-        return ""
-    then = f". Then the largest distance is {report.after.max_mm:.2f} mm"
-    if report.probability is not None and report.probability < PASS_PROBABILITY:
-        then += f", and the trial may stay inconclusive (a pose exists with {100.0 * report.probability:.0f} %)"
-    return then
-
-
-def _still(report: RepairReport) -> str:
-    """What fails even then: the position of bars that the trial does not ask for."""
-    if not report.still_fails:
-        return ""
-    one = len(report.still_fails) == 1
-    return f". Still beyond {'its' if one else 'their'} own limit of position then: {', '.join(report.still_fails)}"
+def _outcome(what: Reason, max_mm: float, probability: float | None) -> Reason:
+    if probability is not None and probability < PASS_PROBABILITY:
+        return Reason("assembly.after.doubtful", what=what, max_mm=max_mm, percent=100.0 * probability)
+    return Reason("assembly.after", what=what, max_mm=max_mm)

@@ -11,8 +11,8 @@ from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.repair.case import RepairCase
 from aadm_workbench.assembly.repair.places import own_places
 from aadm_workbench.assembly.repair.plan import Bend, RepairPlan, after_repair
-from aadm_workbench.assembly.tolerances import describe_clause
-from aadm_workbench.model import Array, RepairAction, RepairStep, Rule
+from aadm_workbench.assembly.tolerances import describe_clause, describe_limit
+from aadm_workbench.model import Array, Reason, RepairAction, RepairStep
 
 
 def repair_steps(case: RepairCase, plan: RepairPlan) -> tuple[RepairStep, ...]:
@@ -50,12 +50,12 @@ def _step(
         action, reason = RepairAction.BEND, ""
     elif sleeve_to_blame:
         action = RepairAction.REJECT_SLEEVE
-        reason = (
-            f"{pair.sleeve} is {sleeve_off_mm:.2f} mm off the place that the other sleeves give it, {pair.rebar} is not"
-        )
+        reason = Reason("assembly.sleeve_off", sleeve=pair.sleeve, off_mm=sleeve_off_mm, rebar=pair.rebar)
     elif may_bend:
         action = RepairAction.BEND
-        reason = f"{pair.rebar} then is {after_mm:.2f} mm from design, {_limit(case.rebar_rule)}"
+        reason = Reason(
+            "assembly.then_from_design", rebar=pair.rebar, after_mm=after_mm, limit=describe_limit(case.rebar_rule)
+        )
     else:
         action, reason = RepairAction.DISPOSAL_PLAN, _why_not_bent(case, bend)
     return RepairStep(
@@ -79,15 +79,12 @@ def _step(
 def _why_not_bent(case: RepairCase, bend: Bend) -> str:
     pair = case.pairs[bend.pair]
     if bend.by is None:
-        return f"no bend helps: {pair.rebar} over its ribs and its lean takes more room than {pair.sleeve} has"
-    far = f"{pair.rebar} would have to move {bend.length_mm:.1f} mm"
+        return Reason("assembly.no_bend_helps", rebar=pair.rebar, sleeve=pair.sleeve)
     if case.adjustment_rule is None:
-        return f"{far}, and the profile does not say how far a bar may be bent"
-    return f"{far}, {_limit(case.adjustment_rule)}"
-
-
-def _limit(rule: Rule | None) -> str:
-    return "no limit" if rule is None else f"limit {rule.upper:g} mm ({describe_clause(rule)})"
+        return Reason("assembly.too_far.no_rule", rebar=pair.rebar, length_mm=bend.length_mm)
+    far = Reason("assembly.too_far", rebar=pair.rebar, length_mm=bend.length_mm)
+    rule = case.adjustment_rule
+    return Reason("assembly.beyond", how=far, upper=rule.upper, clause=describe_clause(rule))
 
 
 def _deviations(measured: Array, design: Array) -> Array:

@@ -42,9 +42,11 @@ from aadm_workbench.model import (
     ControlResidual,
     GroupReport,
     Profile,
+    Reason,
     Rule,
     RuleResult,
     Verdict,
+    in_one,
     worst,
 )
 
@@ -91,9 +93,9 @@ def inspect_absolute(
     """
     found = [(target, point) for target, point in zip(design, placed, strict=True) if point is not None]
     if isinstance(pose, NoFit):
-        return AbsolutePosition(Verdict.NOT_MEASURED, f"absolute position: {pose.reason}")
+        return AbsolutePosition(Verdict.NOT_MEASURED, Reason("said.of", what="absolute position", why=pose.reason))
     if len(found) < 2:
-        reason = "absolute position: fewer than two bars were measured"
+        reason = Reason("survey.absolute_few_bars")
         return AbsolutePosition(Verdict.NOT_MEASURED, reason)
     T = pose.T_column_scan
     measured = np.array([T[:3, :3] @ point.scan_mm + T[:3, 3] for _, point in found])
@@ -117,7 +119,7 @@ def results_of(absolute: AbsolutePosition, rules: DatumRules) -> tuple[RuleResul
         results.append(rule_result(rules.group, absolute.verdict, absolute.reason, absolute.deviation_mm))
     if rules.bar is not None:
         verdict = Verdict.NOT_MEASURED if unknown else worst(point.verdict for point in absolute.points)
-        reason = absolute.reason if unknown else "; ".join(point.reason for point in absolute.points if point.reason)
+        reason = absolute.reason if unknown else in_one(point.reason for point in absolute.points if point.reason)
         worst_mm = max((point.deviation_mm for point in absolute.points), default=None)
         results.append(rule_result(rules.bar, verdict, reason, worst_mm))
     return tuple(results)
@@ -137,7 +139,7 @@ def _bar(
     rule = rules.bar or rules.group
     decided = _decide(offset, covariance, rule, decision)
     deviation_mm, u_mm = float(np.hypot(*offset)), standard_uncertainty(covariance)
-    what = f"{label} is {deviation_mm:.2f} mm from its place in the building"
+    what = Reason("survey.off_in_building", label=label, deviation_mm=deviation_mm)
     return AbsolutePoint(
         label=label,
         offset_mm=(float(offset[0]), float(offset[1])),
@@ -165,7 +167,7 @@ def _group(
     covariance = _with_pose(mean, pose, measured.mean(axis=0), scale_error)
     decided = _decide(offset, covariance, rule, decision)
     deviation_mm, u_mm = float(np.hypot(*offset)), standard_uncertainty(covariance)
-    what = f"the bars as a group are {deviation_mm:.2f} mm off their place ({offset[0]:+.2f}, {offset[1]:+.2f})"
+    what = Reason("survey.group_off", deviation_mm=deviation_mm, dx_mm=offset[0], dy_mm=offset[1])
     return AbsolutePosition(
         verdict=decided.verdict,
         reason=_reason(what, u_mm, rule, decided.verdict),
@@ -197,10 +199,7 @@ def _turned(
     group = replace(group, turn_deg=turn_deg, turn_u_deg=math.degrees(math.sqrt(variance)))
     if abs(turn_deg) <= LARGEST_TURN_DEG:
         return group
-    reason = (
-        f"absolute position: by the control points the bars are turned by {turn_deg:.0f}° against the declared up; "
-        "one of the two is wrong"
-    )
+    reason = Reason("survey.group_turned", turn_deg=turn_deg)
     return replace(group, verdict=Verdict.NOT_MEASURED, reason=reason, points=())
 
 
@@ -214,10 +213,8 @@ def _decide(offset: Array, covariance: Array | None, rule: Rule | None, decision
 def _reason(what: str, u_mm: float | None, rule: Rule | None, verdict: Verdict) -> str:
     if rule is None or verdict not in (Verdict.FAIL, Verdict.INCONCLUSIVE):
         return ""
-    text = f"{what}, limit {rule.upper:g} mm ({describe_clause(rule)})"
-    if verdict is Verdict.FAIL:
-        return text
-    return f"{text}: too close to it for an uncertainty of {u_mm or 0.0:.2f} mm"
+    text = Reason("assembly.beyond", how=what, upper=rule.upper, clause=describe_clause(rule))
+    return text if verdict is Verdict.FAIL else Reason("assembly.close", what=text, u_mm=u_mm or 0.0)
 
 
 def _residuals(points: Sequence[ControlPoint], pose: ControlPose) -> tuple[ControlResidual, ...]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.assembly.pose.eopa import EopaFit, NoFit, fit_eopa, fit_eopa_planar, plane_basis, upright_transform
-from aadm_workbench.model import Array, ControlPoint
+from aadm_workbench.model import Array, ControlPoint, Reason
 
 DEFAULT_U_MM = 0.5
 """Standard uncertainty per axis of a control point of which nobody stated one: a good total station's."""
@@ -89,14 +89,14 @@ def fit_control_points(
     ControlPose, or NoFit with the reason: too few points, no vertical, or points that contradict each other.
     """
     if T_model_column is None and any(point.in_model for point in points):
-        return NoFit("the design has no place in a model, so control points must be given in the column frame")
+        return NoFit(Reason("survey.control_no_model"))
     known = np.array([_in_column_frame(point, T_model_column) for point in points]).reshape(-1, 3)
     scan = np.array([point.scan_mm for point in points], dtype=np.float64).reshape(-1, 3)
     u_mm = np.array([DEFAULT_U_MM if point.u_mm is None else point.u_mm for point in points])
     if _spans_a_plane(known):
         pose = _whole_pose(scan, known, u_mm)
     elif vertical_scan is None:
-        return NoFit("the control points lie on one line, and the scan does not show the vertical")
+        return NoFit(Reason("survey.control_on_line"))
     else:
         pose = _upright_pose(scan, known, u_mm, vertical_scan)
     if isinstance(pose, NoFit):
@@ -138,7 +138,7 @@ def _upright_pose(scan: Array, known: Array, u_mm: Array, vertical_scan: Array) 
     flat = scan @ basis.T
     fit = fit_eopa_planar(np.ascontiguousarray(flat[:, :2]), np.ascontiguousarray(known[:, :2]), 1.0 / u_mm**2)
     if not isinstance(fit, EopaFit):
-        return NoFit(f"the control points do not show how the scan is turned: {fit.reason}")
+        return NoFit(Reason("survey.control_no_turn", why=fit.reason))
     rise = float((known[:, 2] - flat[:, 2]).mean())
     return _pose(upright_transform(basis, fit.yaw, fit.t, rise), scan, known, u_mm, "scan")
 
@@ -185,17 +185,11 @@ def _contradiction(points: Sequence[ControlPoint], pose: ControlPose, scan: Arra
     if lengths[worst] > max(LARGEST_RESIDUAL_MM, _SIGMAS * float(stated[worst])):
         extents = [float(np.sqrt(((v - v.mean(axis=0)) ** 2).sum())) for v in (pose.known, scan)]
         stretch = extents[0] / max(extents[1], 1e-12)
-        unit = f"; they are {stretch:.3g} times as far apart as in the scan" if not 0.9 < stretch < 1.1 else ""
-        return (
-            f"the control points contradict each other: {points[worst].name} is {lengths[worst]:.1f} mm off "
-            f"where the others put it{unit}; check names, order and unit"
-        )
+        code = "survey.control_contradict" if 0.9 < stretch < 1.1 else "survey.control_contradict.scale"
+        return Reason(code, name=points[worst].name, off_mm=lengths[worst], stretch=stretch)
     if vertical_scan is not None:
         cosine = float(pose.T_column_scan[2, :3] @ vertical_scan)
         off = math.acos(min(1.0, max(-1.0, cosine)))
         if off > VERTICAL_WITHIN_RAD:
-            return (
-                f"by the control points the column would lean {math.degrees(off):.0f}° against the vertical of "
-                "the scan: check their names and their order"
-            )
+            return Reason("survey.control_lean", lean_deg=math.degrees(off))
     return ""

@@ -18,8 +18,8 @@ from aadm_workbench.assembly.decision import Decision, DecisionRule, decide_radi
 from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.pose.best_pose import BestFit
 from aadm_workbench.assembly.pose.eopa import planar_transform, turn
-from aadm_workbench.assembly.tolerances import describe_clause
-from aadm_workbench.model import Array, BestPair, BestPose, PairResult, Rule, TrialPose, Verdict, worst
+from aadm_workbench.assembly.tolerances import describe_limit
+from aadm_workbench.model import Array, BestPair, BestPose, PairResult, Reason, Rule, TrialPose, Verdict, in_one, worst
 
 _FEWEST = 4
 """With fewer axes, that they agree says little."""
@@ -170,10 +170,7 @@ def _close(pair: Pair, found: PairResult, verdict: Verdict) -> str:
     """The reason where the distance is decided and the room is not."""
     if verdict is not Verdict.INCONCLUSIVE or found.clearance_mm is None:
         return ""
-    return (
-        f"{pair.rebar} has {found.clearance_mm:.2f} mm of room left in {pair.sleeve} over the ribs: "
-        "too little for its uncertainty"
-    )
+    return Reason("assembly.little_room", rebar=pair.rebar, room_mm=found.clearance_mm, sleeve=pair.sleeve)
 
 
 def _reason(
@@ -186,15 +183,15 @@ def _reason(
 ) -> str:
     texts = []
     if rule is not None and verdict in (Verdict.FAIL, Verdict.INCONCLUSIVE):
-        limit = f"limit {rule.upper:g} mm ({describe_clause(rule)})"
-        texts.append(f"{pair.rebar} is {distance_mm:.2f} mm from the centre of {pair.sleeve}, {limit}")
-        if verdict is Verdict.INCONCLUSIVE:
-            texts[-1] += f": too close to it for an uncertainty of {u_mm or 0.0:.2f} mm"
-    if clearance_mm is not None and clearance_mm < 0.0:
+        limit = describe_limit(rule)
         texts.append(
-            f"{pair.rebar} collides with {pair.sleeve}: {-clearance_mm:.2f} mm of room are missing over the ribs"
+            Reason("assembly.from_centre", rebar=pair.rebar, distance_mm=distance_mm, sleeve=pair.sleeve, limit=limit)
         )
-    return "; ".join(texts)
+        if verdict is Verdict.INCONCLUSIVE:
+            texts = [Reason("assembly.close", what=texts[0], u_mm=u_mm or 0.0)]
+    if clearance_mm is not None and clearance_mm < 0.0:
+        texts.append(Reason("assembly.collides", rebar=pair.rebar, sleeve=pair.sleeve, missing_mm=-clearance_mm))
+    return in_one(texts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,11 +214,13 @@ class CommonLean:
     def in_words(self, length_mm: float) -> str:
         """``all bars lean alike by 0.8°``, with what it may mean."""
         found = [
-            f"all {name} lean alike by {math.degrees(math.atan2(float(np.hypot(*shift)), length_mm)):.1f}°"
+            Reason(
+                "assembly.lean_alike", name=name, lean_deg=math.degrees(math.atan2(float(np.hypot(*shift)), length_mm))
+            )
             for name, shift in (("bars", self.bars), ("sleeves", self.sleeves))
             if shift.any()
         ]
-        return f"{' and '.join(found)}: they may do so, or the vertical of their scan is off by as much"
+        return Reason("assembly.common_lean", found=found)
 
 
 def common_lean(pairs: Sequence[Pair], length_mm: float) -> CommonLean:

@@ -17,7 +17,7 @@ from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.tolerances import applicable_rules
 from aadm_workbench.assembly.trial.pose import evaluate_pose
 from aadm_workbench.assembly.trial.virtual import distance_limits, open_ways
-from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, FitCell, Profile
+from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, FitCell, Profile, Reason
 
 SAME_PLACE_MM = 0.5
 """Columns of one mark differ by less: a quarter of what a sleeve may stand off."""
@@ -87,18 +87,18 @@ def _in_turn(
     turn_deg = math.degrees(option.angle)
     pairs, missing = form_pairs(design, sleeves, rebars, option.onto.tolist())
     if not pairs:
-        return FitCell(None, turn_deg=turn_deg, reason=f"not measured: {', '.join(missing)}")
+        return FitCell(None, turn_deg=turn_deg, reason=Reason("assembly.missing", labels=missing))
     rule = next(iter(applicable_rules(profile, "sleeve_rebar_distance")[0]), None)
     limits_mm = distance_limits(pairs, rule)
     if limits_mm is None:
-        return FitCell(None, turn_deg=turn_deg, reason="neither a limit of the distance nor the room is known")
+        return FitCell(None, turn_deg=turn_deg, reason=Reason("assembly.no_limit_nor_room.cell"))
     fit = fit_best_pose(pairs, limits_mm)
     if isinstance(fit, NoFit):
         return FitCell(None, turn_deg=turn_deg, reason=fit.reason)
     pose = evaluate_pose(pairs, fit.yaw, fit.shift, rule, "simple")
     margin = NO_ROOM_MARGIN if fit.margin is None else fit.margin
     if missing and margin >= 0.0:
-        return FitCell(None, pose.max_mm, turn_deg, f"not measured: {', '.join(missing)}")
+        return FitCell(None, pose.max_mm, turn_deg, Reason("assembly.missing", labels=missing))
     return FitCell(margin, pose.max_mm, turn_deg)
 
 

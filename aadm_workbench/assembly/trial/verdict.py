@@ -15,10 +15,10 @@ from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.assembly.pose.minimax import find_window
 from aadm_workbench.assembly.pose.pose_probability import Existence
 from aadm_workbench.assembly.tolerances import applicable_rules, not_assessed, rule_result
-from aadm_workbench.model import PairResult, PoseWindow, Profile, RuleResult, TrialPose, TrialReport, Verdict
+from aadm_workbench.model import PairResult, PoseWindow, Profile, Reason, RuleResult, TrialPose, TrialReport, Verdict
 
 QUANTITY = "sleeve_rebar_distance"
-NO_POSE = "no pose brings every rebar into its sleeve"
+NO_POSE = Reason("assembly.no_pose")
 
 _MOST_RESCANNED = 2  # a person scans again once or twice, and then sees further
 _OF_THE_WORST = 0.5  # of the worst one's share: the second counts as long as it is about as bad
@@ -77,7 +77,7 @@ def judge_without_limits(report: TrialReport) -> TrialReport:
     if report.minimax is not None and report.collisions:
         reasons = tuple(pair.reason for pair in report.minimax.pairs if _collides(pair))
         return replace(report, verdict=Verdict.FAIL, reasons=reasons)
-    reason = "neither a limit of the distance nor the room over the ribs is known"
+    reason = Reason("assembly.no_limit_nor_room")
     return replace(report, verdict=Verdict.NOT_ASSESSED, reasons=(reason,))
 
 
@@ -102,7 +102,7 @@ def pair_u_mm(pair: Pair) -> float:
 
 def _to_rescan(pair: Pair) -> tuple[str, str]:
     label = pair.sleeve if pair.sleeve_u_mm > pair.rebar_u_mm else pair.rebar
-    return label, f"{label} (u = {max(pair.sleeve_u_mm, pair.rebar_u_mm):.2f} mm)"
+    return label, Reason("assembly.with_u", label=label, u_mm=max(pair.sleeve_u_mm, pair.rebar_u_mm))
 
 
 def _collides(pair: PairResult) -> bool:
@@ -122,17 +122,14 @@ def _reasons(
         reasons += [pair.reason for pair in pairs if pair.reason and (pair.verdict is Verdict.FAIL or _collides(pair))]
         reasons = reasons or [NO_POSE]
     if existence is not None and by_measure is not Verdict.PASS:
-        text = f"the probability that a pose exists is {100.0 * existence.probability:.1f} %"
+        text = Reason("assembly.probability", percent=100.0 * existence.probability)
         if by_measure is Verdict.INCONCLUSIVE:
-            named = " and ".join(said for _, said in rescan)
             likely = existence.probability >= PASS_PROBABILITY
-            text += (
-                ", but what was hardly seen does not pass" if likely else ", too close to the limit for the uncertainty"
-            )
-            text += ": rescan closer" + f", above all {named}" * bool(named)
+            code = "assembly.hardly_seen" if likely else "assembly.undecided"
+            text = Reason(f"{code}.above_all" if rescan else code, text=text, points=[said for _, said in rescan])
         reasons.append(text)
     if report.missing:
-        reasons.append(f"not measured: {', '.join(report.missing)}")
+        reasons.append(Reason("assembly.missing", labels=report.missing))
     return tuple(reasons)
 
 
@@ -145,14 +142,12 @@ def _rules(profile: Profile, report: TrialReport, by_measure: Verdict) -> tuple[
         verdict = by_measure if index == 0 else looser
         reason = "" if verdict is Verdict.PASS else _why(report, largest_mm, rule.upper)
         results.append(rule_result(rule, verdict, reason, largest_mm))
-    return (*results, *(not_assessed(rule, "it is no limit of a single pair") for rule in skipped))
+    return (*results, *(not_assessed(rule, Reason("assembly.of_no_pair")) for rule in skipped))
 
 
 def _why(report: TrialReport, largest_mm: float, limit_mm: float) -> str:
-    text = f"largest distance {largest_mm:.2f} mm, limit {limit_mm:g} mm"
-    if largest_mm <= limit_mm and report.collisions:
-        text += f"; no room over the ribs in {', '.join(report.collisions)}"
-    return text
+    code = "assembly.largest.no_room" if largest_mm <= limit_mm and report.collisions else "assembly.largest"
+    return Reason(code, largest_mm=largest_mm, limit_mm=limit_mm, sleeves=report.collisions)
 
 
 def _window(fit: BestFit) -> PoseWindow | None:
@@ -164,11 +159,8 @@ def _window(fit: BestFit) -> PoseWindow | None:
 def _notes(pairs: Sequence[Pair]) -> tuple[str, ...]:
     notes = []
     if any(pair.room_mm is None for pair in pairs):
-        notes.append("clearance over the ribs not checked: the outer diameter of a bar is not known")
+        notes.append(Reason("assembly.room_not_checked"))
     seen = [pair.seen_length_mm for pair in pairs if pair.seen_length_mm is not None]
     if seen:
-        notes.append(
-            f"of the embedded length of the bars {min(seen):.0f} to {max(seen):.0f} mm were seen; "
-            "below, a bar is taken to be straight within 4 mm a metre (GB/T 1499.2-2018, 6.5, unverified)"
-        )
+        notes.append(Reason("assembly.seen_length", least_mm=min(seen), most_mm=max(seen)))
     return tuple(notes)

@@ -28,7 +28,7 @@ from aadm_workbench.assembly.pose.best_pose import fit_best_pose
 from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.pose.minimax import fit_minimax
 from aadm_workbench.assembly.pose.pose_probability import SAMPLES, existence_of_a_pose
-from aadm_workbench.assembly.tolerances import applicable_rules, describe_clause
+from aadm_workbench.assembly.tolerances import applicable_rules, describe_limit
 from aadm_workbench.assembly.trial.pose import common_lean, evaluate_best_pose, evaluate_pose
 from aadm_workbench.assembly.trial.verdict import collisions, judge_trial, judge_without_limits
 from aadm_workbench.model import (
@@ -37,6 +37,7 @@ from aadm_workbench.model import (
     ColumnDesign,
     Extraction,
     Profile,
+    Reason,
     Rule,
     TrialReport,
     TurnResult,
@@ -67,7 +68,9 @@ def try_scans(
     """
     for extraction, match in (sleeves, rebars):
         if not match:
-            return TrialReport(Verdict.NOT_MEASURED, reasons=(f"{extraction.kind.plural}: {match.reason}",))
+            return TrialReport(
+                Verdict.NOT_MEASURED, reasons=(Reason("said.of", what=extraction.kind.plural, why=match.reason),)
+            )
     reports = []
     for sleeve_turn, rebar_turn in open_ways(design, sleeves[1], rebars[1]):
         report = try_assembly(
@@ -138,15 +141,13 @@ def try_assembly(
 def _design_notes(design: ColumnDesign, profile: Profile) -> tuple[str, ...]:
     """What of the design itself bears on the trial: an assumed size, and pairs that miss the limit as drawn."""
     given = design.rebar_outer_diameter_mm or all(bar.outer_diameter_mm for bar in design.rebars)
-    notes = [] if given else [f"diameter over the ribs after {RIBBED_BAR_SOURCE}"]
+    notes = [] if given else [Reason("assembly.ribs_after", source=RIBBED_BAR_SOURCE)]
     for rule in applicable_rules(profile, "sleeve_rebar_distance")[0][:1]:
         for sleeve, rebar in zip(design.sleeves, design.rebars, strict=False):
             apart_mm = float(np.hypot(*(rebar.centre - sleeve.centre)[:2]))
             if apart_mm > rule.upper:
-                notes.append(
-                    f"in the design itself {rebar.label} is {apart_mm:.2f} mm off {sleeve.label}, "
-                    f"limit {rule.upper:g} mm ({describe_clause(rule)})"
-                )
+                pair = {"rebar": rebar.label, "sleeve": sleeve.label}
+                notes.append(Reason("assembly.design_off", **pair, apart_mm=apart_mm, limit=describe_limit(rule)))
     return tuple(notes)
 
 
@@ -169,7 +170,9 @@ def _try_both_ways(
     if other.verdict is report.verdict:
         return replace(report, notes=(*report.notes, said))
     verdict = Verdict.NOT_MEASURED if missing else Verdict.INCONCLUSIVE
-    depends = f"{said}; as measured the trial comes to {report.verdict.value}, without that to {other.verdict.value}"
+    depends = Reason(
+        "assembly.depends_on_lean", said=said, as_measured=report.verdict.value, without=other.verdict.value
+    )
     return replace(report, verdict=verdict, reasons=(depends, *report.reasons))
 
 
@@ -186,7 +189,7 @@ def _try_pairs(
     target = np.array([pair.sleeve_xy for pair in pairs]).reshape(-1, 2)
     squares = fit_eopa_planar(source, target)
     if isinstance(squares, NoFit):
-        reason = f"no trial with {len(pairs)} pairs of sleeve and rebar: {squares.reason}"
+        reason = Reason("assembly.no_trial", count=len(pairs), why=squares.reason)
         return TrialReport(Verdict.NOT_MEASURED, missing=missing, reasons=(reason,))
     limits = distance_limits(pairs, rule)
     fit = fit_minimax(source, target, np.ones(len(pairs)) if limits is None else limits)
@@ -225,9 +228,13 @@ def _agree(reports: Sequence[TrialReport], match: Match) -> TrialReport:
     reasons = [note]
     if verdict is Verdict.INCONCLUSIVE:
         counts = [sum(report.verdict is kind for report in reports) for kind in _BEST_FIRST]
-        found = [f"{kind.value} in {count}" for kind, count in zip(_BEST_FIRST, counts, strict=True) if count]
-        reasons.append(f"of {len(reports)} turns of the bars against the sleeves: {', '.join(found)}")
-    reasons += [f"in the first of these turns: {reason}" for reason in reports[0].reasons]
+        found = [
+            Reason("assembly.verdict_in", verdict=kind.value, count=count)
+            for kind, count in zip(_BEST_FIRST, counts, strict=True)
+            if count
+        ]
+        reasons.append(Reason("assembly.turns_come_to", turns=len(reports), found=found))
+    reasons += [Reason("assembly.first_turn", why=reason) for reason in reports[0].reasons]
     return replace(reports[0], verdict=verdict, reasons=tuple(reasons))
 
 

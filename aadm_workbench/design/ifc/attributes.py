@@ -11,6 +11,8 @@ from typing import Any
 from aadm_workbench.design.ifc.names import properties, text_of
 from aadm_workbench.design.ifc.text.file import OpenedIfc
 from aadm_workbench.design.recognise.pattern import nominal_of_over_ribs
+from aadm_workbench.model import Reason
+from aadm_workbench.model.reason import listed
 
 _LENGTHS_MM = {"feet": 304.8, "inches": 25.4, "metres": 1000.0, "centimetres": 10.0, "millimetres": 1.0}
 _AREAS_MM2 = {"cm²": 100.0, "m²": 1e6, "mm²": 1.0, "square inches": 645.16, "square feet": 92903.04}
@@ -64,16 +66,18 @@ class Contradictions:
             if slips:
                 written_mm = written * self.opened.mm
                 slip, drawn_mm = slips[0]
-                notes += [f"NominalDiameter is {written_mm:.4g} mm{slip}, drawn is {drawn_mm:g} mm, which was believed"]
+                notes += [_believed("NominalDiameter", f"{written_mm:.4g}", slip, f"{drawn_mm:g}")]
         for note in notes:
             self._note(note, element)
 
     def lines(self) -> list[str]:
         """One line for each contradiction, the most frequent first, with the elements that have it."""
         ranked = sorted(self._found.items(), key=lambda item: -len(item[1]))
-        lines = [f"{_listed(elements)}: {note}" for note, elements in ranked[:_SHOWN_KINDS]]
+        lines: list[str] = [
+            Reason("said.of", what=_listed(elements), why=note) for note, elements in ranked[:_SHOWN_KINDS]
+        ]
         rest = sum(len(elements) for _, elements in ranked[_SHOWN_KINDS:])
-        return [*lines, f"{rest} more elements have attributes that contradict what is drawn"] if rest else lines
+        return [*lines, Reason("ifc.more_attributes", count=rest)] if rest else lines
 
     def _note(self, note: str, element: Any) -> None:
         elements = self._found.setdefault(note, [])
@@ -86,11 +90,11 @@ class Contradictions:
             return drawn_mm, None, []
         written_mm = round(written * self.opened.mm, 6)
         if nominal_of_over_ribs(drawn_mm) == round(written_mm, 3):
-            note = f"drawn over the ribs, {drawn_mm:g} mm; the NominalDiameter of {written_mm:g} mm was taken"
+            note = Reason("ifc.drawn_over_ribs", drawn_mm=drawn_mm, written_mm=written_mm)
             return written_mm, drawn_mm, [note]
         over_ribs = nominal_of_over_ribs(written_mm) == round(drawn_mm, 3)
-        said = " (over the ribs)" if over_ribs else self._slip(written, drawn_mm)
-        note = f"NominalDiameter is {written_mm:g} mm{said}, drawn is {drawn_mm:g} mm, which was believed"
+        slip = "over the ribs" if over_ribs else self._slip(written, drawn_mm)
+        note = _believed("NominalDiameter", f"{written_mm:g}", slip, f"{drawn_mm:g}")
         return drawn_mm, written_mm if over_ribs else None, [note]
 
     def _length(self, element: Any, name: str, lengths_mm: Sequence[float]) -> list[str]:
@@ -102,7 +106,7 @@ class Contradictions:
         if any(abs(written_mm - drawn) < max(_SAME_LENGTH_RATIO * drawn, 1.0) for drawn in whole_mm):
             return []
         slip = next((slip for drawn in whole_mm if (slip := self._slip(written, drawn))), "")
-        return [f"{name} is {written_mm:.4g} mm{slip}, drawn is {lengths_mm[0]:.1f} mm, which was believed"]
+        return [_believed(name, f"{written_mm:.4g}", slip, f"{lengths_mm[0]:.1f}")]
 
     def _area(self, element: Any, diameter_mm: float) -> list[str]:
         written, unit_mm2 = self.opened.naming.attribute(element, "CrossSectionArea"), self.opened.mm2
@@ -112,17 +116,17 @@ class Contradictions:
         if _near(written * unit_mm2, drawn_mm2, _SAME_AREA_RATIO):
             return []
         units = (name for name, unit in _AREAS_MM2.items() if _near(written * unit, drawn_mm2, _SAME_AREA_RATIO))
-        said = f" (it is in {unit})" if (unit := next(units, None)) else ""
-        drawn = f"a bar of {diameter_mm:g} mm has {drawn_mm2:.1f} mm², which was believed"
-        return [f"CrossSectionArea is {written * unit_mm2:.4g} mm²{said}, {drawn}"]
+        sizes = {"written_mm2": written * unit_mm2, "diameter_mm": diameter_mm, "drawn_mm2": drawn_mm2}
+        unit = next(units, "")
+        return [Reason("ifc.area_slip" if unit else "ifc.area", unit=unit, **sizes)]
 
     def _slip(self, written: float, drawn_mm: float) -> str:
         """The unit in which an attribute must have been written to mean what is drawn, in words."""
         for name, unit_mm in _LENGTHS_MM.items():
             if unit_mm != self.opened.mm and _near(written * unit_mm, drawn_mm, _SAME_RATIO):
-                return f" (it is in {name})"
+                return Reason("ifc.it_is_in", unit=name)
             if unit_mm > 1.0 and _near(written * self.opened.mm * unit_mm, drawn_mm, _SAME_RATIO):
-                return f" (it is in {name})"
+                return Reason("ifc.it_is_in", unit=name)
         return ""
 
 
@@ -146,11 +150,16 @@ def _near(value: float, other: float, within_ratio: float) -> bool:
     return abs(value - other) <= within_ratio * abs(other)
 
 
+def _believed(name: str, written_mm: str, slip: str, drawn_mm: str) -> Reason:
+    """That an attribute and the drawing differ; ``slip`` is how it was meant, where that is known."""
+    code = "ifc.believed_slip" if slip else "ifc.believed"
+    return Reason(code, name=name, written_mm=written_mm, slip=slip, drawn_mm=drawn_mm)
+
+
 def _listed(elements: Sequence[Any]) -> str:
     first = elements[0]
     if len(elements) == 1:
         called = f' "{name}"' if (name := text_of(first.Name)) else ""
         return f"{first.is_a()} {first.GlobalId}{called}"
-    shown = ", ".join(element.GlobalId for element in elements[:_SHOWN_ELEMENTS])
-    more = f" and {len(elements) - _SHOWN_ELEMENTS} more" if len(elements) > _SHOWN_ELEMENTS else ""
-    return f"{len(elements)} {first.is_a()} ({shown}{more})"
+    shown = listed([element.GlobalId for element in elements], _SHOWN_ELEMENTS)
+    return Reason("ifc.several", count=len(elements), type=first.is_a(), shown=shown)

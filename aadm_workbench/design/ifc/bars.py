@@ -16,7 +16,7 @@ from aadm_workbench.design.ifc.text.file import OpenedIfc
 from aadm_workbench.design.model_design import NotTaken
 from aadm_workbench.design.recognise.bar_courses import Course
 from aadm_workbench.design.recognise.paths import Leg, Straight
-from aadm_workbench.model import Array, AssemblyPoint, Kind
+from aadm_workbench.model import Array, AssemblyPoint, Kind, Reason, in_one
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -93,7 +93,7 @@ class BarEnd:
             axis=self.axis,
             diameter_mm=self.diameter_mm,
             global_id=self.global_id,
-            why=f"{self.why}; {why}",
+            why=in_one([self.why, why]),
             length_mm=self.length_mm,
         )
 
@@ -145,7 +145,8 @@ def _ends_of(
     refused = None
     if not selector:
         refused = opened.naming.of(element).why_not_connecting(opened.naming.predefined_type(element))
-    bars, drawn = _bars_of(opened, element, shapes)
+    bars, is_axis = _bars_of(opened, element, shapes)
+    evidence = Reason("ifc.axis_of", what=evidence) if is_axis else evidence
     if not bars:
         left.append(_without_bars(element, shapes, refused))
     lengths_mm = [bar.length_mm for bar in bars]
@@ -155,8 +156,7 @@ def _ends_of(
         tops = [] if reason else upright_ends(list(bar.legs))
         wholes = frozenset(whole.id() for whole in ifc_names.wholes(element)) if tops else frozenset()
         said = opened.naming.said(element)
-        shown = f'{evidence}{drawn} "{said}"' if said else f"{evidence}{drawn}"
-        why = "; ".join([shown, *sizes[2]])
+        why = in_one([Reason("ifc.evidence", evidence=evidence, said=said) if said else evidence, *sizes[2]])
         ends += [BarEnd.of(element, bar, top, why, sizes[0], sizes[1], wholes) for top in tops]
         if not tops:
             left.append(no_end(element, bar, sizes[0], reason or geometric_reason(list(bar.legs))))
@@ -166,16 +166,16 @@ def _ends_of(
 def not_a_bar(bar: Course) -> str | None:
     """Why a body is no reinforcing bar whatever it is called; None where it may be one."""
     if bar.hollow:
-        return "is hollow: a pipe or a sleeve"
+        return Reason("ifc.hollow")
     if bar.diameter_mm > _THICKEST_MM:
-        return f"is {bar.diameter_mm:g} mm thick: no reinforcing bar"
+        return Reason("ifc.thickness", diameter_mm=bar.diameter_mm)
     return None
 
 
 def _candidates(opened: OpenedIfc, selector: str | None) -> Iterable[tuple[Any, str]]:
     if selector:
         chosen = ifc_names.select(opened.file, opened.source, "rebars", selector)
-        yield from ((element, "chosen by the selector") for element in chosen)
+        yield from ((element, Reason("ifc.chosen")) for element in chosen)
         return
     yield from ((element, "IfcReinforcingBar") for element in opened.file.by_type("IfcReinforcingBar"))
     seen: set[int] = set()
@@ -188,25 +188,24 @@ def _candidates(opened: OpenedIfc, selector: str | None) -> Iterable[tuple[Any, 
                 yield element, element.is_a()
 
 
-def _bars_of(opened: OpenedIfc, element: Any, shapes: Shapes) -> tuple[Sequence[Course], str]:
-    """Bars of one element, from its body, else from its axis; and what is to be said about how it is drawn."""
+def _bars_of(opened: OpenedIfc, element: Any, shapes: Shapes) -> tuple[Sequence[Course], bool]:
+    """Bars of one element, from its body, else from its axis alone; and whether it was the latter."""
     bars = shapes.bars_of_product(element)
     if bars:
-        return bars, ""
+        return bars, False
     lines = shapes.axes_of_product(element)
     diameter_mm = written_diameter_mm(opened, element) if lines else None
     if diameter_mm is None:
-        return (), ""
-    return [Course(legs, diameter_mm) for legs in lines], ", drawn as its axis alone"
+        return (), False
+    return [Course(legs, diameter_mm) for legs in lines], True
 
 
 def _without_bars(element: Any, shapes: Shapes, refused: str | None) -> NotTaken:
+    reason = shapes.undrawn(element)
     if shapes.axes_of_product(element):
-        reason = "is drawn as its axis alone, and neither it nor its type says its diameter"
+        reason = Reason("ifc.axis_alone")
     elif shapes.of_product(element):
-        reason = "is drawn as a body without two round ends: no straight bar"
-    else:
-        reason = shapes.undrawn(element)
+        reason = Reason("ifc.no_round_ends")
     return NotTaken.of("rebar", element, refused or reason)
 
 
@@ -226,13 +225,13 @@ def geometric_reason(legs: list[Leg]) -> str:
     """Why a bar of this course has no upright end that a column could come down on."""
     length_mm = sum(leg.length_mm for leg in legs)
     if length_mm < _SHORTEST_MM:
-        return f"is {length_mm:.2f} mm long: a fragment"
+        return Reason("ifc.fragment", length_mm=length_mm)
     if np.linalg.norm(legs[0].start - legs[-1].end) < 1.0:
-        return "is closed: a stirrup"
+        return Reason("ifc.closed")
     if len(legs) == 1 and isinstance(legs[0], Straight):
         lean = np.degrees(np.arccos(min(1.0, abs(float(legs[0].direction @ UP)))))
-        return f"leans {lean:.1f}° from the vertical"
-    return f"has no straight upright end of {_SHORTEST_MM:.0f} mm: a stirrup, spiral or bent bar"
+        return Reason("ifc.leans", lean_deg=lean)
+    return Reason("ifc.no_end", least_mm=_SHORTEST_MM)
 
 
 def no_end(element: Any, bar: Course, diameter_mm: float, reason: str) -> NotTaken:

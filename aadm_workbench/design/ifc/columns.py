@@ -107,7 +107,7 @@ def find_columns(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> tup
 
 
 def _body_of(opened: OpenedIfc, shapes: Shapes, element: Any) -> ColumnBody | None:
-    drawn = [element] if shapes.of_product(element) else _concrete_parts(opened, element)
+    drawn = [element] if shapes.of_product(element) else concrete_parts(opened, element)
     body = [shape for part in drawn for shape in shapes.of_product(part)]
     feet = feet_of(shapes.placements.of_product(element), body)
     if not feet:
@@ -161,7 +161,8 @@ def _column_in(element: Any) -> Any:
     return columns[0] if len(columns) == 1 else None
 
 
-def _concrete_parts(opened: OpenedIfc, element: Any) -> list[Any]:
+def concrete_parts(opened: OpenedIfc, element: Any) -> list[Any]:
+    """The parts of an element that draw its concrete: neither steel nor sleeves."""
     no_concrete = (
         "IfcDiscreteAccessory",
         "IfcFastener",

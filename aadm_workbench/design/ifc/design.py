@@ -16,8 +16,9 @@ from aadm_workbench.design.ifc.search import FoundFoot
 from aadm_workbench.design.ifc.sleeves import Mouth
 from aadm_workbench.design.ifc.under import Under
 from aadm_workbench.design.recognise.pattern import label_order
-from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Kind
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Kind, Reason
 
+_SAME_SIDE_MM = 0.5  # a tenth of what a section may be off
 _PAIR_LIMIT_MM = 3.0
 """Between the centre lines of a bar and its sleeve: GB/T 51231-2016, 10.4."""
 
@@ -56,10 +57,18 @@ def points_of(found: FoundFoot, under: Under) -> ColumnDesign:
         rebars=rebars,
         size_mm=(round(foot.sides_mm[0], 6), round(foot.sides_mm[1], 6)),
         T_model_column=T,
+        section_middle_mm=_section_middle(foot, middle),
         rebar_outer_diameter_mm=_over_ribs(bars),
         embedded_length_mm=_embedded(bars, foot, mouths),
         warnings=(*found.warnings, *under.warnings, *_own_misses(sleeves, rebars)),
     )
+
+
+def _section_middle(foot: Foot, middle: Array) -> tuple[float, float] | None:
+    """Middle of the face in the column frame; None where the smallest rectangle around it stands askew."""
+    if not np.allclose(foot.sides_mm, 2.0 * foot.half_size_mm, atol=_SAME_SIDE_MM):
+        return None
+    return -float(middle[0]), -float(middle[1])
 
 
 def _own_misses(sleeves: Sequence[AssemblyPoint], rebars: Sequence[AssemblyPoint]) -> list[str]:
@@ -68,12 +77,14 @@ def _own_misses(sleeves: Sequence[AssemblyPoint], rebars: Sequence[AssemblyPoint
         (bar.label, sleeve.label): float(np.linalg.norm(_off_axis(sleeve, bar)))
         for sleeve, bar in zip(sleeves, rebars, strict=False)
     }
-    beyond = [f"{r} {mm:.1f} mm beside the axis of {s}" for (r, s), mm in apart_mm.items() if mm > _PAIR_LIMIT_MM]
+    beyond = [
+        Reason("ifc.beside", rebar=r, apart_mm=mm, sleeve=s) for (r, s), mm in apart_mm.items() if mm > _PAIR_LIMIT_MM
+    ]
     if beyond:
-        return [f"the design itself misses the {_PAIR_LIMIT_MM:g} mm between bar and sleeve: {', '.join(beyond)}"]
+        return [Reason("ifc.design_misses", limit_mm=_PAIR_LIMIT_MM, pairs=beyond)]
     worst_mm = max(apart_mm.values(), default=0.0)
     if worst_mm > _OFF_AXIS_MM:
-        return [f"in the model itself bars stand up to {worst_mm:.1f} mm beside their sleeves' axes"]
+        return [Reason("ifc.bars_beside", worst_mm=worst_mm)]
     return []
 
 
@@ -107,7 +118,7 @@ def _sleeve(number: int, mouth: Mouth, middle: Array) -> AssemblyPoint:
         axis=mouth.axis,
         diameter_mm=round(mouth.bore_mm, 6),
         global_id=candidate.element.GlobalId,
-        why=f"{candidate.why}; {shape} Ø {mouth.bore_mm:.1f} mm, {mouth.length_mm:.0f} mm long, opens in the foot face",
+        why=Reason("ifc.opens", why=candidate.why, shape=shape, bore_mm=mouth.bore_mm, length_mm=mouth.length_mm),
         length_mm=round(mouth.length_mm, 6),
     )
 
@@ -127,12 +138,12 @@ def _rebars(bars: Sequence[BarEnd | None], sleeves: Sequence[AssemblyPoint], T: 
     for number, (bar, sleeve) in enumerate(zip(bars, sleeves, strict=True), start=1):
         if bar is None:
             assumed = sleeve.centre + height_mm / sleeve.axis[2] * sleeve.axis
-            why = f"not in the model: assumed on the axis of {sleeve.label}"
+            why = Reason("ifc.assumed", label=sleeve.label)
             points.append(AssemblyPoint(f"R{number}", Kind.REBAR, assumed, sleeve.axis, common_mm, why=why))
             continue
         centre = _local(T, bar.top)
         apart_mm = float(np.linalg.norm(centre[:2] - sleeve.centre[:2]))
-        point = bar.point(f"upright under the foot, {apart_mm:.1f} mm beside the axis of {sleeve.label}")
+        point = bar.point(Reason("ifc.under_foot", apart_mm=apart_mm, label=sleeve.label))
         axis = bar.axis @ T[:3, :3]
         points.append(replace(point, label=f"R{number}", centre=centre, axis=axis, outer_diameter_mm=bar.over_ribs_mm))
     return tuple(points)

@@ -13,7 +13,7 @@ from aadm_workbench.design.ifc.geometry.shapes import Shapes
 from aadm_workbench.design.ifc.geometry.solids import BROKEN
 from aadm_workbench.design.ifc.names import text_of
 from aadm_workbench.design.recognise.paths import Straight, joined
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 FARTHEST_MM = 1500.0
 """Columns stand off their grid lines by part of their own width; one further off belongs to no crossing."""
@@ -46,7 +46,7 @@ def crossings(file: Any, shapes: Shapes) -> list[Crossing]:
             T = shapes.placements.of_product(grid)
             families = [_axes(axes or (), T, shapes) for axes in (grid.UAxes, grid.VAxes, grid.WAxes)]
         except BROKEN as error:
-            shapes.problems.append(f"IfcGrid {grid.GlobalId} was left out: {error}")
+            shapes.problems.append(Reason("ifc.grid", global_id=grid.GlobalId, why=error))
             continue
         for first, second in combinations(families, 2):
             found += [met for u in first for v in second if (met := _meeting(u, v)) is not None]

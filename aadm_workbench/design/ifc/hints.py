@@ -12,6 +12,8 @@ from aadm_workbench.design.ifc.search import FoundFoot, SleeveSearch
 from aadm_workbench.design.ifc.sleeves import Candidate
 from aadm_workbench.design.ifc.text.file import OpenedIfc
 from aadm_workbench.design.model_design import NotTaken
+from aadm_workbench.model import Reason, codes_of
+from aadm_workbench.model.reason import listed
 
 _SHOWN = 4  # of each: more make no sentence
 _RUNNING_NUMBER = re.compile(r"[\s:#_.([-]*\d+[)\]]?$")
@@ -31,36 +33,39 @@ def explain(
     if any(found.mouths for _, found in feet):
         return ""
     if not feet:
-        return " ".join([_no_columns(opened, left), _lying_about(loose_sleeves, loose_rebars)]).strip()
+        return _told(_no_columns(opened, left), _lying_about(loose_sleeves, loose_rebars))
     called = sorted({body.called for body, _ in feet})
-    more = f" and {len(called) - _SHOWN} more" if len(called) > _SHOWN else ""
-    number = f"{len(feet)} column{'s were' if len(feet) > 1 else ' was'}"
-    looked = f"{number} looked at ({', '.join(called[:_SHOWN])}{more}); no grouting sleeve opens in a foot face."
-    on_head = [entry for entry in left if entry.what == "column" and "on its head" in entry.reason]
+    code = "ifc.looked_at" if len(feet) == 1 else "ifc.looked_at.several"
+    looked = Reason(code, count=len(feet), called=listed(called, _SHOWN))
+    on_head = [entry for entry in left if entry.what == "column" and "ifc.on_head" in codes_of(entry.reason)]
     why = _on_head(on_head) if on_head else _in_feet(feet, search, left)
-    return " ".join(text for text in (looked, why, _lying_about(loose_sleeves, loose_rebars)) if text)
+    return _told(looked, why, _lying_about(loose_sleeves, loose_rebars))
+
+
+def _told(*sentences: str) -> str:
+    """Whole sentences, one behind the other."""
+    return Reason("said.sentences", parts=[text for text in sentences if text])
 
 
 def _on_head(left: Sequence[NotTaken]) -> str:
     called = [entry.names[0] if entry.names else entry.global_id for entry in left]
-    more = f" and {len(called) - _SHOWN} more" if len(called) > _SHOWN else ""
-    return f"Column {', '.join(called[:_SHOWN])}{more} {left[0].reason}."
+    return Reason("ifc.column_is", called=listed(called, _SHOWN), why=left[0].reason)
 
 
 def _no_columns(opened: OpenedIfc, left: Sequence[NotTaken]) -> str:
     if any(entry.what == "column" for entry in left):
-        return "Its columns have no geometry that could be evaluated: export it with bodies, not as a reference only."
+        return Reason("ifc.reference_only")
     names: Counter[tuple[str, str]] = Counter()
     for ifc_class in _MAY_BE_COLUMNS:
         names.update((e.is_a(), _kind(text_of(e.Name))) for e in opened.file.by_type(ifc_class))
-    says = "There is no IfcColumn in it, and nothing called a column."
+    says = Reason("ifc.no_column")
     if not names:
         return says
-    shown = "; ".join(f"{count} {cls} called {name!r}" for (cls, name), count in names.most_common(_SHOWN))
+    ranked = names.most_common(_SHOWN)
+    shown = [Reason("ifc.called", count=count, type=cls, name=repr(name)) for (cls, name), count in ranked]
     (ifc_class, name), _ = names.most_common(1)[0]
-    return (
-        f"{says} What may be one: {shown}. Say which are columns, for instance {_selector('columns', ifc_class, name)}."
-    )
+    selector = _selector("columns", ifc_class, name)
+    return Reason("said.sentences", parts=[says, Reason("ifc.may_be", shown=shown, selector=selector)])
 
 
 def _in_feet(feet: Sequence[tuple[ColumnBody, FoundFoot]], search: SleeveSearch, left: Sequence[NotTaken]) -> str:
@@ -70,25 +75,34 @@ def _in_feet(feet: Sequence[tuple[ColumnBody, FoundFoot]], search: SleeveSearch,
         for candidate, reason in (*found.refused, *search.refused_in(body, found.foot)):
             seen.setdefault(id(candidate), (candidate, reason))
     if not seen and (undrawn := [entry for entry in left if entry.what == "sleeve" and entry.point is None]):
-        reasons = Counter(f"{entry.ifc_class}: each {_NUMBER.sub('', entry.reason)}" for entry in undrawn)
-        return "Left out were " + "; ".join(f"{count} {why}" for why, count in reasons.most_common(_SHOWN)) + "."
-    if not seen:
-        return (
-            "Nothing round lies in their feet: the export may leave out what is cast in (embedded parts, "
-            "reinforcement, openings). Sleeves elsewhere, or drawn in another way, are named with "
-            f"{_selector('sleeves', 'IfcDiscreteAccessory', '套筒')}."
+        reasons = Counter((entry.ifc_class, _of_any(entry.reason)) for entry in undrawn).most_common(_SHOWN)
+        return Reason(
+            "ifc.left_out", shown=[Reason("ifc.each", count=n, type=cls, why=why) for (cls, why), n in reasons]
         )
+    if not seen:
+        return Reason("ifc.nothing_round", selector=_selector("sleeves", "IfcDiscreteAccessory", "套筒"))
     groups = Counter((c.element.is_a(), _kind(text_of(c.element.Name)), reason) for c, reason in seen.values())
     ranked = groups.most_common(_SHOWN)
-    shown = "; ".join(f"{count} {cls} called {name!r}: each {reason}" for (cls, name, reason), count in ranked)
+    shown = [
+        Reason("ifc.called_each", count=count, type=cls, name=repr(name), why=why) for (cls, name, why), count in ranked
+    ]
     (ifc_class, name, _), _ = ranked[0]
-    return f"Round things in their feet: {shown}. Where these are sleeves, say {_selector('sleeves', ifc_class, name)}."
+    return Reason("ifc.round_things", shown=shown, selector=_selector("sleeves", ifc_class, name))
 
 
 def _lying_about(loose_sleeves: int, loose_rebars: int) -> str:
     counted = ((loose_sleeves, "sleeve"), (loose_rebars, "upright bar"))
-    found = [f"{number} {what}{'s' if number > 1 else ''}" for number, what in counted if number]
-    return f"{' and '.join(found)} of the model belong to no column (see loose)." if found else ""
+    found = [
+        Reason("ifc.counted" if number == 1 else "ifc.counted.several", count=number, what=what)
+        for number, what in counted
+        if number
+    ]
+    return Reason("ifc.lying_about", found=found) if found else ""
+
+
+def _of_any(reason: str) -> str:
+    """A reason without the number of the entity that it names, so that those of many elements are alike."""
+    return _NUMBER.sub("", reason) if _NUMBER.search(reason) else reason
 
 
 def _kind(name: str) -> str:
@@ -100,4 +114,4 @@ def _selector(key: str, ifc_class: str, name: str) -> str:
     option = {"columns": "--column", "sleeves": "--sleeves"}[key]
     pattern = re.sub(r'[\\/"\'.^$*+?{}\[\]|()]', ".", name)
     query = f"{ifc_class}, Name=/{pattern}/" if pattern else ifc_class
-    return f"{option} '{query}' (in a job: {key} = \"{query}\" in [model])"
+    return Reason("ifc.selector", option=option, query=query, key=key)

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from aadm_workbench.model import ColumnDesign
+from aadm_workbench.model import ColumnDesign, Reason
+from aadm_workbench.model.reason import listed
 
 _SHOWN = 3  # ids in a message
 _GLOBAL_ID = 0  # place of the GlobalId among the attributes of an IfcRoot
@@ -29,14 +30,10 @@ def shared_id_warning(shared: dict[str, list[Any]]) -> list[str]:
     """One line on all of them; none where each element has its own."""
     if not shared:
         return []
-    shown = "; ".join(f"{global_id}: {_listed(elements)}" for global_id, elements in list(shared.items())[:_SHOWN])
-    more = f"; and {len(shared) - _SHOWN} more" if len(shared) > _SHOWN else ""
-    what = "1 GlobalId is" if len(shared) == 1 else f"{len(shared)} GlobalIds are"
-    advice = (
-        "they were told apart as entities, but results cannot be written to the right one of them; export the model "
-        "with a GlobalId for each element"
-    )
-    return [f"{what} given to several elements ({shown}{more}): {advice}"]
+    shown = [Reason("said.of", what=one, why=_listed(elements)) for one, elements in list(shared.items())[:_SHOWN]]
+    more = [Reason("assembly.more", count=len(shared) - _SHOWN)] if len(shared) > _SHOWN else []
+    code = "ifc.shared_id" if len(shared) == 1 else "ifc.shared_ids"
+    return [Reason(code, count=len(shared), shown=[*shown, *more])]
 
 
 def with_shared_ids(design: ColumnDesign, shared: dict[str, list[Any]]) -> ColumnDesign:
@@ -46,5 +43,4 @@ def with_shared_ids(design: ColumnDesign, shared: dict[str, list[Any]]) -> Colum
 
 
 def _listed(elements: Sequence[Any]) -> str:
-    shown = ", ".join(f"#{element.id()} {element.is_a()}" for element in elements[:_SHOWN])
-    return f"{shown} and {len(elements) - _SHOWN} more" if len(elements) > _SHOWN else shown
+    return listed([f"#{element.id()} {element.is_a()}" for element in elements], _SHOWN)

@@ -32,9 +32,9 @@ from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc.under import bars_under
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
 from aadm_workbench.design.recognise.shapes import edges
-from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Reason
 
-NO_SLEEVES = "has no grouting sleeves in its foot face"
+NO_SLEEVES = Reason("ifc.no_sleeves")
 _SHOWN_PROBLEMS = 6  # of a sort: more fill a screen and say no more
 
 _BESIDE_MM = 1.0  # rounding: a dowel may touch the face of its wall
@@ -144,7 +144,7 @@ def _one_column_each(
         claimed = [id(mouth.candidate) for mouth in found.mouths]
         other = next((owners[candidate] for candidate in claimed if candidate in owners), None)
         if other is not None:
-            doubles[id(body)] = f"has sleeves that belong to column {other.called}, which stands in the same place"
+            doubles[id(body)] = Reason("ifc.same_place", column=other.called)
             continue
         owners.update((candidate, body) for candidate in claimed)
     kept = [(body, found) for body, found in feet if id(body) not in doubles]
@@ -185,7 +185,7 @@ def loose_sleeves_of(
     middles = [(candidate.tube.start + candidate.tube.end) / 2.0 for candidate in left]
     for candidate, host in zip(left, _hosts(middles, feet), strict=True):
         # Sockets for lifting and bracing are called sleeves too.
-        elsewhere = host and f"is in column {host.called} but does not open in its foot face"
+        elsewhere = host and Reason("ifc.in_column", column=host.called)
         point = reasons.get(id(candidate)) or elsewhere or loose_point(candidate)
         if isinstance(point, str):
             refused.append(left_out(candidate, point))
@@ -217,15 +217,13 @@ def loose_rebars_of(
     left = [end for number, end in enumerate(bars.ends) if number not in used]
     hosts = _hosts([end.top for end in left], feet)
     reasons = [
-        f"ends inside column {host.called}: its own reinforcement" if host and _begins_in(end, host) else ""
+        Reason("ifc.ends_inside", column=host.called) if host and _begins_in(end, host) else ""
         for end, host in zip(left, hosts, strict=True)
     ]
     outside = [number for number, reason in enumerate(reasons) if not reason]
     for place, wall in walls([left[number] for number in outside]).items():
-        reasons[outside[place]] = f"stands in wall {wall}: a dowel of a wall"
-    loose = [
-        end.point("upright, under no sleeve of a column") for end, why in zip(left, reasons, strict=True) if not why
-    ]
+        reasons[outside[place]] = Reason("ifc.in_wall", wall=wall)
+    loose = [end.point(Reason("ifc.under_none")) for end, why in zip(left, reasons, strict=True) if not why]
     inside = [
         NotTaken("rebar", end.ifc_class, end.global_id, end.name, why, end.top, end.diameter_mm, end.length_mm)
         for end, why in zip(left, reasons, strict=True)
@@ -260,7 +258,7 @@ def _bare(feet: Sequence[tuple[ColumnBody, FoundFoot]], search: SleeveSearch) ->
 
 def _why_bare(body: ColumnBody, search: SleeveSearch) -> str:
     if count := search.on_its_head(body):
-        return f"is drawn on its head: {count} sleeves open in its upper face; turn it over, and export the model again"
+        return Reason("ifc.on_head", count=count)
     return NO_SLEEVES
 
 
@@ -268,7 +266,7 @@ def _problems(shapes: Shapes) -> list[str]:
     counted = Counter(shapes.problems)
     shown = list(counted)[:_SHOWN_PROBLEMS]
     more = len(counted) - len(shown)
-    return [*shown, f"the geometry of {more} more elements was left out"] if more else shown
+    return [*shown, Reason("ifc.more_left_out", count=more)] if more else shown
 
 
 def _world(opened: OpenedIfc, shapes: Shapes) -> Array:

@@ -10,6 +10,7 @@ from typing import Any
 
 from aadm_workbench.design.ifc.words import Said, find
 from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Reason
 
 _PIECE_MARK = frozenset(
     {"piecemark", "piece mark", "assembly/cast unit mark", "cast unit mark", "castunitmark", "构件编号", "構件編號"}
@@ -229,12 +230,12 @@ def select(file: Any, source: str, key: str, query: str) -> list[Any]:
         found = filter_elements(file, _unanchored(query))
     except LarkError as error:
         reason = str(error).strip().splitlines()[0]
-        raise DesignError(f'The selector {key} = "{query}" is not understood: {reason}') from error
+        raise DesignError(Reason("design.selector_unread", key=key, query=query, why=reason)) from error
     elements: list[Any] = sorted(
         (element for element in found if element.is_a("IfcElement")), key=lambda element: element.id()
     )
     if not elements:
-        raise DesignError(f'The selector {key} = "{query}" finds no element in {source}, which holds {holdings(file)}.')
+        raise DesignError(Reason("design.selector_empty", key=key, query=query, source=source, holdings=holdings(file)))
     return elements
 
 
@@ -252,7 +253,8 @@ def holdings(file: Any) -> str:
     for element in file.by_type("IfcElement"):
         count[element.is_a()] = count.get(element.is_a(), 0) + 1
     ranked = sorted(count.items(), key=lambda item: (-item[1], item[0]))
-    return ", ".join(f"{number} {ifc_class}" for ifc_class, number in ranked) or "no elements at all"
+    parts = [f"{number} {ifc_class}" for ifc_class, number in ranked]
+    return Reason("said.list", parts=parts) if parts else Reason("design.no_elements")
 
 
 def optional(entity: Any, name: str) -> Any:

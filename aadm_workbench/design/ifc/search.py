@@ -27,7 +27,7 @@ from aadm_workbench.design.ifc.sleeves import (
 )
 from aadm_workbench.design.ifc.text.file import OpenedIfc
 from aadm_workbench.design.ifc.under import bars_below
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _BEHIND_MM = 5.0  # beyond this it is said: chamfers and rounding are less
 
@@ -114,7 +114,7 @@ class SleeveSearch:
         """Round things without a name that lie in a foot face and are no sleeves, with the reason."""
         own = own_candidates(self.opened, body, self.shapes)
         mouths, refused = mouths_on(foot, [*own, *self.unnamed.to(foot)])
-        few = f"is one of fewer than {FEWEST_UNNAMED} alike, without a name of a sleeve"
+        few = Reason("ifc.fewer_alike", fewest=FEWEST_UNNAMED)
         return [*refused, *((mouth.candidate, few) for mouth in mouths)]
 
 
@@ -164,17 +164,17 @@ def _extra(mouths: Sequence[Mouth]) -> list[str]:
     if not mouths:
         return []
     bores = ", ".join(f"{bore:g}" for bore in sorted({round(mouth.bore_mm, 1) for mouth in mouths}))
-    return [f"{len(mouths)} more round holes in its foot (Ø {bores} mm) have no name of a sleeve and were not taken"]
+    return [Reason("ifc.more_holes", count=len(mouths), bores=bores)]
 
 
 def _warnings(mouths: Sequence[Mouth]) -> list[str]:
-    found = []
+    found: list[str] = []
     solid = sum(mouth.solid for mouth in mouths)
     if solid:
-        found.append(f"{solid} sleeves are drawn without a bore: the diameter taken may be the outer one")
+        found.append(Reason("ifc.solid", count=solid))
     behind_mm = max((mouth.behind_mm for mouth in mouths if not mouth.candidate.is_opening), default=0.0)
     if behind_mm > _BEHIND_MM:
-        found.append(f"sleeves begin up to {behind_mm:.0f} mm behind the foot face; their centres are on it")
+        found.append(Reason("ifc.behind", behind_mm=behind_mm))
     if any(mouth.candidate.evidence is Evidence.GEOMETRY for mouth in mouths):
-        found.append("its sleeves have no telling name and were recognised by their shape alone")
+        found.append(Reason("ifc.by_shape"))
     return found

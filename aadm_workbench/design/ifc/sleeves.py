@@ -17,7 +17,7 @@ from aadm_workbench.design.ifc.text.file import OpenedIfc
 from aadm_workbench.design.ifc.words import COUPLERS, NOT_SLEEVE, SLEEVE
 from aadm_workbench.design.model_design import NotTaken
 from aadm_workbench.design.recognise.tubes import Tube, stacked
-from aadm_workbench.model import Array, AssemblyPoint, Kind
+from aadm_workbench.model import Array, AssemblyPoint, Kind, Reason
 
 BORE_MM = (18.0, 100.0)
 """Inner diameters of grouting sleeves: 23 mm for bars of 12 mm to 80 mm for bars of 40 mm, ducts somewhat wider."""
@@ -103,7 +103,7 @@ def named_candidates(opened: OpenedIfc, shapes: Shapes, selector: str | None) ->
     """Candidates by the selector, else by class and PredefinedType and by name; what names exclude is listed apart."""
     if selector:
         chosen = ifc_names.select(opened.file, opened.source, "sleeves", selector)
-        return [c for e in chosen for c in _candidates(e, shapes, Evidence.SELECTOR, "chosen by the selector")], []
+        return [c for e in chosen for c in _candidates(e, shapes, Evidence.SELECTOR, Reason("ifc.chosen"))], []
     found, left = _by_name(opened, shapes)
     return (found, left) if found else _by_property(opened, shapes, left)
 
@@ -133,11 +133,11 @@ def _take_by_name(
         return
     excluded = opened.naming.find(NOT_SLEEVE, element)
     if excluded:
-        left.append(NotTaken.of("sleeve", element, f"is called {excluded!r}: no grouting sleeve"))
+        left.append(NotTaken.of("sleeve", element, Reason("ifc.no_sleeve", excluded=repr(excluded))))
         return
     evidence = Evidence.CLASS if is_coupler else Evidence.NAME
-    why = f'{element.is_a()} "{opened.naming.said(element)}"'
-    drawn = _candidates(element, shapes, evidence, f"{why}, a COUPLER by its PredefinedType" if is_coupler else why)
+    why = Reason("ifc.evidence", evidence=element.is_a(), said=opened.naming.said(element))
+    drawn = _candidates(element, shapes, evidence, Reason("ifc.coupler", why=why) if is_coupler else why)
     if element.is_a("IfcReinforcingElement"):
         # Bars are called after the sleeve that they go into.
         drawn = [candidate for candidate in drawn if candidate.is_hollow]
@@ -148,8 +148,8 @@ def _take_by_name(
 
 def _undrawn(element: Any, shapes: Shapes) -> str:
     if shapes.of_product(element):
-        return "is called a sleeve, but nothing in its shape is a straight round body or hole"
-    return f"is called a sleeve, but {shapes.undrawn(element)}"
+        return Reason("ifc.sleeve_shape")
+    return Reason("ifc.sleeve_undrawn", why=shapes.undrawn(element))
 
 
 def _couplers(opened: OpenedIfc) -> Iterator[Any]:
@@ -171,9 +171,9 @@ def _by_property(opened: OpenedIfc, shapes: Shapes, left: list[NotTaken]) -> tup
         if text is None or element.is_a("IfcReinforcingBar") or opened.naming.find(NOT_SLEEVE, element):
             continue
         if any(isinstance(value, str) and NOT_SLEEVE.search(value) for _, value in ifc_names.properties(element)):
-            left.append(NotTaken.of("sleeve", element, "has a property that names another kind of sleeve"))
+            left.append(NotTaken.of("sleeve", element, Reason("ifc.other_sleeve")))
             continue
-        why = f'{element.is_a()} "{opened.naming.said(element)}", property "{text}"'
+        why = Reason("ifc.by_property", type=element.is_a(), name=opened.naming.said(element), text=text)
         found += _candidates(element, shapes, Evidence.NAME, why)
     return found, left
 
@@ -194,7 +194,7 @@ def unnamed_candidates(
     for element in _each(opened.file, classes):
         with shapes.guarded(element):
             if not element.is_a("IfcReinforcingBar") and not opened.naming.find(NOT_SLEEVE, element):
-                why = f"{element.is_a()} without a telling name"
+                why = Reason("ifc.no_name", type=element.is_a())
                 found += _candidates(element, shapes, Evidence.GEOMETRY, why, near)
     return found
 
@@ -202,7 +202,7 @@ def unnamed_candidates(
 def own_candidates(opened: OpenedIfc, body: ColumnBody, shapes: Shapes) -> list[Candidate]:
     """Round holes in a column's own body, and the hollow cylinders and openings that are its parts or voids."""
     holes = [tube for drawn in body.drawn for tube in stacked(shapes.tubes_of_product(drawn)) if tube.is_hole]
-    found = [Candidate(body.element, tube, Evidence.GEOMETRY, "a round hole in the column's body") for tube in holes]
+    found = [Candidate(body.element, tube, Evidence.GEOMETRY, Reason("ifc.hole")) for tube in holes]
     related: list[Any] = []
     for holder in (body.element, *body.drawn, *body.wholes[:1]):
         related += [relation.RelatedOpeningElement for relation in holder.HasOpenings if relation.RelatedOpeningElement]
@@ -211,7 +211,7 @@ def own_candidates(opened: OpenedIfc, body: ColumnBody, shapes: Shapes) -> list[
     for element in own.values():
         with shapes.guarded(element):
             if not element.is_a("IfcReinforcingBar") and not opened.naming.find(NOT_SLEEVE, element):
-                why = f"{element.is_a()} without a telling name"
+                why = Reason("ifc.no_name", type=element.is_a())
                 found += _candidates(element, shapes, Evidence.GEOMETRY, why)
     return found
 
@@ -270,11 +270,11 @@ def _implausible(mouth: Mouth) -> str | None:
 def implausible_size(bore_mm: float, length_mm: float, *, solid: bool) -> str | None:
     """Why a round body of these sizes is no grouting sleeve; None where it may be one."""
     if solid:
-        return "is a solid cylinder without a bore"
+        return Reason("ifc.no_bore")
     if not BORE_MM[0] <= bore_mm <= BORE_MM[1]:
-        return f"has an inner diameter of {bore_mm:g} mm, outside {BORE_MM[0]:g} to {BORE_MM[1]:g} mm"
+        return Reason("ifc.bore", bore_mm=bore_mm, least_mm=BORE_MM[0], most_mm=BORE_MM[1])
     if length_mm < max(SHORTEST_MM, SLENDEREST_RATIO * bore_mm):
-        return f"is {length_mm:.0f} mm long at an inner diameter of {bore_mm:g} mm: too short for a grouting sleeve"
+        return Reason("ifc.short", length_mm=length_mm, bore_mm=bore_mm)
     return None
 
 
@@ -307,7 +307,7 @@ def loose_point(candidate: Candidate) -> AssemblyPoint | str:
     solid = bore_mm is None and not candidate.is_opening
     if candidate.evidence is not Evidence.SELECTOR:
         if float(axis @ UP) < _ALONG_COS:
-            return "is not upright and opens in no column's foot face"
+            return Reason("ifc.sleeve_aslant")
         reason = implausible_size(bore_mm or tube.outer_mm or 0.0, tube.length_mm, solid=False)
         if reason:
             return reason
@@ -318,7 +318,7 @@ def loose_point(candidate: Candidate) -> AssemblyPoint | str:
         axis=axis,
         diameter_mm=bore_mm or tube.outer_mm or 0.0,
         global_id=candidate.element.GlobalId,
-        why=f"{candidate.why}; opens in no column's foot face{'; drawn without a bore' if solid else ''}",
+        why=Reason("ifc.opens_nowhere.solid" if solid else "ifc.opens_nowhere", why=candidate.why),
         length_mm=tube.length_mm,
     )
 

@@ -12,7 +12,7 @@ from aadm_workbench.design.ifc.columns import ColumnBody, Foot
 from aadm_workbench.design.ifc.sleeves import Mouth
 from aadm_workbench.design.recognise.pattern import pair
 from aadm_workbench.design.recognise.rings import smallest_spacing
-from aadm_workbench.model import Array, IntArray
+from aadm_workbench.model import Array, IntArray, Reason
 
 _WIDEST_PAIR_MM = 40.0  # less than half the spacing of sleeves, which the next line narrows where they are closer
 _PAIR_SPACING_RATIO = 0.45
@@ -40,7 +40,7 @@ def bars_under(body: ColumnBody, foot: Foot, mouths: Sequence[Mouth], bars: Foun
     """
     sleeves = np.array([mouth.centre for mouth in mouths]).reshape(-1, 2)
     if not foot.stands:
-        return Under((None,) * len(mouths), ("is drawn lying: which bars it will come down on is not in the model",))
+        return Under((None,) * len(mouths), (Reason("ifc.lying"),))
     near = bars_below(body, foot, bars)
     tops = foot.local(np.array([end.top for end in near]).reshape(-1, 3))
     reach_mm = min(_WIDEST_PAIR_MM, _PAIR_SPACING_RATIO * smallest_spacing(sleeves) or _WIDEST_PAIR_MM)
@@ -70,11 +70,11 @@ def bars_below(body: ColumnBody, foot: Foot, bars: FoundBars) -> list[BarEnd]:
 def _warnings(sleeves: Array, tops: Array, partner: IntArray) -> list[str]:
     paired = partner >= 0
     if not paired.any():
-        return ["no bars of the model stand under it: it has no connecting rebars to check"]
-    found = []
+        return [Reason("ifc.no_bars")]
+    found: list[str] = []
     if not paired.all():
         missing = int((~paired).sum())
-        found.append(f"{missing} of {len(sleeves)} sleeves have no bar in the model: theirs are assumed on their axes")
+        found.append(Reason("ifc.bars_assumed", missing=missing, count=len(sleeves)))
     if (tops[partner[paired], 2] <= 0.0).any():
-        found.append("its foot is drawn above the tops of its bars: embedded length is not known")
+        found.append(Reason("ifc.above_bars"))
     return found

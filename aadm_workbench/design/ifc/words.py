@@ -11,6 +11,8 @@ import unicodedata
 from dataclasses import dataclass
 from functools import lru_cache
 
+from aadm_workbench.model import Reason
+
 SLEEVE = re.compile(
     r"灌[浆漿]套[筒管]|[全半]灌[浆漿]|钢筋套筒|鋼筋套筒|连接套筒|連接套筒|套筒|波[纹紋]管|浆锚孔|漿錨孔|预留孔|預留孔"
     # Marks of JG/T 398 such as GTQ4Z-20, GTB4J-20-A, GTZQ4 20.
@@ -48,6 +50,16 @@ COLUMN = re.compile(
 )
 NOT_COLUMN = re.compile(
     r"柱帽|柱脚|柱腳|构造柱|構造柱|柱头|柱頭|柱牛腿|capital|base[ _-]?plate|column[ _-]?base", re.IGNORECASE
+)
+
+BEAM = re.compile(
+    r"梁|\bPCL|\bYZL|\bW?KL-?\d+|(?<![a-z])beams?(?![a-z])|girder|\bTräger|\bUnterzug|\bRiegel|\bpoutre|\bligger",
+    re.IGNORECASE,
+)
+NOT_BEAM = re.compile(
+    r"梁[筋箍侧側底]|过梁|過梁|圈梁|地梁|梯梁|梁垫|梁墊|牛腿"
+    r"|lintel|ground[ _-]?beam|stair|bearing[ _-]?pad|corbel|Sturz",
+    re.IGNORECASE,
 )
 
 
@@ -101,10 +113,10 @@ class Said:
     def why_not_connecting(self, predefined_type: str) -> str | None:
         """Why a reinforcing bar is none that a column stands on; None where it may be one."""
         if predefined_type in _NOT_CONNECTING:
-            return f"is a {predefined_type} by its PredefinedType"
+            return Reason("ifc.bar_kind", kind=predefined_type)
         word = self.find(NOT_REBAR)
         if word and not self.find(REBAR):
-            return f"is called {word!r}: a stirrup, tie or spiral"
+            return Reason("ifc.bar_called", named=repr(word))
         return None
 
 

@@ -8,6 +8,7 @@ from aadm_workbench.design.elements import Element
 from aadm_workbench.design.ifc.bars import NAMED_CLASSES
 from aadm_workbench.design.ifc.columns import COLUMN_CLASSES, THINNEST_MM
 from aadm_workbench.design.ifc.words import COUPLERS, NOT_COLUMN, NOT_REBAR, NOT_SLEEVE, REBAR, SLEEVE, Said, find
+from aadm_workbench.model import Reason
 
 _GENERIC = frozenset(
     {"", "IfcBuildingElementProxy", "IfcBuildingElementPart", "IfcMember", "IfcElementAssembly", "IfcDiscreteAccessory"}
@@ -103,7 +104,7 @@ def is_opening(element: Element) -> bool:
 def described(element: Element) -> str:
     """Class and names in one text, for the reason why a point was taken."""
     said = words(element)
-    return f'{element.is_a()} "{said}"' if said else str(element.is_a())
+    return Reason("ifc.evidence", evidence=element.is_a(), said=said) if said else str(element.is_a())
 
 
 def spoken(name: str) -> bool:

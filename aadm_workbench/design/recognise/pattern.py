@@ -11,7 +11,7 @@ import numpy as np
 
 from aadm_workbench.design.recognise.rings import are_closed, distances_mm, ring_edges, rings
 from aadm_workbench.errors import DesignError
-from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, IntArray, Kind
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, IntArray, Kind, Reason
 
 _SAME_POINT_MM = 1.0
 """Two centres of one design closer than this are one hole written twice."""
@@ -160,15 +160,14 @@ def inline_design(id: str, table: Mapping[str, Any]) -> ColumnDesign:  # noqa: A
     centres = _centres(id, table.get("centres"))
     sleeve_mm = _sizes(id, table, "sleeve_diameter", len(centres))
     if sleeve_mm is None:
-        raise DesignError(f"The design of column {id} has no sleeve_diameter (inner, at the mouth, mm): add it.")
+        raise DesignError(Reason("job.no_sleeve_diameter", column=id))
     rebar_mm = _sizes(id, table, "rebar_diameter", len(centres))
     outer_mm = _sizes(id, table, "rebar_outer_diameter", len(centres))
     embedded_mm = _length(id, table, "embedded_length")
     _check_that_bars_enter(id, sleeve_mm, rebar_mm, outer_mm)
     if rebar_mm and outer_mm and len(set(rebar_mm)) > 1 and not _is_list(table["rebar_outer_diameter"]):
-        raise DesignError(
-            f"The design of column {id} has bars of several sizes and one rebar_outer_diameter: give a list, one each."
-        )
+        raise DesignError(Reason("job.one_outer", column=id))
+    size_mm = _size(id, table.get("size"))
     order = label_order(centres).tolist()
     points = [(number, index, centres[index]) for number, index in enumerate(order, start=1)]
     why = "the job's text"
@@ -185,12 +184,22 @@ def inline_design(id: str, table: Mapping[str, Any]) -> ColumnDesign:  # noqa: A
         id=id,
         sleeves=tuple(sleeves),
         rebars=tuple(rebars),
-        size_mm=_size(id, table.get("size")),
+        size_mm=size_mm,
         names=(id,),
         rebar_outer_diameter_mm=None if outer_mm is None or unlike else outer_mm[0],
         embedded_length_mm=embedded_mm,
         exposed_length_mm=_length(id, table, "exposed_length"),
+        section_middle_mm=_section_middle(table["centres"], size_mm),
     )
+
+
+def _section_middle(written: Any, size_mm: tuple[float, float] | None) -> tuple[float, float] | None:
+    """Middle of the section in the column frame: the origin of the centres as written, where that lies within it."""
+    xy = np.array(written, dtype=np.float64)
+    if size_mm is None or (np.abs(xy) > np.array(size_mm) / 2.0).any():
+        return None
+    x, y = -xy.mean(axis=0)
+    return float(x), float(y)
 
 
 def _check_that_bars_enter(
@@ -201,8 +210,7 @@ def _check_that_bars_enter(
         inner_mm, widest_mm = sizes[0], max(sizes[1:])
         if widest_mm >= inner_mm:
             raise DesignError(
-                f"The design of column {column}, centre {number}: a bar of {widest_mm:g} mm does not enter a sleeve of "
-                f"{inner_mm:g} mm. sleeve_diameter is the inner diameter."
+                Reason("job.too_wide", column=column, number=number, widest_mm=widest_mm, inner_mm=inner_mm)
             )
 
 
@@ -219,15 +227,15 @@ def _upright(kind: Kind, number: int, xy: Array, z: float, diameter_mm: float, w
 
 def _centres(column: str, written: Any) -> Array:
     if not _is_list(written) or not written:
-        raise DesignError(f"The design of column {column} has no centres: give them as [[x, y], ...] in mm.")
+        raise DesignError(Reason("job.no_centres", column=column))
     for number, centre in enumerate(written, start=1):
         if not _is_list(centre) or len(centre) != 2 or not all(_is_number(value) for value in centre):
-            raise DesignError(f"Centre {number} of column {column} is {centre!r}: it must be two numbers [x, y] in mm.")
+            raise DesignError(Reason("job.centre", number=number, column=column, centre=repr(centre)))
     xy = np.array(written, dtype=np.float64)
     gap_mm = distances_mm(xy, xy) + np.where(np.eye(len(xy), dtype=bool), np.inf, 0.0)
     if gap_mm.min() < _SAME_POINT_MM:
         first, second = (int(index) + 1 for index in np.unravel_index(int(gap_mm.argmin()), gap_mm.shape))
-        raise DesignError(f"Centres {first} and {second} of column {column} are the same point: remove one.")
+        raise DesignError(Reason("job.same_centre", first=first, second=second, column=column))
     centred: Array = xy - xy.mean(axis=0)
     return centred
 
@@ -237,7 +245,7 @@ def _length(column: str, table: Mapping[str, Any], key: str) -> float | None:
     if value is None:
         return None
     if not _is_number(value) or value <= 0:
-        raise DesignError(f"{key} of column {column} is {value!r}: it must be a length in mm, above zero.")
+        raise DesignError(Reason("job.length", key=key, column=column, value=repr(value)))
     return float(value)
 
 
@@ -248,11 +256,9 @@ def _sizes(column: str, table: Mapping[str, Any], key: str, count: int) -> list[
         length_mm = _length(column, table, key)
         return None if length_mm is None else [length_mm] * count
     if len(value) != count:
-        raise DesignError(
-            f"{key} of column {column} lists {len(value)} lengths for {count} centres: give one each, or one number."
-        )
+        raise DesignError(Reason("job.lengths", key=key, column=column, found=len(value), count=count))
     if any(item is None for item in value):
-        raise DesignError(f"{key} of column {column} has an empty place: give one length for each centre.")
+        raise DesignError(Reason("job.empty_place", key=key, column=column))
     return [_length(column, {key: item}, key) or 0.0 for item in value]
 
 
@@ -260,7 +266,7 @@ def _size(column: str, written: Any) -> tuple[float, float] | None:
     if written is None:
         return None
     if not _is_list(written) or len(written) != 2 or not all(_is_number(side) and side > 0 for side in written):
-        raise DesignError(f"size of column {column} is {written!r}: it must be two lengths [x, y] in mm.")
+        raise DesignError(Reason("job.size", column=column, written=repr(written)))
     return float(written[0]), float(written[1])
 
 

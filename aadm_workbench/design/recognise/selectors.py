@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 
 from aadm_workbench.design.elements import Element, holdings
 from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Reason
 
 _KEYS: dict[str, Callable[[Element], str]] = {
     "name": lambda element: element.Name,
@@ -50,7 +51,7 @@ def select(elements: Sequence[Element], source: str, key: str, rule: str) -> lis
     found = [element for element in elements if any(all(facet(element) for facet in group) for group in groups)]
     if not found:
         raise DesignError(
-            f'The selector {key} = "{rule}" finds no element in {source}, which holds {holdings(elements)}.'
+            Reason("design.selector_empty", key=key, query=rule, source=source, holdings=holdings(elements))
         )
     return found
 
@@ -76,9 +77,7 @@ def _facet(text: str, key: str, rule: str) -> Facet:
     if found := _NAME.match(text):
         name = found["name"].casefold()
         return lambda element: name in (called.casefold() for called in called_by(element))
-    raise DesignError(
-        f'The selector {key} = "{rule}" is not understood at "{text.strip()}"; write Name=/pattern/ or a class.'
-    )
+    raise DesignError(Reason("design.selector_at", key=key, rule=rule, text=text.strip()))
 
 
 def called_by(element: Element) -> list[str]:
@@ -92,7 +91,7 @@ def _comparison(found: re.Match[str], key: str, rule: str) -> Facet:
     read = _KEYS.get(found["key"].casefold())
     if read is None:
         known = "Name, Label, Tag, Object, TypeId, GlobalId, PredefinedType, PieceMark, location"
-        raise DesignError(f'The selector {key} = "{rule}" asks for {found["key"]}; models of this format have {known}.')
+        raise DesignError(Reason("design.selector_asks", key=key, rule=rule, asked=found["key"], known=known))
     value = found["quoted"] if found["quoted"] is not None else (found["word"] or "").strip()
     compare = found["compare"]
     if found["pattern"] is not None:
@@ -100,7 +99,7 @@ def _comparison(found: re.Match[str], key: str, rule: str) -> Facet:
             pattern = re.compile(found["pattern"])
         except re.error as error:
             raise DesignError(
-                f'The selector {key} = "{rule}" is not understood: {error} in /{found["pattern"]}/.'
+                Reason("design.selector_pattern", key=key, rule=rule, why=error, pattern=found["pattern"])
             ) from error
         return lambda element: bool(pattern.search(read(element))) != (compare == "!=")
     if compare == "*=":

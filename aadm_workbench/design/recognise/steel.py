@@ -24,7 +24,7 @@ from aadm_workbench.design.recognise.element_kind import (
 from aadm_workbench.design.recognise.paths import Straight
 from aadm_workbench.design.recognise.selectors import select
 from aadm_workbench.design.recognise.tubes import Tube
-from aadm_workbench.model import AssemblyPoint, Kind
+from aadm_workbench.model import AssemblyPoint, Kind, Reason
 
 _SHORTEST_TUBE_MM = 1.0  # a chamfer is shorter
 _UPRIGHT_COS = float(np.cos(np.radians(5.0)))  # 5 degrees: sleeves stand along their column
@@ -33,21 +33,21 @@ DIAMETER_MM = (8.0, 60.0)
 """Of what may be a bar by its shape alone; connecting rebars have 12 to 40 mm."""
 
 _SLENDEREST_RATIO = 4.0  # length over diameter: shorter ones are bolts and dowels' heads
-_ROUND_NO_LENGTH = "has no straight round part"
+_ROUND_NO_LENGTH = Reason("ifc.no_round")
 
 
 def named_sleeves(elements: Sequence[Element], source: str, rule: str | None) -> tuple[list[Candidate], list[NotTaken]]:
     """Candidates by the rule, else by class and name; what a name excludes is listed apart."""
     if rule is not None:
         chosen = select(elements, source, "sleeves", rule)
-        return [c for e in chosen for c in _candidates(e, Evidence.SELECTOR, "chosen by the selector")], []
+        return [c for e in chosen for c in _candidates(e, Evidence.SELECTOR, Reason("ifc.chosen"))], []
     found: list[Candidate] = []
     left: list[NotTaken] = []
     for element in elements:
         word = sleeve_word(element)
         excluded = word and not_a_sleeve(element)
         if excluded:
-            reason = f"is called {excluded!r}: no grouting sleeve"
+            reason = Reason("ifc.no_sleeve", excluded=repr(excluded))
             left.append(NotTaken.of("sleeve", element, reason))
         elif word:
             evidence = Evidence.CLASS if word in COUPLERS else Evidence.NAME
@@ -61,14 +61,14 @@ def unnamed_sleeves(elements: Sequence[Element]) -> list[Candidate]:
     return [
         candidate
         for element in may_be
-        for candidate in _candidates(element, Evidence.GEOMETRY, f"{element.is_a()} without a telling name")
+        for candidate in _candidates(element, Evidence.GEOMETRY, Reason("ifc.no_name", type=element.is_a()))
         if not candidate.tube.is_hole or is_opening(element)
     ]
 
 
 def own_holes(element: Element) -> list[Candidate]:
     """Round holes in a column's own body."""
-    why = f"a round hole in {described(element)}"
+    why = Reason("ifc.hole_in", element=described(element))
     return [Candidate(element, tube, Evidence.GEOMETRY, why) for tube in element.tubes if _is_hole(tube)]
 
 
@@ -83,7 +83,7 @@ def round_holes(elements: Sequence[Element]) -> tuple[tuple[AssemblyPoint, ...],
             axis = (tube.end - tube.start) / tube.length_mm
             if float(axis @ UP) < _UPRIGHT_COS:
                 continue
-            why = f"a round hole in {described(element)}; nothing says that it is a grouting sleeve"
+            why = Reason("ifc.hole_unsaid", element=described(element))
             bore_mm = tube.bore_mm[0] or 0.0
             found.append(
                 AssemblyPoint(
@@ -98,7 +98,7 @@ def round_holes(elements: Sequence[Element]) -> tuple[tuple[AssemblyPoint, ...],
                 )
             )
     found.sort(key=lambda point: tuple(np.round(point.centre, 3)))
-    note = "no column with grouting sleeves was recognised; its upright round holes are listed as they are, as loose"
+    note = Reason("ifc.listed_loose")
     return tuple(found), [note] if found else []
 
 
@@ -120,7 +120,7 @@ def named_bars(elements: Sequence[Element], source: str, rule: str | None) -> Fo
     chosen = [e for e in elements if is_rebar(e)] if rule is None else select(elements, source, "rebars", rule)
     for element in chosen:
         refused = not_connecting(element) if rule is None else None
-        evidence = described(element) if rule is None else f"chosen by the selector; {described(element)}"
+        evidence = described(element) if rule is None else Reason("ifc.chosen_element", element=described(element))
         bars = bars_of(element)
         for bar in bars:
             reason = refused or not_a_bar(bar)
@@ -144,7 +144,7 @@ def drawn_bars(elements: Iterable[Element]) -> list[BarEnd]:
                 DIAMETER_MM[0] <= bar.diameter_mm <= DIAMETER_MM[1]
                 and bar.length_mm > _SLENDEREST_RATIO * bar.diameter_mm
             ):
-                why = f"{described(element)}, a bar by its shape"
+                why = Reason("ifc.bar_by_shape", element=described(element))
                 tops = upright_ends(list(bar.legs))
                 found += [BarEnd.of(element, bar, top, why, round(bar.diameter_mm, 6)) for top in tops]
     return found

@@ -16,7 +16,7 @@ import numpy as np
 
 from aadm_workbench.extract.circle import Outlines
 from aadm_workbench.extract.edges.seen_disc import SeenDiscs, SightLines, seen_discs
-from aadm_workbench.model import Array, BoolArray, FloatArray
+from aadm_workbench.model import Array, BoolArray, FloatArray, Reason
 
 _MOUTHS, _TOPS = 1.0, -1.0  # the side on which the surface lies: outside of the disc, or within
 
@@ -63,10 +63,7 @@ _SHARED_UNKNOWNS = 3  # a shift, and a part along the view
 _APART_PITCHES, _APART_SHARE = 0.15, 0.8  # rims and lines of sight differ by so much where both are sound
 _NOISE_FROM_MM, _NOISE_SHARE = 0.10, 0.22  # of the scatter of heights, that edges and bores carry on to centres
 
-BLURRED = (
-    "the picture is out of focus: surfaces bend at their edges over several pixels; "
-    "move the camera to its working distance, or focus it, and scan again"
-)
+BLURRED = Reason("extract.blurred")
 """Reason of what is not measured: what a blurred edge does to a centre nobody knows."""
 
 

@@ -35,7 +35,7 @@ from aadm_workbench.extract.published.pass_through import (
     tops_range_mm,
 )
 from aadm_workbench.extract.published.ransac_plane import open3d_for, ransac_plane
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, Figures, FloatArray, Kind, Plane, Scan
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, Figures, FloatArray, Kind, Plane, Reason, Scan
 
 INLIER_DISTANCE_MM = 50.0  # as published (2.1.1)
 ITERATIONS = 500  # as published (2.1.1)
@@ -85,10 +85,10 @@ def extract_sleeves(
     open3d = open3d_for("fusion")
     points = finite_points(scan)
     if len(points) < _POINTS_MIN:
-        return _nothing(Kind.SLEEVE, "the scan holds too few points")
+        return _nothing(Kind.SLEEVE, Reason("extract.few_points"))
     flat = _flattened(open3d, scan, points, z_range_mm or face_range_mm(points), diameter_mm, rng)
     if flat is None:
-        return _nothing(Kind.SLEEVE, "no plane was found within the pass-through range")
+        return _nothing(Kind.SLEEVE, Reason("extract.no_plane_in_range"))
     centres, diameters_mm = _circles(flat.image, flat.plane, diameter_mm, Kind.SLEEVE)
     face = out_of_the_concrete(flat.plane, scan, points, centres, diameter_mm / 2)
     return _extraction(Kind.SLEEVE, flat, face, -face.normal, "foot face", centres, diameters_mm)
@@ -110,12 +110,12 @@ def extract_rebars(
     points = finite_points(scan)
     spacing_mm = pitch_mm(scan, None, diameter_mm / 2)
     if len(points) < _POINTS_MIN or spacing_mm is None:
-        return _nothing(Kind.REBAR, "the scan holds too few points")
+        return _nothing(Kind.REBAR, Reason("extract.few_points"))
     if z_range_mm is None:
         z_range_mm = tops_range_mm(points, scan.viewpoint, np.pi * (diameter_mm / 2 / spacing_mm) ** 2)
     flat = _flattened(open3d, scan, points, z_range_mm, diameter_mm, rng)
     if flat is None:
-        return _nothing(Kind.REBAR, "no plane was found within the pass-through range")
+        return _nothing(Kind.REBAR, Reason("extract.no_plane_in_range"))
     centres, diameters_mm = _circles(flat.image, flat.plane, diameter_mm, Kind.REBAR)
     up = flat.plane.normal[2] < 0 if near_is_low(points[:, 2], scan.viewpoint) else flat.plane.normal[2] > 0
     tops = flat.plane if up else turned_over(flat.plane)
@@ -157,7 +157,7 @@ def _extraction(
     kind: Kind, flat: Flattened, plane: Plane, vertical: Array, source: str, centres: Array, diameters_mm: Array
 ) -> Extraction:
     points = tuple(
-        AssemblyPoint("", kind, centre, vertical, float(diameter), why="Hough circle in the binary image")
+        AssemblyPoint("", kind, centre, vertical, float(diameter), why=Reason("extract.hough", picture="binary image"))
         for centre, diameter in zip(centres, diameters_mm, strict=True)
     )
     quality: Figures = {
@@ -165,7 +165,7 @@ def _extraction(
         "plane_residual_mm": plane.residual_mm,
         "z_range_mm": flat.z_range_mm,
     }
-    reason = "" if points else "the binary image shows no circle of the expected size"
+    reason = "" if points else Reason("extract.no_circle.binary")
     return Extraction(kind, "fusion", points, plane, vertical, source, quality=quality, reason=reason)
 
 

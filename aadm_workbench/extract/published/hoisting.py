@@ -39,7 +39,7 @@ from aadm_workbench.extract.published.pass_through import finite_points
 from aadm_workbench.extract.published.ransac_plane import open3d_for, ransac_plane
 from aadm_workbench.extract.published.round_fits import ransac_circle, ransac_cylinder
 from aadm_workbench.extract.sample import counts_in_cells
-from aadm_workbench.model import Array, FloatArray, Plane, Scan
+from aadm_workbench.model import Array, FloatArray, Plane, Reason, Scan
 
 METHODS = tuple(method for method in RECIPES if method != "refined")
 _SLICE_MM = 2.0  # as of the pass-through filter along z
@@ -104,7 +104,7 @@ def find_key_points(
     points = finite_points(scan)
     parts = _split(points) if len(points) >= _POINTS_MIN else None
     if parts is None:
-        return _missing("no empty band along y parts the foot from the bars")
+        return _missing(Reason("extract.no_band"))
     foot, bars = parts
     if method == "image":
         from aadm_workbench.extract.published.hoisting_image import image_points
@@ -124,10 +124,12 @@ def _missing(reason: str) -> KeyPoints:
 def _keys(sleeves: Array, rebars: Array, plane: Plane | None) -> KeyPoints:
     for found, what in ((sleeves, "sleeves of the foot"), (rebars, "bars")):
         if len(found) < 3:
-            return KeyPoints(sleeves, rebars, plane, reason=f"only {len(found)} {what} were found, three are needed")
+            return KeyPoints(
+                sleeves, rebars, plane, reason=Reason("extract.few_key_points", count=len(found), what=what)
+            )
     first, second = _extremes(sleeves), _extremes(rebars)
     if len(set(first)) < 3 or len(set(second)) < 3:
-        return KeyPoints(sleeves, rebars, plane, reason="two key points are one and the same point")
+        return KeyPoints(sleeves, rebars, plane, reason=Reason("extract.same_key_points"))
     return KeyPoints(sleeves, rebars, plane, first, second)
 
 

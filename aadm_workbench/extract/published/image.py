@@ -20,7 +20,7 @@ from aadm_workbench.extract.plane import facing
 from aadm_workbench.extract.published.binary_image import pitch_mm
 from aadm_workbench.extract.published.hough import RADIUS_MISFIT, hough_circles, votes_needed
 from aadm_workbench.extract.published.pass_through import face_range_mm, finite_points, tops_range_mm
-from aadm_workbench.model import Array, AssemblyPoint, Camera, Extraction, FloatArray, Kind, Plane, Scan
+from aadm_workbench.model import Array, AssemblyPoint, Camera, Extraction, FloatArray, Kind, Plane, Reason, Scan
 
 MEDIAN_PIXELS = 5  # closes single lost pixels
 FAR_GREY = 128.0  # half of white: the far end of the range stays clear of the black behind it
@@ -61,12 +61,12 @@ def extract_rebars(scan: Scan, diameter_mm: float, rng: np.random.Generator, pla
 
 def _extracted(scan: Scan, diameter_mm: float, kind: Kind) -> Extraction:
     if scan.camera is None or scan.points.ndim != 3:
-        return _nothing(kind, "the image method needs an organised scan and the intrinsics of its camera")
+        return _nothing(kind, Reason("extract.image_needs"))
     if scan.image is not None and scan.image.shape != scan.points.shape[:2]:
-        return _nothing(kind, "the picture and the depth map differ in size")
+        return _nothing(kind, Reason("extract.image_size"))
     z_range_mm = _range_of(scan, diameter_mm / 2, kind)
     if z_range_mm is None:
-        return _nothing(kind, "the scan holds too few points")
+        return _nothing(kind, Reason("extract.few_points"))
     depth_mm = scan.points[..., 2]
     picture = depth_picture(depth_mm, z_range_mm) if scan.image is None else scan.image
     pixels, radii = _circles(picture, scan.camera, diameter_mm, z_range_mm)
@@ -136,11 +136,11 @@ def _circles(
 
 def _extraction(kind: Kind, centres: Array, diameters_mm: Array, picture: str) -> Extraction:
     if len(centres) == 0:
-        return _nothing(kind, f"the {picture} shows no circle of the expected size")
+        return _nothing(kind, Reason("extract.no_circle.picture", picture=picture))
     plane = plane_through(centres)
     vertical = -plane.normal if kind is Kind.SLEEVE else plane.normal
     points = tuple(
-        AssemblyPoint("", kind, centre, vertical, float(diameter), why=f"Hough circle in the {picture}")
+        AssemblyPoint("", kind, centre, vertical, float(diameter), why=Reason("extract.hough", picture=picture))
         for centre, diameter in zip(centres, diameters_mm, strict=True)
     )
     source = "plane through the centres"

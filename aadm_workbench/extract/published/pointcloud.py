@@ -26,7 +26,7 @@ from aadm_workbench.extract.published.edge_points import dbscan, edge_points
 from aadm_workbench.extract.published.pass_through import finite_points, near_is_low, out_of_the_concrete
 from aadm_workbench.extract.published.ransac_plane import open3d_for, ransac_plane
 from aadm_workbench.extract.published.round_fits import RoundFit, ransac_circle, ransac_cylinder
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, FloatArray, Kind, Plane, Scan
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, FloatArray, Kind, Plane, Reason, Scan
 
 PLANE_DISTANCE_MM = 2.0  # after Zhao et al.: noise and warp, without the walls
 PLANE_ITERATIONS = 500  # as the method that it is compared with
@@ -78,11 +78,11 @@ def extract_sleeves(
     points = finite_points(scan)
     plane = ransac_plane(open3d, points, PLANE_DISTANCE_MM, PLANE_ITERATIONS, rng)
     if plane is None or len(points) < _POINTS_MIN:
-        return _nothing(Kind.SLEEVE, "no plane was found in the scan")
+        return _nothing(Kind.SLEEVE, Reason("extract.no_plane"))
     face = points[np.abs(plane.height(points)) < PLANE_DISTANCE_MM].astype(np.float64)
     spacing_mm = pitch_mm(scan, (float(face[:, 2].min()), float(face[:, 2].max())), diameter_mm / 2)
     if spacing_mm is None:
-        return _nothing(Kind.SLEEVE, "the points are too sparse to show an edge")
+        return _nothing(Kind.SLEEVE, Reason("extract.sparse"))
     local = in_plane(face, plane)[:, :2]
     edge = local[edge_points(local, spacing_mm)]
     circles = _circles(open3d, edge, spacing_mm, diameter_mm / 2, rng)
@@ -101,7 +101,7 @@ def extract_rebars(scan: Scan, diameter_mm: float, rng: np.random.Generator, pla
     points = finite_points(scan)
     spacing_mm = pitch_mm(scan, None, diameter_mm / 2)
     if len(points) < _POINTS_MIN or spacing_mm is None:
-        return _nothing(Kind.REBAR, "the scan holds too few points")
+        return _nothing(Kind.REBAR, Reason("extract.few_points"))
     floor = _floor(open3d, scan, points, rng)
     level = floor or _along_z(scan, points)
     upright = points if floor is None else points[floor.height(points) > ABOVE_FLOOR_MM]
@@ -133,14 +133,14 @@ def _sleeves_extraction(circles: list[RoundFit], centres: Array, plane: Plane, q
         AssemblyPoint("", Kind.SLEEVE, centre, -plane.normal, 2.0 * circle.radius_mm, why=_edge_evidence(circle))
         for centre, circle in zip(centres, circles, strict=True)
     )
-    reason = "" if points else "the edge points of the face show no circle of the expected size"
+    reason = "" if points else Reason("extract.no_circle.edges")
     return Extraction(
         Kind.SLEEVE, "pointcloud", points, plane, -plane.normal, "foot face", quality=quality, reason=reason
     )
 
 
 def _edge_evidence(circle: RoundFit) -> str:
-    return f"circle through {int(circle.inliers.sum())} edge points"
+    return Reason("extract.circle_through", count=int(circle.inliers.sum()))
 
 
 def _floor(open3d: Any, scan: Scan, points: FloatArray, rng: np.random.Generator) -> Plane | None:
@@ -166,7 +166,7 @@ def _bars_extraction(
     bars: list[MeasuredBar], floor: Plane | None, level: Plane, quality: dict[str, float]
 ) -> Extraction:
     if not bars:
-        return _nothing(Kind.REBAR, "nothing that stands in the scan is a bar of the expected size")
+        return _nothing(Kind.REBAR, Reason("extract.no_bar_of_size"))
     points = tuple(
         AssemblyPoint("", Kind.REBAR, bar.centre, bar.axis, bar.diameter_mm, why=_bar_evidence(bar)) for bar in bars
     )
@@ -179,7 +179,7 @@ def _bars_extraction(
 
 
 def _bar_evidence(bar: MeasuredBar) -> str:
-    return "cylinder through sides and rim" if bar.leaning else "upright cylinder through the rim of the top"
+    return Reason("extract.cylinder" if bar.leaning else "extract.upright_cylinder")
 
 
 def _nothing(kind: Kind, reason: str) -> Extraction:

@@ -75,7 +75,7 @@ class HoistingWindow(QtGui.QWidget):
             try:
                 self.measurement = newest_measurement(Path(self.folder.text()), _now_s())
             except AadmError as error:
-                self.measurement, self._problem = None, str(error)
+                self.measurement, self._problem = None, in_language(error.reason)
         self._show()
 
     def show_recorded(self, file: Path) -> None:

@@ -13,6 +13,7 @@ from aadm_workbench.document.column import column_design, set_design
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.document.words import length_text
 from aadm_workbench.errors import DesignError
+from aadm_workbench.gui.language import in_language
 from aadm_workbench.gui.panels.task_panel import TaskPanel, show_panel
 from aadm_workbench.gui.sentences import sentences
 from aadm_workbench.model import AssemblyPoint
@@ -74,7 +75,7 @@ class DesignPanel(TaskPanel):
 
     def _why(self, row: int) -> str:
         bar = self.design.rebars[row].why if row < len(self.design.rebars) else translate("AADM_Design", "no rebar")
-        return f"{self.design.sleeves[row].why} / {bar}"
+        return f"{in_language(self.design.sleeves[row].why)} / {in_language(bar)}"
 
     def _rebar_chooser(self, row: int) -> Any:
         chooser = QtGui.QComboBox()

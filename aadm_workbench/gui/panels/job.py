@@ -17,6 +17,7 @@ from aadm_workbench.document.report.annotate import show_report
 from aadm_workbench.document.report.file import load_report
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import JobError
+from aadm_workbench.gui.language import language
 from aadm_workbench.gui.panels.file_line import FileLine
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, show_panel
 from aadm_workbench.gui.sentences import sentences
@@ -52,7 +53,7 @@ class JobPanel(WorkingPanel):
             job = job.resolve()
             out = Path(self.folder.text() or job.with_name(f"{job.stem}-report")).resolve()
             self.lines.clear()
-            arguments = ["check", str(job), "--out", str(out), "--json"]
+            arguments = ["check", str(job), "--out", str(out), "--json", "--language", language()]
             self.have_done(Work(arguments, codes=CHECKED), lambda _: self._show(out / "report.json"))
 
     def stepped(self, done: int, total: int, what: str) -> None:

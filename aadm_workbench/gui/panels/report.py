@@ -14,7 +14,7 @@ from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.report.file import encoded
 from aadm_workbench.errors import ReportError
-from aadm_workbench.gui.language import is_chinese
+from aadm_workbench.gui.language import language
 from aadm_workbench.gui.panels.file_line import FileLine
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, show_panel
 from aadm_workbench.gui.picture import save_picture
@@ -78,7 +78,7 @@ class ReportPanel(WorkingPanel):
                 self._say_written(folder)
                 return
             arguments = ["report", str(folder / "report.json"), "--out", str(folder), *wanted]
-            arguments += ["--language", "zh"] if is_chinese() else []
+            arguments += ["--language", language()]
             self.have_done(Work(arguments), lambda _: self._say_written(folder))
 
     def _say_written(self, folder: Path) -> None:

@@ -26,7 +26,11 @@ class Elements:
 
     def point(self, point: PointResult) -> Any:
         """The element of a sleeve or a bar; None where there is none, or several have its GlobalId."""
-        found = self._by_id.get(point.global_id or "", [])
+        return self.called(point.global_id)
+
+    def called(self, global_id: str | None) -> Any:
+        """The one element of a GlobalId; None where there is none, or several have it."""
+        found = self._by_id.get(global_id or "", [])
         return found[0] if len(found) == 1 else None
 
     def is_shared(self, global_id: str | None) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,7 +24,7 @@ from aadm_workbench.errors import ReportError
 from aadm_workbench.model import Array, ColumnReport, JobReport, PointResult
 from aadm_workbench.own_files import is_there
 from aadm_workbench.report.ifc import sets as ifc_sets
-from aadm_workbench.report.ifc.addition import Addition
+from aadm_workbench.report.ifc.addition import Addition, Property
 from aadm_workbench.report.ifc.assign import Assigner
 from aadm_workbench.report.ifc.elements import Elements, check_named_once
 from aadm_workbench.report.ifc.marks import Marks
@@ -60,7 +60,13 @@ def ids_path() -> Path:
 
 
 def write_ifc(
-    report: JobReport, model: Path, out: Path, *, report_location: str | None = None, force: bool = False
+    report: JobReport,
+    model: Path,
+    out: Path,
+    *,
+    report_location: str | None = None,
+    force: bool = False,
+    setting: Mapping[str, Sequence[Property]] | None = None,
 ) -> WriteBack:
     """Write the results of a check into an IFC model.
 
@@ -76,6 +82,8 @@ def write_ifc(
         Path of the report relative to ``out``, or its URI: the columns are linked to it.
     force
         Write into a model that has changed since the check; columns are found by their GlobalIds.
+    setting
+        What a stack plan says of elements, by their GlobalIds: the property set AADM_Setting.
 
     Raises
     ------
@@ -110,6 +118,9 @@ def write_ifc(
             marks.draw(column, element, frames[element.id()])
         add_records(addition, report, column, element)
     missing += write_points(report, checked, elements, assigner)
+    for global_id, properties in (setting or {}).items():
+        if (element := elements.called(global_id)) is not None:
+            assigner.assign(element, ifc_sets.SETTING_SET, properties)
     marks.finish()
     if report_location:
         add_report_link(addition, report_location, list(of_column.values()))

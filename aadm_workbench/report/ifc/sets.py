@@ -12,6 +12,7 @@ from aadm_workbench.report.clauses import clause_of
 from aadm_workbench.report.ifc.addition import ENUMERATED, Property, Scalar
 
 COLUMN_SET = "AADM_ColumnCheck"
+SETTING_SET = "AADM_Setting"
 POINT_SETS = {Kind.SLEEVE: "AADM_SleeveCheck", Kind.REBAR: "AADM_RebarCheck"}
 _LENGTH, _POSITIVE, _LABEL, _TEXT = "IfcLengthMeasure", "IfcPositiveLengthMeasure", "IfcLabel", "IfcText"
 _ANGLE, _SHARE, _RATIO = "IfcPlaneAngleMeasure", "IfcNormalisedRatioMeasure", "IfcRatioMeasure"

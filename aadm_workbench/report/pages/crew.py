@@ -21,11 +21,12 @@ from aadm_workbench.model import (
     PointResult,
     RepairReport,
     RepairStep,
+    codes_of,
 )
 from aadm_workbench.report.directions import SMALLEST_MM, Compass, compass_of
 from aadm_workbench.report.hoist import Hoist, hoist_of
 from aadm_workbench.report.words.labels import Phrase, phrase
-from aadm_workbench.report.words.reasons import in_both_languages
+from aadm_workbench.report.words.reasons import in_both_languages, recognised
 
 Light: TypeAlias = Literal["green", "amber", "red"]
 
@@ -166,7 +167,7 @@ def _first(column: ColumnReport, repair: RepairReport | None, compass: Compass) 
     elif verdict == "fail":
         yield from _refused(column)
     elif verdict == "inconclusive" and not held:
-        told = any("declare up" in reason or "how the column is turned" in reason for reason in column.reasons)
+        told = any(_SAY_UP & codes_of(recognised(reason)) for reason in column.reasons)
         yield Step(phrase("crew.say_up" if told else "crew.scan_closer"))
     elif not held and not any(_missing(column)):
         yield Step(phrase("crew.scan_closer"))
@@ -192,15 +193,22 @@ def _missing(column: ColumnReport) -> Iterator[PointResult]:
         yield from (point for point in column.points(kind) if point.verdict == "not_measured")
 
 
-_CURES = (("plugged", "open_sleeve"), ("outside", "into_picture"), ("no bar stands there", "look_at_bar"))
+_CURES = {
+    "extract.plugged": "open_sleeve",
+    "extract.foot_out_of_view": "into_picture",
+    "extract.out_of_view": "into_picture",
+    "extract.no_bar": "look_at_bar",
+}
+"""What the crew does about a point, by the code of the reason that it was not measured for."""
+_SAY_UP = {"assembly.turns", "assembly.turns_at", "assembly.turn_decides"}
 
 
 def _unseen(column: ColumnReport) -> Iterator[Step]:
     """What to do about points that were not measured, those of one cure together."""
     by_cure: dict[str, list[str]] = {}
     for point in _missing(column):
-        said = point.reason
-        cure = next((name for sign, name in _CURES if sign in said), "scan_label_again")
+        codes = codes_of(recognised(point.reason))
+        cure = next((cure for code, cure in _CURES.items() if code in codes), "scan_label_again")
         by_cure.setdefault(cure, []).append(point.label)
     for cure, labels in by_cure.items():
         yield Step(phrase(f"crew.{cure}", labels=", ".join(labels)))

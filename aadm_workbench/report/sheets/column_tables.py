@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from aadm_workbench.model import ColumnReport, GroupReport, HoistingReport, JobReport, Kind
 from aadm_workbench.report.sheets.numbers import number_text, signed
+from aadm_workbench.report.sheets.section_rows import SECTION, section_line, section_rows
 from aadm_workbench.report.sheets.tables import (
     ABSOLUTE,
     HOISTING,
@@ -46,6 +47,7 @@ def column_blocks(report: JobReport, column: ColumnReport) -> list[Block]:
     return [
         *_block(phrase("ui.pairs"), *_unexplained(PAIRS, pair_rows(report, column))),
         *(block for kind, group in column.groups.items() for block in _group(report, column, kind, group)),
+        *_section(report, column),
         *_absolute(report, column),
         *_hoisting(report, column),
         *_block(phrase("ui.rules"), RULES, _rules(column)),
@@ -133,6 +135,12 @@ def _quality(kind: Kind, group: GroupReport) -> Iterator[Block]:
 
 def _figure(value: str | float | int | bool) -> str:
     return f"{value:.3g}" if isinstance(value, float) else str(value)
+
+
+def _section(report: JobReport, column: ColumnReport) -> Iterator[Block]:
+    if column.section is not None:
+        measured = [row for row in section_rows(report, column) if row[2] is not None]
+        yield from _block(phrase("ui.section"), *_unexplained(SECTION, measured), section_line(column.section))
 
 
 def _absolute(report: JobReport, column: ColumnReport) -> Iterator[Block]:

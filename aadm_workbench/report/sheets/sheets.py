@@ -15,6 +15,7 @@ from aadm_workbench.model import (
 )
 from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.hoist import hoist_of, worst_first
+from aadm_workbench.report.sheets.section_rows import SECTION, section_rows
 from aadm_workbench.report.sheets.tables import (
     ABSOLUTE,
     HOISTING,
@@ -53,6 +54,7 @@ def job_tables(report: JobReport, language: Language = "en") -> list[Table]:
         _sheet("trial", PAIRS, _each(columns, lambda c: pair_rows(report, c))),
     ]
     more = [
+        _sheet("section", SECTION, _each(columns, lambda c: section_rows(report, c))),
         _sheet("absolute", ABSOLUTE, _each(columns, lambda c: absolute_rows(report, c))),
         _sheet("hoisting", (heading("frame"), *HOISTING), _each(columns, lambda c: _frames(report, c))),
         _sheet("rules", RULES, _each(columns, rule_rows)),

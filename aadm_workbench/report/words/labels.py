@@ -5,9 +5,11 @@ from __future__ import annotations
 import tomllib
 from functools import cache
 from pathlib import Path
-from typing import Literal, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
-Language: TypeAlias = Literal["en", "zh"]
+from aadm_workbench.model import reason
+
+Language: TypeAlias = reason.Language
 
 SIGN = {"pass": "✓", "fail": "✗", "inconclusive": "?", "not_measured": "–", "error": "!", "not_assessed": "○"}
 """A sign beside each verdict, so that nothing depends on colour."""

@@ -93,7 +93,7 @@
   </message>
   <message>
    <source>inconclusive</source>
-   <translation>无法判定</translation>
+   <translation>不确定</translation>
   </message>
   <message>
    <source>not assessed</source>
@@ -231,7 +231,7 @@
   </message>
   <message>
    <source>{verdict} · goes on: {goes_on}</source>
-   <translation>{verdict} · 能否套入：{goes_on}</translation>
+   <translation>{verdict} · 能否就位：{goes_on}</translation>
   </message>
   <message>
    <source>… and {count} more, see the table</source>
@@ -1160,7 +1160,7 @@
   </message>
   <message>
    <source>pass, fail, inconclusive, not_measured or error</source>
-   <translation>pass 合格、fail 不合格、inconclusive 无法判定、not_measured 未测得、error 出错</translation>
+   <translation>pass 合格、fail 不合格、inconclusive 不确定、not_measured 未测得、error 出错</translation>
   </message>
  </context>
  <context>

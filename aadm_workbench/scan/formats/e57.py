@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.errors import MissingDependencyError
-from aadm_workbench.model import Array, BoolArray, FloatArray
+from aadm_workbench.model import Array, BoolArray, FloatArray, Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
 from aadm_workbench.scan.formats.e57_outline import check_outline
 from aadm_workbench.scan.joined import joined
@@ -59,10 +59,10 @@ def read_e57(file: ScanFile, declared: Declared) -> Cloud:
                 image.close()
         except _errors_of(library) as error:
             reason = (str(error).splitlines() or [type(error).__name__])[0][:120]
-            raise file.wrong(f"cannot be read as E57 ({reason}); copy or export it again") from error
+            raise file.wrong(Reason("formats.e57_unreadable", why=reason)) from error
     clouds = [cloud for cloud in clouds if cloud.points.size or cloud.dropped]
     if not clouds:
-        raise file.wrong("holds no points; export the scan again")
+        raise file.wrong(Reason("points.no_points"))
     return joined(clouds)
 
 
@@ -82,7 +82,7 @@ def _scan(file: ScanFile, library: ModuleType, image: Any, number: int) -> Cloud
     prototype = library.StructureNode(vector.prototype())
     system = next((names for names in (_CARTESIAN, _SPHERICAL) if all(map(prototype.isDefined, names))), None)
     if system is None:
-        raise file.wrong(f"scan {number + 1} has neither cartesian nor spherical coordinates; export x, y, z")
+        raise file.wrong(Reason("formats.e57_no_coordinates", number=number + 1))
     wanted = [name for name in (*system, _INVALID[system], *_GRID) if prototype.isDefined(name)]
     values = _values(file, library, image, vector, wanted)
     points = np.column_stack([values[name] for name in system])
@@ -99,9 +99,9 @@ def _scan(file: ScanFile, library: ModuleType, image: Any, number: int) -> Cloud
     return Cloud(points[~invalid], _MM_PER_METRE, pose, unit_from=_UNIT_FROM, dropped=dropped, notes=notes)
 
 
-_UNIT_FROM = "an E57 file is in metres"
+_UNIT_FROM = Reason("formats.e57_metres")
 
-NO_ROTATION = "the rotation in its pose is 0 0 0 0, which is none: the pose was taken not to turn"
+NO_ROTATION = Reason("formats.no_rotation")
 """Note of a file whose writer left the quaternion empty."""
 
 
@@ -120,7 +120,7 @@ def _values(file: ScanFile, library: ModuleType, image: Any, vector: Any, names:
     finally:
         reader.close()
     if found < count:
-        raise file.wrong(f"announces {count} points and holds {found}: it is cut off or wrong; copy or export it again")
+        raise file.wrong(Reason("formats.e57_count", count=count, found=found))
     return values
 
 
@@ -148,7 +148,7 @@ def _pose(file: ScanFile, node: Any) -> tuple[Array | None, tuple[str, ...]]:
 
         quaternion = np.array([float(rotation[axis].value()) for axis in "xyzw"])
         if not np.isfinite(quaternion).all():
-            raise file.wrong(f"the rotation of a scan is {quaternion.tolist()}, which is none; export it again")
+            raise file.wrong(Reason("formats.rotation", quaternion=quaternion.tolist()))
         if quaternion.any():
             pose[:3, :3] = Rotation.from_quat(quaternion).as_matrix()
         else:
@@ -156,7 +156,7 @@ def _pose(file: ScanFile, node: Any) -> tuple[Array | None, tuple[str, ...]]:
     if translation is not None:
         pose[:3, 3] = [float(translation[axis].value()) for axis in "xyz"]
     if not np.isfinite(pose).all():
-        raise file.wrong("the translation of a scan is not finite; export it again")
+        raise file.wrong(Reason("formats.translation"))
     return None if np.array_equal(pose, np.eye(4)) else pose, notes
 
 

@@ -11,6 +11,7 @@ import struct
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.file import LARGEST_POINT_COUNT, ScanFile
 
 LONGEST_XML_BYTES = 2**24
@@ -47,35 +48,32 @@ def check_outline(file: ScanFile) -> None:
     """
     reading = _Reading()
     parser = expat.ParserCreate()
-    parser.StartDoctypeDeclHandler = lambda *_: _refuse(file, "declares its own document type")
-    parser.EntityDeclHandler = lambda *_: _refuse(file, "declares entities")
+    parser.StartDoctypeDeclHandler = lambda *_: _refuse(file, Reason("formats.e57_doctype"))
+    parser.EntityDeclHandler = lambda *_: _refuse(file, Reason("formats.e57_entities"))
     parser.StartElementHandler = lambda name, attributes: _start(file, reading, name, attributes)
     parser.EndElementHandler = lambda _: _end(reading)
     try:
         parser.Parse(_xml(file), True)
     except (expat.ExpatError, LookupError, ValueError) as error:
-        raise file.wrong(f"its XML part cannot be read ({error}); copy or export it again") from error
+        raise file.wrong(Reason("formats.e57_xml", why=error)) from error
     for records, bits in reading.announced:
         if records > LARGEST_POINT_COUNT or records * bits > 8 * len(file.content):
-            raise file.wrong(
-                f"its XML part announces {records} points of {bits} bits, more than its {len(file.content)} bytes have "
-                "room for or than any scan has: it is cut off or wrong; copy or export it again"
-            )
+            raise file.wrong(Reason("formats.e57_announces", records=records, bits=bits, size_bytes=len(file.content)))
 
 
 def _xml(file: ScanFile) -> bytes:
     content = file.content
     if not content.startswith(_SIGNATURE):
-        raise file.wrong('does not begin with "ASTM-E57": it is no E57 file; check its extension')
+        raise file.wrong(Reason("formats.no_e57"))
     if len(content) < 48:
-        raise file.wrong(f"ends at byte {len(content)}, within its header; copy or export it again")
+        raise file.wrong(Reason("formats.ends_in_header", size_bytes=len(content)))
     file_bytes, xml_at, xml_bytes, page_bytes = struct.unpack_from("<QQQQ", content, 16)
     if page_bytes != _PAGE_BYTES:
-        raise file.wrong(f"its header says pages of {page_bytes} bytes, they have 1024; export it again")
+        raise file.wrong(Reason("formats.e57_pages", page_bytes=page_bytes))
     if file_bytes > len(content):
-        raise file.wrong(f"should have {file_bytes} bytes and has {len(content)}: it is cut off; copy it again")
+        raise file.wrong(Reason("formats.e57_size", file_bytes=file_bytes, size_bytes=len(content)))
     if not (48 <= xml_at < file_bytes and 0 < xml_bytes <= LONGEST_XML_BYTES):
-        raise file.wrong(f"its XML part should be {xml_bytes} bytes at byte {xml_at}, which cannot be; export it again")
+        raise file.wrong(Reason("formats.e57_xml_place", xml_bytes=xml_bytes, xml_at=xml_at))
     text = bytearray()
     position = xml_at
     while len(text) < xml_bytes and position < len(content):
@@ -86,13 +84,13 @@ def _xml(file: ScanFile) -> bytes:
 
 
 def _refuse(file: ScanFile, what: str) -> None:
-    raise file.wrong(f"its XML part {what}, which no exporter writes: it may be meant to harm; do not use it")
+    raise file.wrong(Reason("formats.e57_harm", what=what))
 
 
 def _start(file: ScanFile, reading: _Reading, name: str, attributes: dict[str, str]) -> None:
     reading.path.append(name)
     if len(reading.path) > _DEEPEST_XML:
-        _refuse(file, f"is nested more than {_DEEPEST_XML} deep")
+        _refuse(file, Reason("formats.e57_deep", most=_DEEPEST_XML))
     above = reading.path[-2] if len(reading.path) > 1 else ""
     if attributes.get("type") == "CompressedVector":
         reading.records, reading.bits_of_record = _whole(attributes.get("recordCount", "0")), 0
@@ -101,7 +99,7 @@ def _start(file: ScanFile, reading: _Reading, name: str, attributes: dict[str, s
     elif above == "data3D":
         reading.scans += 1
         if reading.scans > MOST_SCANS:
-            _refuse(file, f"announces more than {MOST_SCANS} scans")
+            _refuse(file, Reason("formats.e57_many", most=MOST_SCANS))
 
 
 def _end(reading: _Reading) -> None:
@@ -130,5 +128,5 @@ def _whole(text: str) -> int:
         For a text that is none, or longer than any.
     """
     if len(text) > 40:
-        raise ValueError(f"a number of {len(text)} digits")
+        raise ValueError(Reason("formats.digits", count=len(text)))
     return int(text)

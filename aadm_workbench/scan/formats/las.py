@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from aadm_workbench.model import Array, BoolArray
+from aadm_workbench.model import Array, BoolArray, Reason
 from aadm_workbench.scan.file import LARGEST_POINT_COUNT, Cloud, Declared, ScanFile
 from aadm_workbench.scan.formats.las_header import LasHeader, Records, parse_header
 from aadm_workbench.scan.formats.las_unit import unit_of
@@ -34,7 +34,7 @@ def read_las(file: ScanFile, declared: Declared) -> Cloud:
     header = parse_header(file)
     unit = unit_of(file, header.records)
     if header.count > LARGEST_POINT_COUNT:
-        raise file.wrong(f"its header announces {header.count} points, more than any scan; crop it to the component")
+        raise file.wrong(Reason("formats.las_count", count=header.count))
     if not header.compressed or header.count == 0:
         check_room(file, header.start, header.count, header.record_bytes, len(file.content) - header.start)
     points, withheld = [], 0

@@ -12,7 +12,7 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 from aadm_workbench.scan.file import ScanFile
 
 Records: TypeAlias = "npt.NDArray[np.uint8]"
@@ -82,28 +82,26 @@ def parse_header(file: ScanFile) -> LasHeader:
     """
     content = file.content
     if not content.startswith(_SIGNATURE):
-        raise file.wrong('does not begin with "LASF": it is no LAS or LAZ file; check its extension')
+        raise file.wrong(Reason("formats.no_las"))
     if len(content) < _SHORTEST_HEADER_BYTES:
-        raise file.wrong(f"ends at byte {len(content)}, within its header; copy or export it again")
+        raise file.wrong(Reason("formats.ends_in_header", size_bytes=len(content)))
     major, minor = content[24], content[25]
     header_bytes, start, record_count = struct.unpack_from("<HII", content, 94)
     format_byte, record_bytes, count = struct.unpack_from("<BHI", content, 104)
     numbers = np.frombuffer(content, "<f8", 6, 131).astype(np.float64)
     if major != 1 or minor > 4:
-        raise file.wrong(f"is LAS version {major}.{minor}; known are 1.0 to 1.4, export it as one of them")
+        raise file.wrong(Reason("formats.las_version", major=major, minor=minor))
     if minor == 4:
         if min(header_bytes, len(content)) < _SHORTEST_HEADER_OF_14_BYTES:
-            raise file.wrong(f"its LAS 1.4 header has {header_bytes} bytes, 375 are the least; export it again")
+            raise file.wrong(Reason("formats.las_header", header_bytes=header_bytes))
         count = struct.unpack_from("<Q", content, 247)[0] or count
     point_format = format_byte & ~_COMPRESSED
     if point_format >= len(_RECORD_BYTES) or record_bytes < _RECORD_BYTES[point_format]:
-        raise file.wrong(
-            f"its points of format {point_format} have {record_bytes} bytes: that cannot be; export it again"
-        )
+        raise file.wrong(Reason("formats.las_record", point_format=point_format, record_bytes=record_bytes))
     if not header_bytes <= start <= len(content):
-        raise file.wrong(f"its points should begin at byte {start}, but it has {len(content)} bytes; copy it again")
+        raise file.wrong(Reason("formats.las_start", start=start, size_bytes=len(content)))
     if not np.isfinite(numbers).all() or not numbers[:3].all():
-        raise file.wrong(f"its scales and offsets, {numbers.tolist()}, must be finite, scales not 0; export it again")
+        raise file.wrong(Reason("formats.las_scales", numbers=numbers.tolist()))
     records = _variable_records(file, header_bytes, start, record_count)
     compressed = bool(format_byte & _COMPRESSED)
     return LasHeader(point_format, compressed, start, record_bytes, count, numbers[:3], numbers[3:], records)
@@ -111,11 +109,11 @@ def parse_header(file: ScanFile) -> LasHeader:
 
 def _variable_records(file: ScanFile, position: int, end: int, count: int) -> tuple[VariableRecord, ...]:
     if count > MOST_VARIABLE_RECORDS:
-        raise file.wrong(f"its header announces {count} variable length records, which cannot be; export it again")
+        raise file.wrong(Reason("formats.las_records", count=count))
     records = []
     for number in range(count):
         if position + 54 > end:
-            raise file.wrong(f"its variable length record {number} of {count} runs into its points; export it again")
+            raise file.wrong(Reason("formats.las_overrun", number=number, count=count))
         user, record_id, length = struct.unpack_from("<2x16sHH", file.content, position)
         position += 54
         content = file.content[position : min(position + length, end)]

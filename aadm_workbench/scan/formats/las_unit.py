@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from aadm_workbench.errors import ScanError
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.formats.las_header import VariableRecord
 
@@ -49,8 +50,8 @@ def _one(file: ScanFile, units: Sequence[tuple[str, float]]) -> tuple[float, str
     for other, other_metres in units[1:]:
         # The factor of a height is often left at 1 where its unit is named rightly.
         if other.lower() != name.lower() and not abs(other_metres / metres - 1.0) < _SAME_UNIT:
-            raise file.wrong(f"its heights are in {other}, its plane in {name}; convert it to one unit")
-    return 1000.0 * metres, f"its coordinate system says {name}"
+            raise file.wrong(Reason("formats.las_units_differ", other=other, name=name))
+    return 1000.0 * metres, Reason("formats.las_unit", name=name)
 
 
 def _units_of_text(file: ScanFile, content: bytes) -> list[tuple[str, float]]:
@@ -84,4 +85,4 @@ def _units_of_keys(file: ScanFile, content: bytes) -> list[tuple[str, float]]:
 
 
 def _degrees(file: ScanFile) -> ScanError:
-    return file.wrong("its coordinates are degrees of longitude and latitude; export it in metres or millimetres")
+    return file.wrong(Reason("formats.las_degrees"))

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.formats.las_header import LasHeader, Records
 
@@ -72,8 +73,7 @@ def unpacked_records(file: ScanFile, header: LasHeader) -> Iterator[Records]:
             if not _is_of_lazrs(error):
                 raise
             raise file.wrong(
-                f"its points {done} to {done + count} of {header.count} do not unpack ({_first_line(error)}): it is "
-                "cut off or damaged; copy or export it again"
+                Reason("formats.laz_unpack", first=done, last=done + count, count=header.count, why=_first_line(error))
             ) from error
         yield np.frombuffer(buffer, np.uint8).reshape(count, header.record_bytes)
         done += count
@@ -95,7 +95,7 @@ def _packing(file: ScanFile, header: LasHeader) -> bytes:
     """Return the record that says how the points are packed, once it is certain that it fits them."""
     found = [record.content for record in header.records if record.number == _RECORD_NUMBER]
     if not found or len(found[0]) < _SHORTEST_RECORD_BYTES:
-        raise file.wrong("is packed, but does not say how (no LASzip record); export it again")
+        raise file.wrong(Reason("formats.laz_unsaid"))
     content = found[0]
     compressor, chunk_points, item_count = (
         struct.unpack_from(kind, content, at)[0] for kind, at in (("<H", 0), ("<I", 12), ("<H", 32))
@@ -109,14 +109,14 @@ def _packing(file: ScanFile, header: LasHeader) -> bytes:
         and sum(size for _, size in items) == header.record_bytes
     )
     if not fits or (chunk_points == 0 and compressor != _POINT_WISE):
-        raise file.wrong("is packed in a way that does not fit its points; export it again, or as LAS")
+        raise file.wrong(Reason("formats.laz_unfit"))
     if compressor == _POINT_WISE:
         # The first kind of LAZ: one stream of points, without chunks.
         return content
     table, chunks = _table_of_chunks(file, header)
     needed = chunks if chunk_points == _OF_ANY_LENGTH else math.ceil(header.count / chunk_points)
     if chunks < needed:
-        raise file.wrong(f"its table announces {chunks} chunks of points, {needed} are needed; export it again")
+        raise file.wrong(Reason("formats.laz_chunks", chunks=chunks, needed=needed))
     if compressor == _LAYERED:
         _check_layers(file, header, items, table, needed)
     return content
@@ -136,15 +136,13 @@ def _table_of_chunks(file: ScanFile, header: LasHeader) -> tuple[int, int]:
     if table == -1:
         table = struct.unpack_from("<q", content, len(content) - 8)[0]
     if not header.start + 8 <= table <= len(content) - 8:
-        raise file.wrong(f"its table of chunks should stand at byte {table} of {len(content)}; copy it again")
+        raise file.wrong(Reason("formats.laz_table", table=table, size_bytes=len(content)))
     version, chunks = struct.unpack_from("<II", content, table)
     if version != 0:
-        raise file.wrong(
-            f"its table of chunks, at byte {table}, is of version {version}, not 0; copy or export it again"
-        )
+        raise file.wrong(Reason("formats.laz_table_version", table=table, version=version))
     # Some writers close with a chunk that is empty.
     if chunks - 1 > header.count or (chunks - 1) * header.record_bytes > room:
-        raise file.wrong(f"its table announces {chunks} chunks of points, more than it has room for; export it again")
+        raise file.wrong(Reason("formats.laz_too_many", chunks=chunks))
     return table, chunks
 
 
@@ -162,7 +160,5 @@ def _check_layers(file: ScanFile, header: LasHeader, items: Sequence[tuple[int, 
             # A chunk that is empty may close the file.
             if chunk == chunks - 1 and position == table:
                 return
-            raise file.wrong(
-                f"chunk {chunk + 1} of {chunks}, at byte {position}, is longer than the file; copy it again"
-            )
+            raise file.wrong(Reason("formats.laz_chunk", chunk=chunk + 1, chunks=chunks, position=position))
         position = end

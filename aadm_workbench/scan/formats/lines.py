@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.formats.rows import LONGEST_LINE_BYTES
 
@@ -31,7 +32,7 @@ def line_at(file: ScanFile, content: bytes, start: int) -> tuple[str, int]:
         if end < 0:
             end = len(content)
         if end - start > LONGEST_LINE_BYTES:
-            raise file.wrong(f"has a line of over {LONGEST_LINE_BYTES} bytes at byte {start}: it is no text of points")
+            raise file.wrong(Reason("points.long_line", most_bytes=LONGEST_LINE_BYTES, place=start))
         line = content[start:end].decode("latin-1").strip()
         start = min(end + 1, len(content))
         if line:

@@ -12,6 +12,7 @@ from typing import IO, Any
 
 import numpy as np
 
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.depth import cloud_of_depth_map
 from aadm_workbench.scan.file import LARGEST_POINT_COUNT, Cloud, Declared, ScanFile
 from aadm_workbench.scan.formats.records import coordinate_dtype
@@ -46,13 +47,13 @@ def read_npz(file: ScanFile, declared: Declared) -> Cloud:
             names = archive.namelist()
             name = next((name for name in ("points", "depth") if f"{name}.npy" in names), None)
             if name is None:
-                raise file.wrong(f'has no array "points" or "depth" (only {", ".join(names)[:80]}); save one of them')
+                raise file.wrong(Reason("formats.npz_no_array", names=", ".join(names)[:80]))
             if archive.getinfo(f"{name}.npy").compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-                raise file.wrong(f"its array {name!r} is packed in a way that NumPy does not use; save it again")
+                raise file.wrong(Reason("formats.npz_packed", name=repr(name)))
             with archive.open(f"{name}.npy") as member:
                 values = _array(file, name, member)
     except _ERRORS_OF_ARCHIVES as error:
-        raise file.wrong(f"is damaged or no .npz archive ({error}); copy or save it again") from error
+        raise file.wrong(Reason("formats.npz_damaged", why=error)) from error
     if name == "depth":
         return cloud_of_depth_map(file, values, declared)
     return Cloud(values.astype(coordinate_dtype([values.dtype]), order="C"), declared.mm_per_unit)
@@ -67,15 +68,17 @@ def _array(file: ScanFile, name: str, member: IO[bytes]) -> np.ndarray[Any, np.d
         }[version]
         shape, in_columns, dtype = read_header(member)
     except (ValueError, KeyError, SyntaxError, tokenize.TokenError) as error:
-        raise file.wrong(f"its array {name!r} has no header that can be read ({error}); save it again") from error
+        raise file.wrong(Reason("formats.npz_header", name=repr(name), why=error)) from error
     is_right_shape = len(shape) == 2 if name == "depth" else len(shape) in (2, 3) and shape[-1] == 3
     if not is_right_shape or dtype.kind not in "fiu" or dtype.itemsize > 8:
         needed = "(h, w)" if name == "depth" else "(n, 3) or (h, w, 3)"
-        raise file.wrong(f"its array {name!r} is {dtype} of shape {shape}, but must be numbers of shape {needed}")
+        raise file.wrong(Reason("formats.npz_type", name=repr(name), dtype=dtype, shape=shape, needed=needed))
     if math.prod(shape) > 3 * LARGEST_POINT_COUNT:
-        raise file.wrong(f"its array {name!r} of shape {shape} is larger than any scan; crop it to the component")
+        raise file.wrong(Reason("formats.npz_large", name=repr(name), shape=shape))
     size_bytes = math.prod(shape) * dtype.itemsize
     content = member.read(size_bytes)
     if len(content) < size_bytes or size_bytes == 0:
-        raise file.wrong(f"its array {name!r} of shape {shape} has {len(content)} of {size_bytes} bytes; save it again")
+        raise file.wrong(
+            Reason("formats.npz_short", name=repr(name), shape=shape, found_bytes=len(content), size_bytes=size_bytes)
+        )
     return np.frombuffer(content, dtype).reshape(shape, order="F" if in_columns else "C")

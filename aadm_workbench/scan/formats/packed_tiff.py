@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.depth_picture import DepthPicture
 from aadm_workbench.scan.file import ScanFile
 
@@ -81,12 +82,12 @@ def unpacked(file: ScanFile, picture: DepthPicture) -> np.ndarray[Any, np.dtype[
             pixels = np.asarray(_pixels(pages, picture))
     except _ERRORS as error:
         reason = (str(error).splitlines() or [type(error).__name__])[0][:120]
-        raise file.wrong(f"cannot be unpacked ({reason}); copy or export it again") from error
+        raise file.wrong(Reason("formats.tiff_unpack", why=reason)) from error
     if picture.is_point_map and pixels.shape == (3, picture.height, picture.width):
         pixels = np.moveaxis(pixels, 0, -1)
     wanted = (picture.height, picture.width, 3)[: 3 if picture.is_point_map else 2]
     if pixels.shape != wanted:
-        raise file.wrong(f"unpacks to an array of {pixels.shape} where {wanted} is announced; export it again")
+        raise file.wrong(Reason("formats.tiff_shape", shape=pixels.shape, wanted=wanted))
     return pixels.astype(np.float32) if pixels.dtype == np.float16 else pixels.astype(pixels.dtype.newbyteorder("="))
 
 
@@ -101,14 +102,16 @@ def _package(name: str, file: ScanFile, picture: DepthPicture) -> ModuleType:
     try:
         return import_module(name)
     except ImportError as error:
-        raise MissingDependencyError(name, f"{file.name}: {_remedy(picture)}. As it is it") from error
+        raise MissingDependencyError(
+            name, Reason("formats.tiff_as_it_is", name=file.name, what=_remedy(picture))
+        ) from error
 
 
 def _remedy(picture: DepthPicture) -> str:
     page = picture.page
     if page is not None and page.compression not in _READ_BY_OPENCV:
-        packed = _NAMES.get(page.compression, f"method {page.compression}")
-        return f"is compressed with {packed}: save it uncompressed or with deflate"
+        packed = _NAMES.get(page.compression, Reason("formats.tiff_method", number=page.compression))
+        return Reason("formats.tiff_packed", packed=packed)
     if picture.is_point_map:
-        return "is a map of X, Y and Z: save it as .ply or .npz, or save its depth (Z) alone with the intrinsics"
-    return "holds 16-bit floats: save it as 32-bit floats"
+        return Reason("formats.tiff_xyz")
+    return Reason("formats.tiff_half")

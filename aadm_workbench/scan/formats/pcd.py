@@ -8,7 +8,7 @@ from types import ModuleType
 import numpy as np
 
 from aadm_workbench.errors import MissingDependencyError
-from aadm_workbench.model import FloatArray
+from aadm_workbench.model import FloatArray, Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile, narrowed
 from aadm_workbench.scan.formats.pcd_header import Field, PcdHeader, parse_header
 from aadm_workbench.scan.formats.records import check_room, coordinate_dtype, gather
@@ -54,7 +54,7 @@ def _coordinate_fields(file: ScanFile, header: PcdHeader) -> tuple[Field, ...]:
     missing = [axis for axis in "xyz" if axis not in by_name or by_name[axis].count != 1]
     if missing:
         names = ", ".join(field.name for field in header.fields)
-        raise file.wrong(f"its points have no single value {', '.join(missing)} (fields: {names[:80]}); export x, y, z")
+        raise file.wrong(Reason("points.pcd_fields", missing=missing, names=names[:80]))
     return tuple(by_name[axis] for axis in "xyz")
 
 
@@ -71,24 +71,34 @@ def _compressed_points(file: ScanFile, header: PcdHeader, axes: tuple[Field, ...
     start = header.size_bytes
     body = file.content[start + _SIZES_BYTES :]
     if len(file.content) < start + _SIZES_BYTES:
-        raise file.wrong(f"ends at byte {len(file.content)}, before its compressed points; copy or export it again")
+        raise file.wrong(Reason("points.pcd_ends", size_bytes=len(file.content)))
     packed_bytes, unpacked_bytes = (int(size) for size in np.frombuffer(file.content, "<u4", 2, start))
     if packed_bytes > len(body):
         raise file.wrong(
-            f"its compressed points take {packed_bytes} bytes from byte {start + _SIZES_BYTES} on, but the file has "
-            f"{len(file.content)} bytes: it is cut off; copy or export it again"
+            Reason(
+                "points.pcd_cut", packed_bytes=packed_bytes, start=start + _SIZES_BYTES, size_bytes=len(file.content)
+            )
         )
     needed_bytes = header.count * header.step_bytes
     if header.count == 0 or needed_bytes != unpacked_bytes or needed_bytes > GREATEST_EXPANSION * packed_bytes:
         raise file.wrong(
-            f"its header announces {header.count} points of {header.step_bytes} bytes, but {packed_bytes} packed bytes "
-            f"are to unpack to {unpacked_bytes}: its header is wrong; export it again"
+            Reason(
+                "points.pcd_header_wrong",
+                count=header.count,
+                step_bytes=header.step_bytes,
+                packed_bytes=packed_bytes,
+                unpacked_bytes=unpacked_bytes,
+            )
         )
     unpacked = decompress(body[:packed_bytes], unpacked_bytes)
     if unpacked is None:
         raise file.wrong(
-            f"its compressed points (bytes {start + _SIZES_BYTES} to {start + _SIZES_BYTES + packed_bytes}) do not "
-            f"unpack to {header.count} points: the file is damaged; copy or export it again"
+            Reason(
+                "points.pcd_damaged",
+                start=start + _SIZES_BYTES,
+                end=start + _SIZES_BYTES + packed_bytes,
+                count=header.count,
+            )
         )
     return _planes(unpacked, header.count, axes)
 

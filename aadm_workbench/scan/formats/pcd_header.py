@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.errors import ScanError
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 from aadm_workbench.scan.file import ScanFile
 
 LONGEST_HEADER_BYTES = 2**20
@@ -88,7 +88,7 @@ def parse_header(file: ScanFile) -> PcdHeader:
     entries, size_bytes = _entries(file)
     storage = " ".join(entries["DATA"]).lower()
     if storage not in STORAGES:
-        raise file.wrong(f"its PCD header says DATA {storage}; known are {', '.join(STORAGES)}")
+        raise file.wrong(Reason("points.pcd_storage", storage=storage, known=STORAGES))
     fields = _fields(file, entries)
     width, height = _grid(file, entries)
     return PcdHeader(fields, width, height, _pose(file, entries), storage, size_bytes)
@@ -100,7 +100,7 @@ def _entries(file: ScanFile) -> tuple[dict[str, list[str]], int]:
     while "DATA" not in entries:
         end = file.content.find(b"\n", position, LONGEST_HEADER_BYTES)
         if end < 0:
-            raise file.wrong("has no PCD header ending in a DATA line: it is no PCD file or cut off; export it again")
+            raise file.wrong(Reason("points.no_pcd"))
         words = file.content[position:end].decode("latin-1").split()
         if words and not words[0].startswith("#"):
             entries[words[0].upper()] = words[1:]
@@ -113,8 +113,8 @@ def _numbers(file: ScanFile, entries: dict[str, list[str]], key: str, least: int
     # Longer numbers cannot be meant, and their product would.
     numbers = [int(word) for word in words if word.isascii() and word.isdigit() and len(word) <= 15]
     if not words or len(numbers) != len(words) or min(numbers) < least:
-        said = f"says {key} {' '.join(words)[:60]}" if words else f"has no {key}"
-        raise file.wrong(f"its PCD header {said}; it should list whole numbers from {least} on; export it again")
+        code = "points.pcd_says" if words else "points.pcd_has_no"
+        raise file.wrong(Reason(code, key=key, said=" ".join(words)[:60], least=least))
     return numbers
 
 
@@ -125,10 +125,10 @@ def _fields(file: ScanFile, entries: dict[str, list[str]]) -> tuple[Field, ...]:
     counts = _numbers(file, entries, "COUNT", 1) if "COUNT" in entries else [1] * len(names)
     kinds = [kind.upper() for kind in entries.get("TYPE", [])]
     if not len(names) == len(sizes) == len(counts) == len(kinds):
-        raise file.wrong("FIELDS, SIZE, TYPE and COUNT of its PCD header differ in length; export it again")
+        raise file.wrong(Reason("points.pcd_lengths"))
     unknown = [f"{kind}{size}" for kind, size in zip(kinds, sizes, strict=True) if (kind, size) not in _DTYPES]
     if unknown:
-        raise file.wrong(f"its PCD header has values of unknown type ({', '.join(unknown)}); export it again")
+        raise file.wrong(Reason("points.pcd_types", unknown=unknown))
     dtypes = [np.dtype(f"<{kind.lower()}{size}") for kind, size in zip(kinds, sizes, strict=True)]
     offsets = accumulate((dtype.itemsize * count for dtype, count in zip(dtypes, counts, strict=True)), initial=0)
     columns = accumulate(counts, initial=0)
@@ -142,16 +142,13 @@ def _grid(file: ScanFile, entries: dict[str, list[str]]) -> tuple[int, int]:
     width, height = _numbers(file, entries, "WIDTH", 0)[0], _numbers(file, entries, "HEIGHT", 0)[0]
     points = _numbers(file, entries, "POINTS", 0)[0] if "POINTS" in entries else width * height
     if points != width * height:
-        raise file.wrong(f"its PCD header says POINTS {points}, but WIDTH {width} x HEIGHT {height}; export it again")
+        raise file.wrong(Reason("points.pcd_points", points=points, width=width, height=height))
     return width, height
 
 
 def _pose(file: ScanFile, entries: dict[str, list[str]]) -> Array:
     """Return VIEWPOINT, translation then quaternion w x y z, as a (4, 4) transform."""
-    wrong: ScanError = file.wrong(
-        f"its PCD header says VIEWPOINT {' '.join(entries['VIEWPOINT'])[:80]}; it should be a translation and a "
-        "quaternion w x y z; where it is not known, write VIEWPOINT 0 0 0 1 0 0 0"
-    )
+    wrong: ScanError = file.wrong(Reason("points.pcd_viewpoint", said=" ".join(entries["VIEWPOINT"])[:80]))
     try:
         values = np.array([float(word) for word in entries["VIEWPOINT"]])
     except ValueError as error:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.model import FloatArray
+from aadm_workbench.model import FloatArray, Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile, narrowed
 from aadm_workbench.scan.formats.ply_header import Element, PlyHeader, parse_header
 from aadm_workbench.scan.formats.records import check_room, coordinate_dtype, gather
@@ -28,7 +28,7 @@ def read_ply(file: ScanFile, declared: Declared) -> Cloud:
     header = parse_header(file)
     index = next((k for k, element in enumerate(header.elements) if element.name.lower() == "vertex"), None)
     if index is None:
-        raise file.wrong('its PLY header has no element "vertex": it holds no points; export the cloud')
+        raise file.wrong(Reason("points.ply_no_vertex"))
     vertex = header.elements[index]
     columns = _coordinate_columns(file, vertex)
     start = _vertex_start(file, header, header.elements[:index])
@@ -41,12 +41,12 @@ def read_ply(file: ScanFile, declared: Declared) -> Cloud:
 
 def _coordinate_columns(file: ScanFile, vertex: Element) -> tuple[int, ...]:
     if vertex.has_lists:
-        raise file.wrong("its vertices have a list property; export the cloud without it")
+        raise file.wrong(Reason("points.ply_list"))
     names = [item.name.lower() for item in vertex.properties]
     missing = [axis for axis in "xyz" if axis not in names]
     if missing:
         present = ", ".join(names)[:80]
-        raise file.wrong(f"its vertices have no property {', '.join(missing)} (only {present}); export x, y, z")
+        raise file.wrong(Reason("points.ply_missing", missing=missing, present=present))
     return tuple(names.index(axis) for axis in "xyz")
 
 
@@ -68,7 +68,7 @@ def _lines_end(file: ScanFile, start: int, element: Element) -> int:
     for _ in range(element.count):
         start = file.content.find(line_end, start) + 1
         if start == 0:
-            raise file.wrong(f"ends within its element {element.name!r}, before the points; copy or export it again")
+            raise file.wrong(Reason("points.ply_ends", name=repr(element.name)))
     return start
 
 
@@ -102,8 +102,7 @@ def _lists_end(file: ScanFile, start: int, element: Element, *, big_endian: bool
     if equal_end is not None:
         return equal_end
     if element.count > MOST_UNEQUAL_ROWS:
-        message = f"{element.count} rows of its element {element.name!r} stand before its points"
-        raise file.wrong(f"{message}, which are no triangles; export the points first, or alone")
+        raise file.wrong(Reason("points.ply_rows", count=element.count, name=repr(element.name)))
     end = start
     for row in range(element.count):
         for item in element.properties:
@@ -115,8 +114,8 @@ def _lists_end(file: ScanFile, start: int, element: Element, *, big_endian: bool
                 end += item.count_dtype.itemsize
             end += length * item.dtype.itemsize
             if length < 0 or end > len(file.content):
-                message = f"row {row} of {element.count} of its element {element.name!r} runs past the end of the file"
-                raise file.wrong(f"{message} ({len(file.content)} bytes): it is cut off or wrong; export it again")
+                place = {"row": row, "count": element.count, "name": repr(element.name)}
+                raise file.wrong(Reason("points.ply_row_end", **place, size_bytes=len(file.content)))
     return end
 
 

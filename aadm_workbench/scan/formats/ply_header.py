@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.errors import ScanError
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.file import ScanFile
 
 LONGEST_HEADER_BYTES = 2**20
@@ -92,7 +93,7 @@ def parse_header(file: ScanFile) -> PlyHeader:
             case _:
                 raise _bad_line(file, number, line)
     if not has_format:
-        raise file.wrong("its PLY header has no format line; export it again")
+        raise file.wrong(Reason("points.ply_no_format"))
     return PlyHeader(byte_order, tuple(elements), size_bytes)
 
 
@@ -100,14 +101,14 @@ def _header_lines(file: ScanFile) -> tuple[list[str], int]:
     content = file.content
     begin = _FIRST_LINE.match(content)
     if begin is None:
-        raise file.wrong('does not begin with "ply": it is no PLY file; check its extension')
+        raise file.wrong(Reason("points.no_ply"))
     line_end = b"\r" if begin[1] == b"\r" else b"\n"
     lines: list[str] = []
     position = 0
     while not (lines and lines[-1] == "end_header"):
         end = content.find(line_end, position, LONGEST_HEADER_BYTES)
         if end < 0:
-            raise file.wrong(f"its PLY header, {len(lines)} lines, has no end_header: it is cut off; export it again")
+            raise file.wrong(Reason("points.ply_no_end", count=len(lines)))
         lines.append(content[position:end].decode("latin-1").strip())
         position = end + 1
     return lines, position
@@ -127,4 +128,4 @@ def _dtype(kind: str, byte_order: str | None) -> np.dtype[Any]:
 
 
 def _bad_line(file: ScanFile, number: int, line: str) -> ScanError:
-    return file.wrong(f"line {number} of its PLY header makes no sense: {line[:80]!r}; export it again")
+    return file.wrong(Reason("points.ply_line", number=number, line=repr(line[:80])))

@@ -6,6 +6,7 @@ import re
 
 import numpy as np
 
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
 from aadm_workbench.scan.formats.lines import end_of_lines, line_at, with_newlines
 from aadm_workbench.scan.formats.records import check_room
@@ -36,7 +37,7 @@ def read_pts(file: ScanFile, declared: Declared) -> Cloud:
         check_room(file, start, count, _SHORTEST_ROW_BYTES, len(content) - start + 1)
         body = content[start : end_of_lines(content, start, count)]
         blocks.append(parse_rows(file, body, start, (0, 1, 2), count=count))
-    note = f"holds {len(blocks)} blocks of points, which were joined"
+    note = Reason("points.pts_blocks", count=len(blocks))
     return Cloud(np.concatenate(blocks), declared.mm_per_unit, notes=(note,))
 
 
@@ -50,11 +51,8 @@ def _blocks(file: ScanFile, content: bytes) -> list[tuple[int, int]]:
             if not line or len(starts) < 2:
                 return starts
             place = content.count(b"\n", 0, position) + 1
-            raise file.wrong(
-                f"before line {place} a block of {starts[-1][1]} points should have ended, but {line[:80]!r} follows; "
-                "copy or export it again"
-            )
+            raise file.wrong(Reason("points.pts_block_end", place=place, count=starts[-1][1], line=repr(line[:80])))
         if len(starts) == MOST_BLOCKS:
-            raise file.wrong(f"holds more than {MOST_BLOCKS} blocks of points; export those of the component alone")
+            raise file.wrong(Reason("points.pts_too_many", most=MOST_BLOCKS))
         starts.append((position, int(line)))
         position = end_of_lines(content, position, int(line))

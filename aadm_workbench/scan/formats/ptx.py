@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
 from aadm_workbench.scan.formats.lines import end_of_lines, line_at, with_newlines
 from aadm_workbench.scan.formats.records import check_room
@@ -59,14 +59,14 @@ def read_ptx(file: ScanFile, declared: Declared) -> Cloud:
     position = 3 if content.startswith(b"\xef\xbb\xbf") else 0
     while line_at(file, content, position)[0]:
         if len(scans) == MOST_SCANS:
-            raise file.wrong(f"holds more than {MOST_SCANS} scans; export those of the component alone")
+            raise file.wrong(Reason("points.ptx_too_many", most=MOST_SCANS))
         header = _header(file, content, position)
         end = end_of_lines(content, header.start, header.count)
         if header.count:
             scans.append((header, _rows(file, header, content[header.start : end])))
         position = end
     if not scans:
-        raise file.wrong("holds no points; export the scan again")
+        raise file.wrong(Reason("points.no_points"))
     is_grid = len(scans) == 1 and scans[0][0].organised
     clouds = [_organised(*one, declared) if is_grid else _in_rows(*one, declared) for one in scans]
     return joined(clouds)
@@ -83,18 +83,22 @@ def _header(file: ScanFile, content: bytes, position: int) -> PtxHeader:
             numbers = []
         if len(numbers) != wanted or not np.isfinite(numbers).all():
             place = content.count(b"\n", 0, start) + 1
-            what = f"{wanted} number{'s' if wanted > 1 else ''}"
             raise file.wrong(
-                f"line {place} should be line {len(lines) + 1} of 10 of a PTX header, {what}, but reads {line[:80]!r}; "
-                "export it again"
+                Reason(
+                    "points.ptx_line.several" if wanted > 1 else "points.ptx_line",
+                    place=place,
+                    number=len(lines) + 1,
+                    count=wanted,
+                    line=repr(line[:80]),
+                )
             )
         lines.append(numbers)
     columns, rows = lines[0][0], lines[1][0]
     if min(columns, rows) < 0 or columns != round(columns) or rows != round(rows):
-        raise file.wrong(f"a PTX header says {columns:g} columns, {rows:g} rows; they must be whole; export it again")
+        raise file.wrong(Reason("points.ptx_size", columns=columns, rows=rows))
     T_scan_file = np.array(lines[6:]).T
     if not np.allclose(T_scan_file[3], [0.0, 0.0, 0.0, 1.0]) or not np.linalg.det(T_scan_file[:3, :3]):
-        raise file.wrong(f"the transform before byte {position} is none of space; export it again")
+        raise file.wrong(Reason("points.ptx_transform", position=position))
     header = PtxHeader(int(columns), int(rows), T_scan_file, position)
     if header.count:
         # The last row may do without its line end.

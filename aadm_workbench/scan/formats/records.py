@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.model import FloatArray
+from aadm_workbench.model import FloatArray, Reason
 from aadm_workbench.scan.file import ScanFile
 
 Axes = Sequence[tuple[int, "np.dtype[Any]"]]
@@ -41,13 +41,18 @@ def check_room(file: ScanFile, start: int, count: int, smallest_record_bytes: in
         Where the header announces no point, or more than there is room for.
     """
     if count == 0:
-        raise file.wrong("its header announces 0 points; export the scan again")
+        raise file.wrong(Reason("points.no_records"))
     if count * smallest_record_bytes > room_bytes:
         found = max(room_bytes, 0) // smallest_record_bytes
         raise file.wrong(
-            f"its header announces {count} points of at least {smallest_record_bytes} bytes from byte {start} on, "
-            f"but the file has {len(file.content)} bytes, room for {found} points: it is cut off or its header is "
-            "wrong; copy or export it again"
+            Reason(
+                "points.records_short",
+                count=count,
+                record_bytes=smallest_record_bytes,
+                start=start,
+                size_bytes=len(file.content),
+                found=found,
+            )
         )
 
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from aadm_workbench.errors import ScanError
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 from aadm_workbench.scan.file import ScanFile
 
 LONGEST_LINE_BYTES = 2**20
@@ -72,10 +72,7 @@ def parse_rows(
             raise _bad_row(file, body, start, columns, delimiter, str(error)) from error
     found = len(points)
     if count is not None and found < count:
-        raise file.wrong(
-            f"its header announces {count} points, but after {found} of them the file ends (at byte "
-            f"{len(file.content)}): it is cut off or its header is wrong; copy or export it again"
-        )
+        raise file.wrong(Reason("points.rows_short", count=count, found=found, size_bytes=len(file.content)))
     return points.reshape(-1, len(columns))
 
 
@@ -96,9 +93,7 @@ def _check_lines(file: ScanFile, body: bytes, start: int) -> None:
     """Refuse lines that no exporter writes before they are unpacked to four times their size."""
     for begin in range(0, len(body) - LONGEST_LINE_BYTES, LONGEST_LINE_BYTES):
         if body.find(b"\n", begin, begin + LONGEST_LINE_BYTES) < 0:
-            raise file.wrong(
-                f"has a line of over {LONGEST_LINE_BYTES} bytes around byte {start + begin}: it is no text of points"
-            )
+            raise file.wrong(Reason("points.long_row", most_bytes=LONGEST_LINE_BYTES, place=start + begin))
 
 
 def _bad_row(
@@ -111,8 +106,8 @@ def _bad_row(
         if text and (len(fields) <= max(columns) or any(number_in(fields[column]) is None for column in columns)):
             shown = text if len(text) <= 80 else f"{text[:80]}..."
             needed = max(columns) + 1
-            return file.wrong(f"line {number} should begin with {needed} numbers, but reads {shown!r}; export it again")
-    return file.wrong(f"its points cannot be read ({reason}, counted from line {first_line}); export it again")
+            return file.wrong(Reason("points.bad_row", number=number, needed=needed, shown=repr(shown)))
+    return file.wrong(Reason("points.bad_rows", why=reason, first_line=first_line))
 
 
 def without_signs(body: bytes) -> bytes:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
 from aadm_workbench.scan.formats.records import check_room
 from aadm_workbench.scan.formats.rows import (
@@ -77,7 +77,7 @@ def read_text(file: ScanFile, declared: Declared) -> Cloud:
         hold.
     """
     if file.content.startswith((b"\xff\xfe", b"\xfe\xff")) or b"\0" in file.content[:1024]:
-        raise file.wrong("is not plain text; save it as text in UTF-8 or name its real format by its extension")
+        raise file.wrong(Reason("points.no_text"))
     layout = _layout(file)
     body = file.content[layout.start :]
     if layout.count is not None:
@@ -85,12 +85,10 @@ def read_text(file: ScanFile, declared: Declared) -> Cloud:
         check_room(file, layout.start, layout.count, 6, len(body) + 1)
     points = parse_rows(file, _plain(body, layout), layout.start, layout.columns, delimiter=layout.delimiter)
     if layout.count not in (None, len(points)):
-        raise file.wrong(
-            f"its first line announces {layout.count} points, {len(points)} follow; copy or export it again"
-        )
+        raise file.wrong(Reason("points.text_count", count=layout.count, found=len(points)))
     if layout.mm_per_unit is None:
         return Cloud(points, declared.mm_per_unit, notes=layout.notes)
-    unit_from = "the names of its columns say so"
+    unit_from = Reason("points.text_unit")
     return Cloud(points, layout.mm_per_unit, unit_from=unit_from, notes=layout.notes)
 
 
@@ -122,9 +120,9 @@ def _layout(file: ScanFile) -> Layout:
         if _is_row(fields, columns) or (heading.is_comment and _is_row(fields, (0, 1, 2))):
             return _with_columns(file, replace(_with_decimals(file, position, separated), count=count), heading, text)
         if has_heading:
-            raise file.wrong(f"line {number} should begin with three numbers, but reads {text[:80]!r}")
+            raise file.wrong(Reason("points.text_line", number=number, text=repr(text[:80])))
         heading, count, has_heading = _heading(text), _announced_count(fields), True
-    raise file.wrong("holds no row of three numbers; export the points as rows of x, y, z")
+    raise file.wrong(Reason("points.text_no_row"))
 
 
 def _heading(text: str, *, is_comment: bool = False) -> _Heading:
@@ -223,7 +221,7 @@ def _with_columns(file: ScanFile, layout: Layout, heading: _Heading, row: str) -
     is_named = not heading.is_comment and len(heading.fields) == width and heading.separator == _between(row)
     if is_named and (width > 3 or names_some_axis(heading.fields)):
         shown = ", ".join(field.strip() for field in heading.fields)[:120]
-        raise file.wrong(f"does not tell which of its columns are x, y and z ({shown}); call them x, y and z there")
+        raise file.wrong(Reason("points.text_columns", shown=shown))
     return _by_values(file, layout, sample)
 
 
@@ -251,10 +249,7 @@ def _by_values(file: ScanFile, layout: Layout, sample: list[list[str]]) -> Layou
     width = min(map(len, sample[:-1] or sample))
     rows = [fields[:width] for fields in sample if len(fields) >= width]
     if layout.delimiter == "," and not layout.decimal_comma and _are_halves(rows):
-        raise file.wrong(
-            f"has commas between its columns and, it seems, in its numbers ({','.join(rows[0])[:80]}); "
-            "export it with decimal points, or with semicolons between the columns"
-        )
+        raise file.wrong(Reason("points.text_commas", shown=",".join(rows[0])[:80]))
     values = np.array([[np.nan if (value := number_in(field)) is None else value for field in row[:4]] for row in rows])
     values = values[np.isfinite(values).all(axis=1)]
     if width < 4 or len(values) < 3:
@@ -263,12 +258,9 @@ def _by_values(file: ScanFile, layout: Layout, sample: list[list[str]]) -> Layou
     has_fractions = bool((others != np.rint(others)).any(axis=0).all())
     is_whole = bool((first == np.rint(first)).all() and first.min() >= 0.0 and np.ptp(first) > 0.0)
     if is_whole and has_fractions and bool((np.diff(first[:_COUNTED]) == 1).all() and (np.diff(first) > 0).all()):
-        return replace(layout, columns=(1, 2, 3), notes=("its first column counts its points and was left out",))
+        return replace(layout, columns=(1, 2, 3), notes=(Reason("points.text_counts"),))
     if (is_whole and has_fractions) or _is_intensity(first, others):
-        raise file.wrong(
-            f"its first column ({', '.join(rows[0][:4])}, ...) does not look like x; name the columns in a first line, "
-            "such as: intensity x y z"
-        )
+        raise file.wrong(Reason("points.text_not_x", shown=rows[0][:4]))
     return layout
 
 

@@ -8,6 +8,8 @@ from __future__ import annotations
 import struct
 from dataclasses import dataclass
 
+from aadm_workbench.model import Reason
+
 SIGNATURES = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 MOST_PAGES = 10_000  # scanners save some; it bounds the time
 
@@ -125,7 +127,7 @@ def _first_at(form: _Form) -> int:
 
 def _page(content: bytes, form: _Form, at: int, number: int) -> Page:
     if at > len(content):
-        raise struct.error("the directory lies behind the end")
+        raise struct.error(Reason("formats.tiff_directory"))
     count = struct.unpack_from(form.order + ("Q" if form.is_big else "H"), content, at)[0]
     first, step, value_at = (at + 8, 20, 12) if form.is_big else (at + 2, 12, 8)
     values, places, name = dict(_DEFAULTS), {}, ""

@@ -6,7 +6,7 @@ import re
 from xml.etree import ElementTree
 
 from aadm_workbench.errors import CameraError
-from aadm_workbench.model import Json
+from aadm_workbench.model import Json, Reason
 
 _DECLARATION = re.compile("<!(?:DOCTYPE|ENTITY)", re.IGNORECASE)
 _DEEPEST_XML = 50  # the files of OpenCV nest three deep
@@ -21,17 +21,17 @@ def parse_xml(text: str) -> dict[str, Json]:
         For text that is no XML, declares entities, or is nested deeper than any file of intrinsics.
     """
     if _DECLARATION.search(text):
-        raise CameraError("declares its own XML document type, which no camera writes: it may be meant to harm")
+        raise CameraError(Reason("scan.xml_doctype"))
     try:
         root = ElementTree.fromstring(text.strip())
     except (ElementTree.ParseError, ValueError) as error:
-        raise CameraError(f"is no valid XML: {error}") from error
+        raise CameraError(Reason("scan.no_xml", why=error)) from error
     return {root.tag: _value(root, _DEEPEST_XML)}
 
 
 def _value(element: ElementTree.Element, deepest: int) -> Json:
     if deepest == 0:
-        raise CameraError(f"is XML nested more than {_DEEPEST_XML} deep, which no camera writes")
+        raise CameraError(Reason("scan.xml_deep", most=_DEEPEST_XML))
     table: dict[str, Json] = {name: _plain(text) for name, text in element.attrib.items()}
     for child in element:
         value = _value(child, deepest - 1)

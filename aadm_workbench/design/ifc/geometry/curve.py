@@ -15,7 +15,7 @@ from aadm_workbench.design.ifc.geometry.placement import (
     within,
 )
 from aadm_workbench.design.recognise.paths import Arc, Leg, Straight, arc_through, cut, polyline
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _FULL_TURN = 2.0 * math.pi  # rad
 _MOST_TURNS = 100.0
@@ -58,14 +58,14 @@ class Curves:
             case "IfcCompositeCurve" | "Ifc2DCompositeCurve" | "IfcBoundaryCurve" | "IfcOuterBoundaryCurve":
                 with within(self._begun, curve):
                     return self._joined_up(curve)
-        raise UnreadableGeometryError(f"#{curve.id()} {curve.is_a()} is not evaluated")
+        raise UnreadableGeometryError(Reason("geometry.not_evaluated", id=curve.id(), type=curve.is_a()))
 
     def _joined_up(self, curve: Any) -> list[Leg]:
         legs: list[Leg] = []
         for segment in curve.Segments:
             legs += self._segment(segment)
             if len(legs) > _MOST_LEGS:
-                raise NothingThereError(f"#{curve.id()} {curve.is_a()} has more than {_MOST_LEGS} legs")
+                raise NothingThereError(Reason("geometry.legs", id=curve.id(), type=curve.is_a(), most=_MOST_LEGS))
         return legs
 
     def swept(self, curve: Any, begin: float | None, stop: float | None) -> list[Leg]:
@@ -111,7 +111,7 @@ class Curves:
 
     def _segment(self, segment: Any) -> list[Leg]:
         if not hasattr(segment, "ParentCurve"):
-            raise UnreadableGeometryError(f"#{segment.id()} {segment.is_a()} is not evaluated")
+            raise UnreadableGeometryError(Reason("geometry.not_evaluated", id=segment.id(), type=segment.is_a()))
         legs = self.legs(segment.ParentCurve)
         return legs if segment.SameSense else [leg.reversed() for leg in reversed(legs)]
 
@@ -135,7 +135,7 @@ class Curves:
             return [self._trimmed_line(curve, basis)]
         begin, stop = (_parameter(trim) for trim in (curve.Trim1, curve.Trim2))
         if begin is None or stop is None:
-            raise UnreadableGeometryError(f"#{curve.id()} trims {basis.is_a()} by points, which is not evaluated")
+            raise UnreadableGeometryError(Reason("geometry.trimmed_by_points", id=curve.id(), type=basis.is_a()))
         legs = cut(self.legs(basis), min(begin, stop), max(begin, stop))
         return legs if forwards else [leg.reversed() for leg in reversed(legs)]
 
@@ -148,7 +148,7 @@ class Curves:
             elif parameter is not None:
                 ends.append(self._line(line, 0.0, parameter).end)
             else:
-                raise UnreadableGeometryError(f"#{curve.id()} has no trim")
+                raise UnreadableGeometryError(Reason("geometry.no_trim", id=curve.id()))
         magnitude_mm = self.placements.mm * line.Dir.Magnitude
         leg = Straight(ends[0], ends[1])
         return replace(leg, span=leg.length_mm / magnitude_mm)
@@ -166,7 +166,7 @@ class Curves:
         if parameter is not None and (point is None or curve.MasterRepresentation != "CARTESIAN"):
             return parameter * self.radians
         if point is None:
-            raise UnreadableGeometryError(f"#{curve.id()} has no trim")
+            raise UnreadableGeometryError(Reason("geometry.no_trim", id=curve.id()))
         arc = self._conic(conic, 0.0, 0.0)
         spoke = point - arc.centre
         return math.atan2(float(spoke @ arc.v) / float(arc.v @ arc.v), float(spoke @ arc.u) / float(arc.u @ arc.u))
@@ -184,7 +184,9 @@ def check_turn(entity: Any, turn: float) -> None:
         Naming the entity.
     """
     if not abs(turn) <= _MOST_TURNS * _FULL_TURN:
-        raise NothingThereError(f"#{entity.id()} {entity.is_a()} goes around {abs(turn) / _FULL_TURN:g} times")
+        raise NothingThereError(
+            Reason("geometry.turns", id=entity.id(), type=entity.is_a(), turns=abs(turn) / _FULL_TURN)
+        )
 
 
 def _parameter(trim: Sequence[Any]) -> float | None:

@@ -12,7 +12,7 @@ from aadm_workbench.design.ifc.geometry.curve import Curves
 from aadm_workbench.design.ifc.geometry.placement import Placements, UnreadableGeometryError, frame, unit
 from aadm_workbench.design.ifc.names import optional
 from aadm_workbench.design.recognise.paths import Straight, joined
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _UP = np.array([0.0, 0.0, 1.0])
 _PARALLEL_SINE = 1e-6  # axes that cross beyond a thousand kilometres
@@ -49,7 +49,7 @@ def grid_frame(placements: Placements, placement: Any) -> Array:
     else:
         x = _crossing(placements, towards) - origin
         if float(np.linalg.norm(x)) < _NO_LENGTH_MM:
-            raise UnreadableGeometryError(f"#{placement.id()} points at the crossing that it stands on")
+            raise UnreadableGeometryError(Reason("geometry.own_crossing", id=placement.id()))
         x = x / np.linalg.norm(x)
     relative_to = optional(placement, "PlacementRelTo") or _grid_of(axes).ObjectPlacement
     T: Array = placements.of_placement(relative_to) @ frame(origin, None, x)
@@ -67,7 +67,7 @@ def _crossing(placements: Placements, intersection: Any) -> Array:
     )
     sine = float(np.cross(first.along, second.along)[2])
     if abs(sine) < _PARALLEL_SINE:
-        raise UnreadableGeometryError(f"#{intersection.id()} names two grid axes that do not cross")
+        raise UnreadableGeometryError(Reason("geometry.no_crossing", id=intersection.id()))
     reach_mm = float(np.cross(second.point - first.point, second.along)[2]) / sine
     met: Array = first.point + reach_mm * first.along + offsets[2] * _UP
     return met
@@ -77,7 +77,7 @@ def _line(placements: Placements, axis: Any) -> _Line:
     # The unit of angles is of no account: axes that turn are not evaluated.
     legs = joined(Curves(placements, 1.0).legs(axis.AxisCurve))
     if len(legs) != 1 or not isinstance(legs[0], Straight):
-        raise UnreadableGeometryError(f"grid axis {axis.AxisTag or f'#{axis.id()}'} is not straight")
+        raise UnreadableGeometryError(Reason("geometry.grid_curved", axis=axis.AxisTag or f"#{axis.id()}"))
     leg = legs[0] if axis.SameSense is not False else legs[0].reversed()
     return _Line(leg.start, leg.direction)
 
@@ -87,4 +87,4 @@ def _grid_of(axes: Sequence[Any]) -> Any:
         for name in ("PartOfU", "PartOfV", "PartOfW"):
             for grid in getattr(axis, name, ()):
                 return grid
-    raise UnreadableGeometryError("a grid axis belongs to no grid")
+    raise UnreadableGeometryError(Reason("geometry.no_grid"))

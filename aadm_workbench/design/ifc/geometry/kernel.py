@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.design.ifc.geometry.placement import UnreadableGeometryError
-from aadm_workbench.model import Array, IntArray
+from aadm_workbench.model import Array, IntArray, Reason
 
 _LONGEST_S = 20.0
 """For one solid; the largest exact B-reps of real models take a second or two."""
@@ -52,7 +52,7 @@ class Kernel:
         if not hasattr(os, "fork"):
             return _facets(item)
         if self._hangs >= _MOST_HANGS:
-            raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} was not tried: others came to no end")
+            raise UnreadableGeometryError(Reason("geometry.not_tried", id=item.id(), type=item.is_a()))
         line = self._line or self._start(item.file)
         try:
             line.sendall(_HEAD.pack(item.id(), 0))
@@ -61,10 +61,10 @@ class Kernel:
             self.close()
             hangs = isinstance(error, TimeoutError)
             self._hangs += hangs
-            said = "comes to no end in the geometry kernel" if hangs else "cannot be evaluated"
-            raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} {said}") from error
+            code = "geometry.no_end" if hangs else "geometry.no_evaluation"
+            raise UnreadableGeometryError(Reason(code, id=item.id(), type=item.is_a())) from error
         if found is None:
-            raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} cannot be evaluated")
+            raise UnreadableGeometryError(Reason("geometry.no_evaluation", id=item.id(), type=item.is_a()))
         return found
 
     def close(self) -> None:
@@ -138,6 +138,6 @@ def _facets(item: Any) -> Drawn:
     try:
         drawn = kernel.create_shape(kernel.settings(), item)
     except (RuntimeError, TypeError, ValueError, AttributeError) as error:
-        raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} cannot be evaluated") from error
+        raise UnreadableGeometryError(Reason("geometry.no_evaluation", id=item.id(), type=item.is_a())) from error
     vertices = 1000.0 * np.array(drawn.verts, dtype=np.float64).reshape(-1, 3)
     return vertices, np.array(drawn.faces, dtype=np.int64).reshape(-1, 3)

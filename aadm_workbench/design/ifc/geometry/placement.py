@@ -13,7 +13,7 @@ import numpy as np
 from aadm_workbench.design.ifc.geometry.representation import body_of
 from aadm_workbench.design.ifc.names import optional
 from aadm_workbench.design.sound import FARTHEST_MM
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _LARGEST_SCALE = 1e9
 """Millimetres drawn as kilometres and again as much; what is scaled by more is no drawing."""
@@ -38,7 +38,7 @@ def within(begun: set[int], entity: Any) -> Iterator[None]:
     """
     number = entity.id()
     if number in begun:
-        raise NothingThereError(f"#{number} {entity.is_a()} is a part of itself")
+        raise NothingThereError(Reason("geometry.own_part", id=number, type=entity.is_a()))
     begun.add(number)
     try:
         yield
@@ -80,7 +80,7 @@ class Placements:
             while whole.is_a("IfcGeometricRepresentationSubContext"):
                 whole = whole.ParentContext
                 if whole is None or whole.id() in passed:
-                    raise UnreadableGeometryError(f"context #{context.id()} is a part of itself or of none")
+                    raise UnreadableGeometryError(Reason("geometry.context", id=context.id()))
                 passed.add(whole.id())
             self._known[context.id()] = self.of_axes(optional(whole, "WorldCoordinateSystem"))
         return self._known[context.id()]
@@ -100,9 +100,11 @@ class Placements:
                 self._known[placement.id()] = self._on_grid(placement)
                 break
             if _axes_of(placement) is None:
-                raise UnreadableGeometryError(f"#{placement.id()} {placement.is_a()} is not evaluated")
+                raise UnreadableGeometryError(
+                    Reason("geometry.not_evaluated", id=placement.id(), type=placement.is_a())
+                )
             if placement.id() in passed:
-                raise UnreadableGeometryError(f"placement #{placement.id()} is relative to itself")
+                raise UnreadableGeometryError(Reason("geometry.own_placement", id=placement.id()))
             passed.add(placement.id())
             chain.append(placement)
             placement = optional(placement, "PlacementRelTo")
@@ -136,7 +138,7 @@ class Placements:
             first = 1.0 if scales[0] is None else float(scales[0])
             T[:3, :3] *= [first if scale is None else float(scale) for scale in scales]
             if not 0.0 < abs(float(np.linalg.det(T[:3, :3]))) < _LARGEST_SCALE**3:
-                raise UnreadableGeometryError(f"#{operator.id()} scales by {first:g}")
+                raise UnreadableGeometryError(Reason("geometry.scales", id=operator.id(), scale=first))
         return T
 
     def of_map(self, source: Any) -> Array:
@@ -155,7 +157,7 @@ class Placements:
         xyz[: len(values)] = values
         xyz *= self.mm
         if not max(map(abs, xyz.tolist())) < FARTHEST_MM:
-            raise NothingThereError(f"a point lies {max(map(abs, values)):g} away, beyond all maps")
+            raise NothingThereError(Reason("geometry.far", distance=max(map(abs, values))))
         return xyz
 
 
@@ -181,7 +183,7 @@ def frame(origin: Array, z: Array | None, x: Array | None) -> Array:
     across = x - float(x @ up) * up
     length = math.sqrt(float(across @ across))
     if length < 1e-9:
-        raise UnreadableGeometryError("a placement's axes are parallel")
+        raise UnreadableGeometryError(Reason("geometry.parallel"))
     T = np.eye(4)
     T[:3, 0] = across / length
     T[:3, 2] = up
@@ -204,5 +206,5 @@ def unit(values: Any) -> Array:
     vector[: len(values)] = values
     length = math.sqrt(float(vector @ vector))
     if not 0.0 < length < math.inf:
-        raise UnreadableGeometryError("a direction has no length")
+        raise UnreadableGeometryError(Reason("geometry.no_length"))
     return vector / length

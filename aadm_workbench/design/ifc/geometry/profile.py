@@ -12,7 +12,7 @@ from aadm_workbench.design.ifc.geometry.placement import Placements, UnreadableG
 from aadm_workbench.design.recognise.circles import Circle, circle_through
 from aadm_workbench.design.recognise.paths import outline
 from aadm_workbench.design.recognise.shapes import Loop
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _Z = np.array([0.0, 0.0, 1.0])
 
@@ -56,7 +56,7 @@ class Profiles:
         if profile.is_a("IfcParameterizedProfileDef"):
             T = self.placements.of_axes(profile.Position)
             return [self._parameterized(profile).moved(T)]
-        raise UnreadableGeometryError(f"#{profile.id()} {profile.is_a()} is not evaluated")
+        raise UnreadableGeometryError(Reason("geometry.not_evaluated", id=profile.id(), type=profile.is_a()))
 
     def _operator(self, profile: Any) -> Array:
         if profile.is_a("IfcMirroredProfileDef"):
@@ -85,7 +85,7 @@ class Profiles:
                 wall_mm = 2.0 * mm * profile.WallThickness
                 hole = _rectangle(mm * profile.XDim - wall_mm, mm * profile.YDim - wall_mm)
                 return Area(_rectangle(mm * profile.XDim, mm * profile.YDim), (hole,))
-        raise UnreadableGeometryError(f"#{profile.id()} {profile.is_a()} is not evaluated")
+        raise UnreadableGeometryError(Reason("geometry.not_evaluated", id=profile.id(), type=profile.is_a()))
 
 
 def _circle(radius_mm: float) -> Loop:

@@ -21,7 +21,8 @@ from aadm_workbench.design.recognise.bar_courses import Course, courses, whole_b
 from aadm_workbench.design.recognise.paths import Leg, joined
 from aadm_workbench.design.recognise.shapes import Mesh, Shape
 from aadm_workbench.design.recognise.tubes import Tube, moved, tubes
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
+from aadm_workbench.model.reason import reason_of
 
 Part = TypeVar("Part")
 
@@ -148,7 +149,7 @@ class Shapes:
             leaves = self._leaves(items, self.placements.of_product(product, context))
             found = list(islice(leaves, _MOST_ITEMS))
             if next(leaves, None) is not None:
-                raise NothingThereError(f"it is drawn in more than {_MOST_ITEMS} pieces")
+                raise NothingThereError(Reason("geometry.pieces", most=_MOST_ITEMS))
             return found
         except BROKEN as error:
             self._note(product, error)
@@ -159,7 +160,7 @@ class Shapes:
             if item.is_a("IfcMappedItem"):
                 source = optional(optional(item, "MappingSource"), "MappedRepresentation")
                 if source.id() in within:
-                    raise NothingThereError(f"#{item.id()} IfcMappedItem is a part of itself")
+                    raise NothingThereError(Reason("geometry.own_mapped", id=item.id()))
                 yield from self._leaves(optional(source, "Items"), T @ self._mapping(item), (*within, source.id()))
             else:
                 yield item, T
@@ -187,12 +188,12 @@ class Shapes:
     def undrawn(self, product: Any) -> str:
         """Why nothing is drawn of a product, for the list of what was left out."""
         reason = self.reasons.get(product.id())
-        return f"has no geometry that could be evaluated{f' ({reason})' if reason else ''}"
+        return Reason("geometry.none.since" if reason else "geometry.none", why=reason)
 
     def _note(self, product: Any, error: Exception) -> None:
-        said = str(error) or type(error).__name__
+        said = reason_of(error) or type(error).__name__
         self.reasons.setdefault(product.id(), said)
-        self.problems.append(f"{product.is_a()} {product.GlobalId}: its geometry was left out: {said}")
+        self.problems.append(Reason("geometry.left_out", type=product.is_a(), global_id=product.GlobalId, why=said))
 
 
 def _coarse_tubes(shape: Shape) -> list[Tube]:

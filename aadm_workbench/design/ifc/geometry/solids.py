@@ -25,7 +25,7 @@ from aadm_workbench.design.recognise.circles import Circle
 from aadm_workbench.design.recognise.paths import Arc, rounded
 from aadm_workbench.design.recognise.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned, pieces
 from aadm_workbench.design.sound import FARTHEST_MM, UnsoundError, sound
-from aadm_workbench.model import Array, IntArray
+from aadm_workbench.model import Array, IntArray, Reason
 
 BROKEN = (
     UnreadableGeometryError,
@@ -100,29 +100,29 @@ class Solids:
         try:
             shapes = tuple(sound(shape) for shape in self._evaluated(item))
         except UnsoundError as error:
-            raise NothingThereError(f"#{item.id()} {item.is_a()}: {error}") from error
+            raise NothingThereError(Reason("geometry.item", id=item.id(), type=item.is_a(), why=error)) from error
         except (RecursionError, SystemError) as error:  # the second from deep inside ifcopenshell
-            raise NothingThereError(f"#{item.id()} {item.is_a()} is nested too deeply") from error
+            raise NothingThereError(Reason("geometry.nested", id=item.id(), type=item.is_a())) from error
         except NothingThereError:
             raise
         except BROKEN:
             self._check_sizes(item)
             shapes = self._tessellated(item)
         if sum(map(pieces, shapes)) > _MOST_PIECES:
-            raise NothingThereError(f"#{item.id()} {item.is_a()} is made of more than {_MOST_PIECES} pieces")
+            raise NothingThereError(Reason("geometry.made_of", id=item.id(), type=item.is_a(), most=_MOST_PIECES))
         return shapes
 
     def _check_sizes(self, item: Any) -> None:
         """Keep a solid from the kernel that has a size beyond all maps, over which it would sit for hours."""
         for value in item:
             if isinstance(value, float) and not abs(value) * self.placements.mm < FARTHEST_MM:
-                raise NothingThereError(f"#{item.id()} {item.is_a()} has a size of {value:g}")
+                raise NothingThereError(Reason("geometry.size", id=item.id(), type=item.is_a(), size=value))
 
     def _evaluated(self, item: Any) -> Sequence[Shape]:
         for ifc_class, evaluate in self._evaluators.items():
             if item.is_a(ifc_class):
                 return evaluate(item)
-        raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} is not evaluated")
+        raise UnreadableGeometryError(Reason("geometry.not_evaluated", id=item.id(), type=item.is_a()))
 
     @cached_property
     def _evaluators(self) -> dict[str, Callable[[Any], Sequence[Shape]]]:
@@ -167,10 +167,10 @@ class Solids:
         radii = [[circle.radius_mm for circle in end if circle is not None] for end in circles]
         first, last = (end[0] for end in circles)
         if first is None or last is None or len(radii[0]) != len(radii[1]) or len(radii[0]) > 2:
-            raise UnreadableGeometryError(f"#{item.id()} tapers")
+            raise UnreadableGeometryError(Reason("geometry.tapers", id=item.id()))
         upright = abs(float(unit(along) @ first.normal)) > 1.0 - 1e-12
         if not upright or np.linalg.norm(first.centre - last.centre) > 1e-9:
-            raise UnreadableGeometryError(f"#{item.id()} tapers aslant")
+            raise UnreadableGeometryError(Reason("geometry.tapers_aslant", id=item.id()))
         depth_mm = float(np.linalg.norm(along))
         inner = [end[1] if len(end) == 2 else 0.0 for end in radii]
         outline = [(inner[0], 0.0), (radii[0][0], 0.0), (radii[1][0], depth_mm), (inner[1], depth_mm)]
@@ -182,7 +182,7 @@ class Solids:
         circles = [area.outer.circle, *(hole.circle for hole in area.holes)]
         middles = [circle.centre for circle in circles if circle is not None]
         if len(middles) != len(circles) or len(circles) > 2 or np.abs(middles).max() > 1e-6:
-            raise UnreadableGeometryError(f"#{item.id()} sweeps a profile that is no disk about its directrix")
+            raise UnreadableGeometryError(Reason("geometry.no_disk", id=item.id()))
         radii_mm = [circle.radius_mm for circle in circles if circle is not None]
         legs = self.curves.swept(item.Directrix, item.StartParam, item.EndParam)
         disk = SweptDisk(tuple(legs), radii_mm[0], radii_mm[1] if len(radii_mm) == 2 else None)
@@ -190,7 +190,7 @@ class Solids:
 
     def _revolved(self, item: Any) -> list[Shape]:
         if item.is_a("IfcRevolvedAreaSolidTapered"):
-            raise UnreadableGeometryError(f"#{item.id()} tapers")
+            raise UnreadableGeometryError(Reason("geometry.tapers", id=item.id()))
         check_turn(item, item.Angle * self.curves.radians)
         whole = abs(item.Angle * self.curves.radians) > 2.0 * math.pi - 1e-6
         origin = self.placements.point(item.Axis.Location)
@@ -202,7 +202,7 @@ class Solids:
                 turned.append(self._bend(area.outer.circle, origin, axis, item.Angle).moved(T))
                 continue
             if not whole:
-                raise UnreadableGeometryError(f"#{item.id()} is no full turn")
+                raise UnreadableGeometryError(Reason("geometry.no_full_turn", id=item.id()))
             spokes = area.outer.points - origin
             height = spokes @ axis
             radius = np.linalg.norm(spokes - height[:, np.newaxis] * axis, axis=1)
@@ -214,7 +214,7 @@ class Solids:
         centre = origin + float((circle.centre - origin) @ axis) * axis
         u = circle.centre - centre
         if float(u @ u) < circle.radius_mm**2:
-            raise UnreadableGeometryError("a disk is turned about an axis in itself")
+            raise UnreadableGeometryError(Reason("geometry.disk_turned"))
         return SweptDisk((Arc(centre, u, np.cross(axis, u), 0.0, angle * self.curves.radians),), circle.radius_mm)
 
     def _cylinder(self, item: Any) -> list[Shape]:
@@ -232,7 +232,7 @@ class Solids:
 
     def _boolean(self, item: Any) -> list[Shape]:
         if item.SecondOperand.is_a("IfcPolygonalBoundedHalfSpace"):
-            raise UnreadableGeometryError(f"#{item.id()} is cut by a plane that reaches only so far")
+            raise UnreadableGeometryError(Reason("geometry.cut", id=item.id()))
         bodies = list(self.of_item(item.FirstOperand))
         try:
             others = self.of_item(item.SecondOperand)
@@ -250,7 +250,7 @@ class Solids:
     def _half_space(self, item: Any) -> list[Shape]:
         surface = item.BaseSurface
         if not surface.is_a("IfcPlane"):
-            raise UnreadableGeometryError(f"#{item.id()} is bounded by {surface.is_a()}")
+            raise UnreadableGeometryError(Reason("geometry.bounded_by", id=item.id(), type=surface.is_a()))
         T = self.placements.of_axes(surface.Position)
         towards = -T[:3, 2] if item.AgreementFlag else T[:3, 2]
         return [HalfSpace(T[:3, 3], towards, bounded=item.is_a("IfcPolygonalBoundedHalfSpace"))]
@@ -261,7 +261,7 @@ class Solids:
         found = []
         for face in faces:
             if face.is_a() == "IfcAdvancedFace" and not face.FaceSurface.is_a("IfcPlane"):
-                raise UnreadableGeometryError(f"#{face.id()} is curved")
+                raise UnreadableGeometryError(Reason("geometry.curved", id=face.id()))
             bounds = optional(face, "Bounds")
             if len(bounds) > 1:
                 bounds = sorted(bounds, key=lambda bound: not bound.is_a("IfcFaceOuterBound"))
@@ -299,7 +299,7 @@ class Solids:
         """The solid as ifcopenshell's geometry kernel facets it: for whatever is not evaluated here."""
         vertices, corners = self.kernel.facets(item)
         if not len(corners):
-            raise UnreadableGeometryError(f"#{item.id()} {item.is_a()} encloses nothing")
+            raise UnreadableGeometryError(Reason("geometry.nothing", id=item.id(), type=item.is_a()))
         return (sound(Mesh(vertices, tuple((triangle,) for triangle in corners))),)
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import hashlib
 import re
 import zipfile
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path, PurePosixPath
@@ -21,6 +20,8 @@ from aadm_workbench.design.ifc.text.prepared import prepared
 from aadm_workbench.design.ifc.text.step import numbered_once
 from aadm_workbench.design.model_file import LARGEST_MODEL_BYTES
 from aadm_workbench.errors import DesignError, MissingDependencyError
+from aadm_workbench.model import Reason, in_one
+from aadm_workbench.model.reason import listed
 
 _LOG_ERROR = re.compile(r"\[error\]\s*(?:\[[^\]]*\]\s*)*(?P<text>.+)")
 _AT_OFFSET = re.compile(r"\s*at offset (?P<offset>\d+)")
@@ -82,8 +83,8 @@ def open_ifc(path: str | Path) -> OpenedIfc:
     schemas = ifcopenshell.ifcopenshell_wrapper.schema_names()
     text = prepared(content, schemas)
     if text.schema not in schemas:
-        named = f"its header names the schema {text.schema}" if text.schema else "its header names no schema"
-        raise DesignError(f"{path} cannot be read as an IFC model: {named}. Export it as IFC2X3, IFC4 or IFC4X3.")
+        named = Reason("ifc.names_schema" if text.schema else "ifc.names_no_schema", schema=text.schema)
+        raise DesignError(Reason("ifc.schema", path=path, why=named))
     file, warnings = _parsed(path, text.content, is_on_disk=text.content == written)
     return OpenedIfc(
         source=str(path),
@@ -101,17 +102,16 @@ def _parsed(path: Path, content: bytes, *, is_on_disk: bool) -> tuple[Any, list[
     """The file of ifcopenshell, each number in it that of one entity, and what a person should know of it."""
     file, log = _read(path, content if not is_on_disk else None)
     complaints = _complaints(log, content)
-    warnings = [f"a line was skipped: {complaint}" for complaint in complaints]
+    warnings: list[str] = [Reason("ifc.skipped", why=complaint) for complaint in complaints]
     twice = list(dict.fromkeys(int(number) for number in _OVERWRITTEN.findall(log)))
     if twice:
         # The parser gives both under one number, and what refers to it gets either.
         file, _ = _read(path, numbered_once(content))
-        warnings.append(
-            f"{_numbers(twice)} given to several entities: the first of each counts, the others were left out"
-        )
+        code = "ifc.number" if len(twice) == 1 else "ifc.numbers"
+        warnings.append(Reason(code, shown=listed([f"#{one}" for one in twice], _SHOWN)))
     if file is None or not _holds_project(file):
-        reasons = "; ".join(complaints) or "it holds no IfcProject"
-        raise DesignError(f"{path} cannot be read as an IFC model: {reasons}. Export it again.")
+        why = in_one(complaints) or Reason("ifc.no_project")
+        raise DesignError(Reason("ifc.unread", path=path, why=why))
     return file, warnings
 
 
@@ -126,9 +126,7 @@ def _read(path: Path, content: bytes | None) -> tuple[Any, str]:
             file = ifcopenshell.file.from_string(content.decode("ascii"))
     except (ifcopenshell.Error, OSError, RuntimeError, UnicodeDecodeError) as error:
         complaints = _complaints(ifcopenshell.get_log(), path.read_bytes() if content is None else content)
-        raise DesignError(
-            f"{path} cannot be read as an IFC model: {'; '.join(complaints) or error}. Export it again."
-        ) from error
+        raise DesignError(Reason("ifc.unread", path=path, why="; ".join(complaints) or error)) from error
     return file, ifcopenshell.get_log()
 
 
@@ -137,12 +135,6 @@ def _holds_project(file: Any) -> bool:
         return bool(file.by_type("IfcProject"))
     except RuntimeError:  # the parser gave up at a line before it had a schema
         return False
-
-
-def _numbers(numbers: Sequence[int]) -> str:
-    shown = ", ".join(f"#{number}" for number in numbers[:_SHOWN])
-    more = f" and {len(numbers) - _SHOWN} more" if len(numbers) > _SHOWN else ""
-    return f"the number{'s' if len(numbers) > 1 else ''} {shown}{more} {'are' if len(numbers) > 1 else 'is'}"
 
 
 def _ifcopenshell() -> Any:
@@ -157,22 +149,24 @@ def _bytes(path: Path) -> bytes:
     try:
         content = read_bounded(path, LARGEST_MODEL_BYTES)
     except BoundsError as error:
-        raise DesignError(f"{path} {error}: name the model's file.") from error
+        raise DesignError(Reason("design.refused", path=path, why=error)) from error
     except FileNotFoundError as error:
-        raise DesignError(f"{path} does not exist. Paths in a job are relative to the job file.") from error
+        raise DesignError(Reason("design.no_file", path=path)) from error
     except (OSError, ValueError) as error:
-        raise DesignError(f"{path} cannot be opened: {getattr(error, 'strerror', None) or error}.") from error
+        raise DesignError(
+            Reason("design.unopened", path=path, why=getattr(error, "strerror", None) or error)
+        ) from error
     if not content.strip():
-        raise DesignError(f"{path} is empty: export the model again.")
+        raise DesignError(Reason("design.empty", path=path))
     return content
 
 
 def _check_frame(path: Path, content: bytes) -> None:
     """Refuse what does not begin and end as a STEP file: a parser would give a part of it, or nothing."""
     if content.startswith(b"PK"):
-        raise DesignError(f"{path} is a zip archive, not an IFC model: unpack it and name the .ifc file in it.")
+        raise DesignError(Reason("ifc.is_zip", path=path))
     if content.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
-        raise DesignError(f"{path} is XML: export the model as IFC in STEP format (.ifc), not as ifcXML.")
+        raise DesignError(Reason("ifc.is_xml", path=path))
     # A comment keeps its line breaks, so that the lines that are named are those of the file.
     head = _COMMENT.sub(lambda found: b"\n" * found.group().count(b"\n"), content[:65536])
     passed = 0
@@ -182,14 +176,11 @@ def _check_frame(path: Path, content: bytes) -> None:
         if statement.strip().upper() != word:
             number = head.count(b"\n", 0, begin) + 1
             shown = head[begin : begin + 40].partition(b"\n")[0].decode("utf-8", "replace")
-            raise DesignError(
-                f"{path} is no IFC model or a damaged one: line {number} reads {shown!r} where '{word.decode()};' is "
-                "due. Export it again, or repair that line."
-            )
+            raise DesignError(Reason("ifc.damaged", path=path, number=number, shown=repr(shown), word=word.decode()))
         passed = begin + len(statement) + 1
     if b"END-ISO-10303-21" not in content[-4096:]:
         lines = content.count(b"\n") + 1
-        raise DesignError(f"{path} is cut short: line {lines} is its last, without END-ISO-10303-21. Copy it again.")
+        raise DesignError(Reason("ifc.cut", path=path, lines=lines))
 
 
 def _complaints(log: str, content: bytes) -> list[str]:
@@ -203,7 +194,7 @@ def _complaints(log: str, content: bytes) -> list[str]:
         offset = _AT_OFFSET.search(text)
         if offset:
             number = content.count(b"\n", 0, int(offset["offset"])) + 1
-            text = f"line {number}: {_AT_OFFSET.sub('', text)}"
+            text = Reason("ifc.line", number=number, said=_AT_OFFSET.sub("", text))
         complaints.append(text)
     return complaints
 
@@ -211,7 +202,7 @@ def _complaints(log: str, content: bytes) -> list[str]:
 def _length_unit_mm(path: Path, file: Any) -> float:
     scale = _unit(path, file, "LENGTHUNIT", "length")
     if scale is None:
-        raise DesignError(f"{path} declares no unit of length (IfcUnitAssignment): export it again with units.")
+        raise DesignError(Reason("ifc.no_unit", path=path))
     return 1000.0 * scale
 
 
@@ -226,9 +217,9 @@ def _unit(path: Path, file: Any, kind: str, called: str) -> float | None:
         _check_chain(unit)
         scale = float(calculate_unit_scale(file, kind))
     except (AttributeError, TypeError, ValueError, LookupError, ArithmeticError, RuntimeError) as error:
-        raise DesignError(f"{path} declares a unit of {called} that makes no sense: export it again.") from error
+        raise DesignError(Reason("ifc.unit_senseless", path=path, called=called)) from error
     if not _SMALLEST_UNIT < scale < _LARGEST_UNIT:
-        raise DesignError(f"{path} declares a unit of {called} of {scale:g} SI units: export it again.")
+        raise DesignError(Reason("ifc.unit", path=path, called=called, scale=scale))
     return scale
 
 
@@ -237,7 +228,7 @@ def _check_chain(unit: Any) -> None:
     passed: set[int] = set()
     while unit.is_a("IfcConversionBasedUnit"):
         if unit.id() in passed:
-            raise ValueError("a unit is defined by itself")
+            raise ValueError(Reason("ifc.unit_itself"))
         passed.add(unit.id())
         unit = unit.ConversionFactor.UnitComponent
 
@@ -267,10 +258,10 @@ def model_in_archive(path: Path) -> bytes:
         with opened_archive(path, IFCZIP_BOUNDS) as archive:
             return entry_bytes(archive, _model_of(path, archive))
     except BoundsError as error:
-        message = f"{path} {error}: it was not opened. Pack it again, or name the .ifc itself."
+        message = Reason("ifc.zip_refused", path=path, why=error)
         raise DesignError(message) from error
     except OSError as error:
-        raise DesignError(f"{path} cannot be opened: {error.strerror}.") from error
+        raise DesignError(Reason("design.unopened", path=path, why=error.strerror)) from error
 
 
 def _model_of(path: Path, archive: zipfile.ZipFile) -> zipfile.ZipInfo:
@@ -278,8 +269,6 @@ def _model_of(path: Path, archive: zipfile.ZipFile) -> zipfile.ZipInfo:
     models = [part for part in parts if PurePosixPath(part.filename.replace("\\", "/")).suffix.lower() == ".ifc"]
     if len(models) == 1:
         return models[0]
-    shown = ", ".join(part.filename for part in (models or parts)[:_SHOWN]) or "nothing"
-    what = f"{len(models)} models" if models else "no .ifc in STEP format"
-    raise DesignError(
-        f"{path} holds {what} ({shown}): an .ifczip holds one. Unpack it and name the .ifc that is meant."
-    )
+    shown = [part.filename for part in (models or parts)[:_SHOWN]] or Reason("ifc.zip_nothing")
+    what = Reason("ifc.zip_models" if models else "ifc.zip_no_model", count=len(models))
+    raise DesignError(Reason("ifc.zip_holds", path=path, what=what, shown=shown))

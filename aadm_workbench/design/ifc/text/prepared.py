@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from aadm_workbench.design.ifc.text.encoding import CALLED, ENCODINGS, Evidence, decoded, weigh
+from aadm_workbench.model import Reason
 
 _BYTE_STRING = re.compile(rb"/\*.*?\*/|'[^']*+'", re.DOTALL)
 _STRING = re.compile(r"/\*.*?\*/|'[^']*+'", re.DOTALL)
@@ -93,12 +94,12 @@ def _text(content: bytes, notes: list[str]) -> str:
         if content.startswith(mark):
             content = content[len(mark) :]
             if encoding != "utf-8":
-                notes.append(f"the file is written in {encoding}, not as STEP wants it; it was read as {encoding}")
+                notes.append(Reason("ifc.encoding", encoding=encoding))
                 return content.decode(encoding, "replace")
     if content.isascii():
         return content.decode("ascii")
     evidence = weigh(name for name in _BYTE_STRING.findall(content) if not name.isascii())
-    notes.append(_written(f"names are written in raw {_called(evidence.best)}", evidence))
+    notes.append(_written("ifc.raw", evidence))
     if evidence.best == "utf-8":
         try:
             return content.decode("utf-8")
@@ -118,7 +119,7 @@ def _read_string_by_string(content: bytes, evidence: Evidence, notes: list[str])
         pieces += [content[done : found.start()].decode("latin-1"), text]
         done = found.end()
     if others:
-        notes.append(f"{others} names are not in {_called(evidence.best)} and were read in whatever fits them")
+        notes.append(Reason("ifc.other_encoding", others=others, best=_called(evidence.best)))
     return "".join([*pieces, content[done:].decode("latin-1")])
 
 
@@ -128,7 +129,7 @@ def _with_code_pages(text: str, notes: list[str]) -> str:
     evidence = weigh(sorted(names), ("latin-1", *ENCODINGS), "latin-1", _MEANT_BY_STEP)
     if evidence.best == "latin-1" or not names or _PAGE.search(text):
         return text
-    notes.append(_written(f"names are written in escaped bytes of {_called(evidence.best)}", evidence))
+    notes.append(_written("ifc.escaped", evidence))
 
     def read(piece: re.Match[str]) -> str:
         is_bytes = _is_escaped_bytes(piece.group())
@@ -171,12 +172,9 @@ def _with_plain_backslashes(text: str, notes: list[str]) -> str:
 
     repaired = _DIRECTIVE.sub(doubled, text)
     if lines:
-        numbers = list(dict.fromkeys(text.count("\n", 0, place) + 1 for place in lines[:_SHOWN_LINES]))
-        shown = ", ".join(str(number) for number in numbers)
-        more = " and others" if len(lines) > _SHOWN_LINES else ""
-        notes.append(
-            f"backslashes in line {shown}{more} are not doubled as STEP wants them; they were read as they are"
-        )
+        numbers = dict.fromkeys(text.count("\n", 0, place) + 1 for place in lines[:_SHOWN_LINES])
+        code = "ifc.backslashes.others" if len(lines) > _SHOWN_LINES else "ifc.backslashes"
+        notes.append(Reason(code, lines=list(map(str, numbers))))
     return repaired
 
 
@@ -198,7 +196,7 @@ def _with_header(text: str, schemas: Sequence[str], notes: list[str]) -> tuple[s
     if taken is None:
         return text, names[0] if names else None
     if taken not in (name.strip().upper() for name in names):
-        notes.append(f"its schema {', '.join(names)} was read as {taken}")
+        notes.append(Reason("ifc.schema_read", names=names, taken=taken))
     if _PLAIN_ENTRIES.fullmatch(_BLANK.sub(r"\1", section["entries"])) and [taken] == names:
         return text, taken
     lines = "\n" * section["entries"].count("\n")
@@ -219,6 +217,7 @@ def _called(encoding: str) -> str:
     return CALLED.get(encoding, encoding)
 
 
-def _written(how: str, evidence: Evidence) -> str:
-    close = f"; {_called(evidence.close)} is nearly as likely" if evidence.close else ""
-    return f"{how}, not as STEP wants it; they were read as {_called(evidence.best)}{close}"
+def _written(code: str, evidence: Evidence) -> Reason:
+    return Reason(
+        f"{code}.close" if evidence.close else code, best=_called(evidence.best), close=_called(evidence.close or "")
+    )

@@ -1,0 +1,165 @@
+"""Strips across an edge: where the face ends in each, the line through all of them, and where pieces are missing.
+
+A strip is face up to the edge and nothing beyond. Where it most likely ends follows from all its places, however many a
+camera loses; chips and whatever hides a part of a face end strips too early, and never too late.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from aadm_workbench.model import Array, BoolArray, IntArray, Reason
+
+_STRIP_PITCHES = 6.0  # along the edge: some fifty places tell where a strip ends, and a chip of 5 mm fills one
+_FEWEST_STRIPS = 8  # of fewer a line has no scatter
+_WITHIN_SHARE = 0.5  # of the strip on the side of the face: how densely it is found there
+_ASKED_MIN, _BEYOND_STEPS = 0.7, 3.0  # of the inner quarter of a strip; places beyond the edge where no face was found
+_LEAST_CHANCE = 0.02  # flying pixels, lost ones: nothing is quite sure
+_FOUND_MIN, _FLUSH_MAX = 0.25, 0.15  # thinner is no face; denser is something that goes on beyond the edge
+_SEEN_MIN = 0.5  # of the strips of an edge: half of one may be out of the picture or behind something
+_TUKEY, _ROUNDS = 4.0, 8  # of the scatter; rounds settle in four
+_STARTS, _LIKE_PITCHES, _BEYOND_COST = 14, 1.5, 2.0  # some hundred lines are tried; of strips on a line; of one beyond
+_ROUGHEST_MM = 1.5  # of strips: an edge that is broken all along is none
+_LEAST_SCATTER_PITCHES = 0.05  # strips are never better than that
+_NEIGHBOURS = 1.5  # neighbouring strips share their errors: standard errors are so much larger
+_CHIP_MM, _CHIP_SIGMAS = 1.5, 5.0  # from which depth on a gap in an edge is a chip and no scatter
+OUT_OF_PICTURE = Reason("extract.section_out")
+
+
+@dataclass(frozen=True, eq=False)
+class Chip:
+    """Where concrete is missing at an edge: from ``begin_mm`` to ``end_mm`` along it, ``depth_mm`` deep at least."""
+
+    begin_mm: float
+    end_mm: float
+    depth_mm: float
+
+
+@dataclass(frozen=True, eq=False)
+class Strips:
+    """Strips (k,) across an edge: their places along it, and where in each the face ends, mm.
+
+    ``bare`` (m,) are the places of strips that show no face at all within ``reach_mm`` of the edge.
+    """
+
+    along: Array
+    end: Array
+    seen: float
+    bare: Array
+    reach_mm: float
+    width_mm: float
+
+
+def ends_of_strips(s: Array, d: Array, on: BoolArray, half_mm: float, reach_mm: float, step: float) -> Strips | Reason:
+    """Where the face ends in strips of places (n,) along (s) and across (d) an edge; or why nobody can tell."""
+    count = max(int(2.0 * half_mm / (_STRIP_PITCHES * step)), _FEWEST_STRIPS)
+    strip = np.clip(((s + half_mm) / (2.0 * half_mm) * count).astype(np.int64), 0, count - 1)
+    within, without = d < -_WITHIN_SHARE * reach_mm, d > _WITHIN_SHARE * reach_mm
+    asked_within, asked_without, on_within, on_without = (
+        np.bincount(strip[chosen], minlength=count) for chosen in (within, without, on & within, on & without)
+    )
+    quarter = 0.5 * (1.0 - _WITHIN_SHARE) * 2.0 * reach_mm * (2.0 * half_mm / count) / step**2
+    share = on_within / np.maximum(asked_within, 1)
+    usable = (asked_within > _ASKED_MIN * quarter) & (share > _FOUND_MIN)
+    if usable.sum() < max(_FEWEST_STRIPS, _SEEN_MIN * count):
+        return OUT_OF_PICTURE
+    found = float(np.median(share[usable]))
+    flush = float(np.median((on_without / np.maximum(asked_without, 1))[usable]))
+    if flush > _FLUSH_MAX * found:
+        return Reason("extract.section_flush")
+    farthest = np.full(count, -reach_mm)
+    np.maximum.at(farthest, strip, d)
+    end = _likeliest_ends(strip, d, on, count, found, flush)
+    # A strip that the picture's border cuts before the edge tells nothing of it.
+    usable &= np.nan_to_num(end, nan=np.inf) < farthest - _BEYOND_STEPS * step
+    if usable.sum() < max(_FEWEST_STRIPS, _SEEN_MIN * count):
+        return OUT_OF_PICTURE
+    along = -half_mm + (np.arange(count) + 0.5) * 2.0 * half_mm / count
+    bare = (asked_within > _ASKED_MIN * quarter) & (share <= _FOUND_MIN)
+    return Strips(along[usable], end[usable], float(usable.mean()), along[bare], reach_mm, 2.0 * half_mm / count)
+
+
+def _likeliest_ends(strip: IntArray, d: Array, on: BoolArray, count: int, found: float, flush: float) -> Array:
+    """Where each strip (k,) most likely ends, mm: face before it is found with one chance, beyond it with another.
+
+    The middle between the two places that the end lies between; NaN for a strip without places.
+    """
+    inside, outside = min(found, 1.0 - _LEAST_CHANCE), max(flush, _LEAST_CHANCE)
+    order = np.lexsort((d, strip))
+    gain = np.where(on[order], np.log(inside / outside), np.log((1.0 - inside) / (1.0 - outside)))
+    begin = np.searchsorted(strip[order], np.arange(count + 1))
+    before = np.concatenate([[0.0], np.cumsum(gain)])
+    sorted_d = d[order]
+    end = np.full(count, np.nan)
+    for k, (first, last) in enumerate(pairwise(begin.tolist())):
+        if last - first > 1:
+            best = first + int(np.argmax(before[first + 1 : last]))
+            end[k] = (sorted_d[best] + sorted_d[best + 1]) / 2.0
+    return end
+
+
+@dataclass(frozen=True, eq=False)
+class StripLine:
+    """The line on which most strips end: offset, mm, and turn, radians, in their axes, with ``covariance`` (2, 2).
+
+    ``residual`` (k,) mm is by how much each strip ends beyond it, ``scatter`` mm that of those on it.
+    """
+
+    offset: float
+    turn: float
+    covariance: Array
+    scatter: float
+    residual: Array
+
+
+def line_through(strips: Strips, pitch_mm: float) -> StripLine | Reason:
+    """A line through the ends of strips, by Tukey's weights: chips and what sticks to an edge do not move it."""
+    design = np.column_stack([np.ones_like(strips.along), strips.along])
+    residual = strips.end - design @ _outermost(strips, pitch_mm)
+    normal, scatter = design.T @ design, 0.0
+    for _ in range(_ROUNDS):
+        scatter = max(1.4826 * float(np.median(np.abs(residual))), _LEAST_SCATTER_PITCHES * pitch_mm)
+        weight = np.maximum(1.0 - (residual / (_TUKEY * scatter)) ** 2, 0.0) ** 2
+        normal = design.T @ (weight[:, None] * design)
+        found = np.linalg.solve(normal, design.T @ (weight * strips.end))
+        residual = strips.end - design @ found
+    if np.mean(residual > -_TUKEY * scatter) < _SEEN_MIN or scatter > _ROUGHEST_MM:
+        return Reason("extract.section_hidden")
+    covariance = (_NEIGHBOURS * scatter) ** 2 * np.linalg.inv(normal)
+    return StripLine(float(found[0]), float(found[1]), covariance, scatter, residual)
+
+
+def _outermost(strips: Strips, pitch_mm: float) -> Array:
+    """Offset and turn (2,) of the line on which many strips end and beyond which few do.
+
+    Whatever hides a part of a face, a border of the projector's field for one, ends it too early and never too late.
+    """
+    some = np.unique(np.linspace(0, len(strips.along) - 1, _STARTS).astype(int))
+    first, second = (some[side] for side in np.triu_indices(len(some), k=1))
+    turn = (strips.end[second] - strips.end[first]) / (strips.along[second] - strips.along[first])
+    offset = strips.end[first] - turn * strips.along[first]
+    off = (strips.end - offset[:, None] - turn[:, None] * strips.along) / (_LIKE_PITCHES * pitch_mm)
+    score = (np.abs(off) < 1.0).sum(axis=1) - _BEYOND_COST * (off > 1.0).sum(axis=1)
+    best = int(np.argmax(score))
+    return np.array([offset[best], turn[best]])
+
+
+def chips_of(strips: Strips, fit: StripLine, middle_mm: float) -> tuple[Chip, ...]:
+    """Runs of strips that end before the edge; one that shows no face at all is as deep as was looked, at least."""
+    depth = np.concatenate([-fit.residual, np.full(len(strips.bare), strips.reach_mm)])
+    along = np.concatenate([strips.along, strips.bare])
+    order = np.argsort(along)
+    along, depth = along[order], depth[order]
+    missing = depth > max(_CHIP_MM, _CHIP_SIGMAS * fit.scatter)
+    bounds = np.flatnonzero(np.diff(np.concatenate([[False], missing, [False]]).astype(np.int8)))
+    return tuple(
+        Chip(
+            middle_mm + float(along[first]) - strips.width_mm / 2.0,
+            middle_mm + float(along[last - 1]) + strips.width_mm / 2.0,
+            float(depth[first:last].max()),
+        )
+        for first, last in zip(bounds[::2], bounds[1::2], strict=True)
+    )

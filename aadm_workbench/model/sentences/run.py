@@ -1,0 +1,33 @@
+"""What is said of columns that could not be checked."""
+
+from __future__ import annotations
+
+from aadm_workbench.model.sentences import Sentence
+
+SENTENCES: dict[str, Sentence] = {
+    "run.died": Sentence("the process that checked it was {cause}", "检查它的进程{cause}"),
+    "run.died.several": Sentence(
+        "{count} processes that checked it died, the last was {cause}",
+        "检查它的 {count} 个进程已中止，最后一个{cause}",
+    ),
+    "run.internal": Sentence(
+        "internal error ({error}); --debug shows where",
+        "内部错误（{error}）；--debug 可显示位置",
+    ),
+    "run.last_words": Sentence("{what}; the last that it wrote: {words}", "{what}；其最后输出：{words}"),
+    "run.no_group": Sentence(
+        "the design has no {kind:word}, but the job names a scan of them ({names})",
+        "设计中没有{kind:word}，而任务给出了其扫描（{names}）",
+    ),
+    "run.no_memory": Sentence(
+        "there is not enough memory for its scans: check fewer columns at a time, or raise --memory-limit",
+        "内存不足以读取其扫描：请减少同时检查的柱数，或增大 --memory-limit",
+    ),
+    "run.no_scan": Sentence("the job names no scan of its sleeves or rebars", "任务没有给出套筒或钢筋的扫描文件"),
+    "run.not_checked": Sentence("it was not checked", "未检查"),
+    "run.not_evaluated": Sentence(
+        "{model} cannot be evaluated: something in it is not as its format wants it ({error}); export it again "
+        "(--debug shows where)",
+        "{model} 无法求值：其中有内容不合其格式（{error}）；请重新导出（--debug 可显示位置）",
+    ),
+}

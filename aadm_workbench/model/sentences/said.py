@@ -1,0 +1,16 @@
+"""How sentences are put together: of whom, and several in one."""
+
+from __future__ import annotations
+
+from aadm_workbench.model.sentences import Sentence
+
+SENTENCES: dict[str, Sentence] = {
+    "said.all": Sentence("{parts:;}", "{parts:;}"),
+    "said.and_more": Sentence("{shown} and {count:d} more", "{shown} 等，另有 {count:d} 个"),
+    "said.between": Sentence("{first}–{second}: {why}", "{first}–{second}：{why}"),
+    "said.list": Sentence("{parts}", "{parts}"),
+    "said.of": Sentence("{what:word}: {why}", "{what:word}：{why}"),
+    "said.of_file": Sentence("{file}: {why}", "{file}：{why}"),
+    "said.sentences": Sentence("{parts: }", "{parts: }"),
+    "said.with_notes": Sentence("{why}; {notes:;}", "{why}；{notes:;}"),
+}

@@ -1,0 +1,56 @@
+"""What a plan tells a crew, in both languages."""
+
+from __future__ import annotations
+
+from aadm_workbench.model import Verdict
+from aadm_workbench.report.words.labels import Phrase, phrase
+from aadm_workbench.stack.result import StackedColumn, StackPlan, Top
+
+_LEAST_TURN_DEG = 0.005  # prints as 0.01; on a lever of 300 mm it is 0.03 mm
+
+
+def advice_phrase(column: StackedColumn) -> Phrase:
+    """``1.2 mm towards grid 4 from where the trial has it; its top comes to 0.8 mm instead of 2.0 mm``."""
+    assert column.advice is not None
+    dx, dy, yaw_deg = column.advice.from_trial
+    turn = phrase("stack.advice_turn", turn=f"{yaw_deg:+.2f}") if abs(yaw_deg) >= _LEAST_TURN_DEG else Phrase("", "")
+    return Phrase(
+        *(
+            sentence.format(way=way, turn=text, before=_length(column.top), after=_length(column.advice.top))
+            for sentence, way, text in zip(phrase("stack.advice_line"), _way(column, dx, dy), turn, strict=True)
+        )
+    )
+
+
+def _way(column: StackedColumn, dx: float, dy: float) -> Phrase:
+    """In the words of the crew: towards grid 4."""
+    said = column.measured.compass.in_words((dx, dy))
+    return said if said.en else phrase("stack.in_place")
+
+
+def _length(top: Top | None) -> str:
+    return "?" if top is None or top.judged.value is None else f"{top.judged.value:.1f}"
+
+
+def headline(plan: StackPlan) -> tuple[Phrase, str]:
+    """What comes of it in one line, and whether that is ``good``, ``bad`` or neither."""
+    counted = [verdict for verdict in plan.verdicts if verdict is not Verdict.NOT_ASSESSED]
+    bad = counted.count(Verdict.FAIL)
+    left = len(counted) - bad - counted.count(Verdict.PASS)
+    if bad:
+        return phrase("stack.headline_beyond", bad=bad, total=len(counted)), "bad"
+    if not counted or all(column.placed is None for column in plan.columns):
+        return phrase("stack.headline_none"), ""
+    if left:
+        return phrase("stack.headline_open", open=left, total=len(counted)), ""
+    return phrase("stack.headline_good", total=len(counted)), "good"
+
+
+def by_reason(plan: StackPlan) -> list[tuple[Phrase, str]]:
+    """Each reason once, with the columns that it holds for."""
+    found: dict[Phrase, list[str]] = {}
+    for column in plan.columns:
+        of_top = None if column.top is None else column.top.judged.reason
+        for reason in (*column.reasons, *([of_top] if of_top is not None and column.basis != "bars" else [])):
+            found.setdefault(reason, []).append(column.measured.id)
+    return [(reason, ", ".join(names)) for reason, names in found.items()]

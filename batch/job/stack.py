@@ -1,0 +1,68 @@
+"""The ``[stack]`` of a job: what setting adds that no scan tells."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping
+
+from aadm_workbench.errors import JobError
+from aadm_workbench.model import StackSettings, Vector3
+
+from .table import JobTable
+
+_LENGTHS = ("plumb_u_mm", "fit_u_mm", "bars_u_mm", "level_u_mm")
+LARGEST_SET_POSE = 20.0
+"""Of each of its three numbers, mm or degrees: sleeves have 5 to 20 mm of room, and what is more is a slip."""
+
+STACK = (*_LENGTHS, "braced", "height_mm")
+
+
+def read_stack(top: JobTable) -> StackSettings:
+    """The settings of a job; the usual ones where it has none.
+
+    Raises
+    ------
+    JobError
+        For keys that are not known and values that are none.
+    """
+    table = top.table("stack", "[stack]")
+    usual = StackSettings()
+    if table is None:
+        return usual
+    table.allow(STACK)
+    lengths = {key: table.length(key) for key in _LENGTHS}
+    return StackSettings(
+        **{key: getattr(usual, key) if value is None else value for key, value in lengths.items()},
+        braced=table.flag("braced", usual.braced),
+        height_mm=table.length("height_mm"),
+    )
+
+
+def read_set_pose(column: JobTable) -> Vector3 | None:
+    """The pose of a column's play at which the crane is to set it: dx, dy mm and yaw degrees; None without one."""
+    pose = column.numbers("set_pose", 3)
+    if not pose:
+        return None
+    if max(abs(value) for value in pose) > LARGEST_SET_POSE:
+        message = f"set_pose must lie within ±{LARGEST_SET_POSE:g} mm and degrees: no play is as large"
+        raise column.wrong("set_pose", message)
+    dx, dy, yaw_deg = pose
+    return dx, dy, yaw_deg
+
+
+def carried_settings(job: Mapping[str, str]) -> StackSettings | None:
+    """The settings that a report carries; None where its job had none.
+
+    Raises
+    ------
+    JobError
+        Where somebody has changed them to what is none.
+    """
+    if not (text := job.get("stack")):
+        return None
+    source = f"report.json of {job.get('name', 'a job')}, job.stack"
+    try:
+        values = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise JobError(f"{source}: is no TOML ({error}); repeat the check") from error
+    return read_stack(JobTable({"stack": values}, (), "the job", source, {}))
