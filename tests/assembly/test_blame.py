@@ -48,7 +48,7 @@ def test_the_bar_that_is_off_is_the_first_reason(index: int, build: Any, square:
     assert trial.in_the_way == (f"R{index + 1}",)
     _, _, reasons = sum_up(None, None, trial)
     assert reasons[0].startswith(f"R{index + 1} is in the way: it stands 7.")
-    assert in_both_languages(reasons[0]).zh.startswith(f"R{index + 1} 挡住就位:偏离其余钢筋给出的位置 7.")
+    assert in_both_languages(reasons[0]).zh.startswith(f"R{index + 1} 挡住就位：偏离其余钢筋给出的位置 7.")
     assert len(set(reasons)) == len(reasons)
 
 

@@ -39,7 +39,7 @@ def test_only_two_passes_clear_a_column(verdict: str, goes_on: str) -> None:
 def test_cause_of_a_failed_trial_comes_first(floor: dict[str, Any]) -> None:
     first = next(finding for finding in findings(typed(floor)) if finding.column.id == "C-3")
     assert first.key_reasons[0].en.startswith("R1 is in the way: it stands ")
-    assert first.key_reasons[0].zh.startswith("R1 挡住就位:偏离其余钢筋给出的位置 ")
+    assert first.key_reasons[0].zh.startswith("R1 挡住就位：偏离其余钢筋给出的位置 ")
     assert first.hoist.cause.en == "it does not go on its bars"
     unseen = next(finding for finding in findings(typed(floor)) if finding.column.id == "C-4")
     assert [reason.en for reason in unseen.key_reasons] == ["S8 not measured: not found in the scan"]
