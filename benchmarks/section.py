@@ -1,0 +1,116 @@
+"""How far off the edges of a foot are, and how often the truth lies within the 95 % that is stated.
+
+    python -m benchmarks.section [--scenes 20] [--seed 1] [--fringe FOLDER…]
+
+Scenes of the ray-casting camera, whose sections are off by up to 5 mm a side, and scans of a camera whose light is
+path-traced, with their truth (``tests/fringe_scans/`` by default).
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tomllib
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from aadm_workbench.extract.method import extract
+from aadm_workbench.extract.section.outline import SIDES, section_edges
+from aadm_workbench.model import Array, Camera, Kind, Reason, Scan
+from aadm_workbench.scan.read import read_scan
+from aadm_workbench.twin.noise import CameraNoise
+from aadm_workbench.twin.scene import scan_of
+from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_foot, random_pose
+
+_SCANS = Path(__file__).resolve().parents[1] / "tests" / "fringe_scans"
+_SIZES_MM = {"field": 600.0, "lab": 250.0}
+_COVERAGE = 1.96
+
+
+@dataclass
+class Edges:
+    """Errors, mm, outwards, and stated standard uncertainties of the edges that were measured; how many were not."""
+
+    errors: list[float] = field(default_factory=list)
+    stated: list[float] = field(default_factory=list)
+    unseen: int = 0
+
+    def add(self, scan: Scan, diameter_mm: float, T_scan_column: Array, design: Array, true: Array) -> None:
+        """The edges of one scan: ``design`` and ``true`` (2,) mm are the sides of its section."""
+        rng = np.random.default_rng(0)
+        sleeves = extract(scan, Kind.SLEEVE, diameter_mm, "refined", rng)
+        outline = design / 2.0 * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+        found = section_edges(scan, sleeves, T_scan_column, outline, rng)
+        for side in SIDES:
+            edge = found[side]
+            if isinstance(edge, Reason):
+                self.unseen += 1
+                continue
+            self.errors.append(edge.offset_mm - float(true["xy".index(side[1])]) / 2.0)
+            self.stated.append(float(np.hypot(np.sqrt(edge.covariance[0, 0]), edge.shared_u_mm)))
+
+    def __str__(self) -> str:
+        errors, stated = np.abs(self.errors), np.array(self.stated)
+        inside = int((errors < _COVERAGE * stated).sum())
+        counted = f"{len(errors)} edges, {self.unseen} not measured"
+        far = f"mean error {errors.mean():.3f}, largest {errors.max():.3f} mm"
+        return f"{counted}: {far}, u {np.median(stated):.3f} mm, {inside} of {len(errors)} inside"
+
+
+def ray_cast(setting: Setting, scenes: int, seed: int) -> Edges:
+    """Edges in scenes of the ray-casting camera."""
+    edges = Edges()
+    for number in range(scenes):
+        rng = np.random.default_rng([seed, number])
+        foot = random_foot(setting, rng)
+        design = np.array(foot.size)
+        true = design + rng.uniform(-5.0, 5.0, 2)
+        foot = replace(foot, size=(float(true[0]), float(true[1])))
+        shot = scan_of(foot, random_pose(setting, True, rng), CameraNoise.drawn(rng), rng)
+        to_scan = np.asarray(np.linalg.inv(shot.T_column_scan), np.float64)
+        edges.add(shot.scan(), setting.sleeve_diameter, to_scan, design, true)
+    return edges
+
+
+def path_traced(folder: Path) -> Edges:
+    """Edges in one scan whose truth lies beside it."""
+    truth = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
+    camera = tomllib.loads((folder / "job.toml").read_text(encoding="utf-8"))["camera"]
+    step_mm = camera.pop("depth_scale_mm")
+    scan = read_scan(folder / "foot.tiff", camera=Camera(**camera), depth_scale_mm=step_mm)
+    rotation, eye = np.array(truth["R_foot"]), np.array(truth["eye_foot"])
+    places, xy = np.array(truth["sleeves_scan"]), np.array(truth["sleeves"])
+    if np.abs((places @ rotation.T + eye)[:, :2] - xy).max() > 1.0:
+        rotation = rotation.T
+    T_column_scan = np.eye(4)
+    T_column_scan[:3, :3], T_column_scan[:3, 3] = rotation, eye
+    sides = np.full(2, _SIZES_MM[truth["kind"]])
+    edges = Edges()
+    edges.add(scan, truth["D"], np.asarray(np.linalg.inv(T_column_scan), np.float64), sides, sides)
+    return edges
+
+
+def main() -> None:
+    """Run everything and print it."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--scenes", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--fringe", type=Path, nargs="*", default=sorted(_SCANS.glob("[ab]-*")))
+    options = parser.parse_args()
+    for name, setting in (("lab", LAB), ("field", FIELD)):
+        print(f"ray-cast, {name}: {ray_cast(setting, options.scenes, options.seed)}", flush=True)
+    together = Edges()
+    for folder in options.fringe:
+        edges = path_traced(folder)
+        together.errors += edges.errors
+        together.stated += edges.stated
+        together.unseen += edges.unseen
+        print(f"path-traced, {folder.name}: {edges if edges.errors else 'no edge measured'}", flush=True)
+    if together.errors:
+        print(f"path-traced, together: {together}")
+
+
+if __name__ == "__main__":
+    main()
