@@ -231,6 +231,7 @@ def test_command_names() -> None:
         "study",
         "report",
         "diff",
+        "stack",
         "writeback",
         "profiles",
         "doctor",
