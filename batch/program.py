@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 
 import aadm_workbench
-from aadm_workbench.inspection.report import tool_entry
+from aadm_workbench.inspection.tasks import tool_entry
 
 from .runner.exact_json import to_exact_json
 

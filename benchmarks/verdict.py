@@ -19,10 +19,9 @@ import numpy as np
 from aadm_workbench.assembly.decision import DecisionRule, decide_probability, decide_radial
 from aadm_workbench.assembly.matching.match import match_points
 from aadm_workbench.assembly.pairs import Pair
-from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar
+from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar, turn
 from aadm_workbench.assembly.pose.minimax import MinimaxPose, fit_minimax
 from aadm_workbench.assembly.pose.pose_probability import probability_of_a_pose
-from aadm_workbench.assembly.pose.upright import turn
 from aadm_workbench.assembly.repair.bends import advise_repair
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.assembly.trial.virtual import try_assembly

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from aadm_workbench.assembly.pose.robust_fit import robust_offsets
+from aadm_workbench.assembly.pose.eopa import robust_offsets
 from aadm_workbench.model import Array, Reason, RepairReport, RepairStep, Rule, TrialReport, Verdict, in_one
 
 

@@ -10,13 +10,14 @@ probability, and ignorance is no proof.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, TypeVar
 
 import numpy as np
 
-from aadm_workbench.model import Array, Verdict
+from aadm_workbench.model import Array, PointResult, Reason, SpacingResult, Verdict
 
 DecisionRule: TypeAlias = Literal["guarded", "simple"]
 
@@ -28,6 +29,10 @@ FAIL_PROBABILITY = 0.05
 _TAIL_SIGMAS = 9.0  # beyond lie 2e-19 of a normal law, less than a double can add to one
 _SURE_SIGMAS = 2.5  # exp(-2.5²/2) is 4.4 %, Q(2.5) far less: both within what a pass and a fail need
 _NODES = 160  # of Gauss and Legendre: nine to each of 18 standard deviations
+
+Result = TypeVar("Result", PointResult, SpacingResult)
+
+AMBIGUOUS_POINT = Reason("assembly.turn_decides")
 
 
 @dataclass(frozen=True)
@@ -191,3 +196,31 @@ def _quadrature() -> tuple[Array, Array]:
     # Built when first needed: it costs a few milliseconds that a simple decision does not owe.
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
     return nodes, weights
+
+
+def agreed(verdicts: Iterable[Verdict]) -> Verdict:
+    """The verdict of all candidates where they agree, else inconclusive; of none, not measured."""
+    present = set(verdicts)
+    if not present:
+        return Verdict.NOT_MEASURED
+    return present.pop() if len(present) == 1 else Verdict.INCONCLUSIVE
+
+
+def agree_on_points(candidates: Sequence[Sequence[PointResult]]) -> tuple[PointResult, ...]:
+    """The points as the first candidate has them, with the verdicts that all candidates agree on."""
+    return tuple(_agreed(same, {"what": same[0].label}) for same in zip(*candidates, strict=True))
+
+
+def agree_on_spacing(candidates: Sequence[Sequence[SpacingResult]]) -> tuple[SpacingResult, ...]:
+    """The spacings as the first candidate has them, with the verdicts that all candidates agree on."""
+    return tuple(
+        _agreed(same, dict(zip(("first", "second"), same[0].between, strict=True)))
+        for same in zip(*candidates, strict=True)
+    )
+
+
+def _agreed(same: tuple[Result, ...], called: Mapping[str, str]) -> Result:
+    if len({other.verdict for other in same}) == 1:
+        return same[0]
+    code = "said.of" if "what" in called else "said.between"
+    return replace(same[0], verdict=Verdict.INCONCLUSIVE, reason=Reason(code, **called, why=AMBIGUOUS_POINT))

@@ -11,23 +11,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.assembly.agreement import agree_on_points, agree_on_spacing, agreed
-from aadm_workbench.assembly.blame import blame_of_group
-from aadm_workbench.assembly.decision import DecisionRule
-from aadm_workbench.assembly.exposed import inspect_exposed_length
+from aadm_workbench.assembly.decision import DecisionRule, agree_on_points, agree_on_spacing, agreed, decide_signed
 from aadm_workbench.assembly.matching.match import Match, Placement
 from aadm_workbench.assembly.place import PlacedPoint, place_points
-from aadm_workbench.assembly.pose.upright import wrap
-from aadm_workbench.assembly.position import inspect_positions
-from aadm_workbench.assembly.rules import (
+from aadm_workbench.assembly.pose.eopa import wrap
+from aadm_workbench.assembly.position import describe_limits, inspect_positions, inspect_spacing
+from aadm_workbench.assembly.tolerances import (
     applicable_rules,
     counted_verdict,
+    describe_clause,
     not_assessed,
     position_result,
+    rules_for,
     spacing_result,
 )
-from aadm_workbench.assembly.spacing import inspect_spacing
-from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.extract.missing import NOT_FOUND
 from aadm_workbench.model import (
     AssemblyPoint,
@@ -42,6 +39,8 @@ from aadm_workbench.model import (
     RuleResult,
     SpacingResult,
     Verdict,
+    in_one,
+    worst,
 )
 
 _FEWEST_TO_BLAME = 4
@@ -159,6 +158,8 @@ def _blame(design: Sequence[AssemblyPoint], points: Sequence[PointResult], rule:
     known = [(target, point.aligned_mm) for target, point in zip(design, points, strict=True) if point.aligned_mm]
     if not failing or len(known) < _FEWEST_TO_BLAME:
         return ""
+    from aadm_workbench.assembly.blame import blame_of_group
+
     measured = np.array([aligned for _, aligned in known])[:, :2]
     places = np.array([target.centre for target, _ in known])[:, :2]
     return blame_of_group([target.label for target, _ in known], measured, places, failing, rule)
@@ -273,4 +274,45 @@ def _not_matched(
         reasons=(Reason("said.of", what=extraction.kind.plural, why=match.reason),),
         notes=(NO_ABSOLUTE_POSITION,),
         quality=extraction.quality,
+    )
+
+
+def inspect_exposed_length(
+    design: Sequence[AssemblyPoint],
+    placed: Sequence[PlacedPoint | None],
+    rule: Rule,
+    design_exposed_mm: float | None,
+) -> RuleResult:
+    """Worst verdict on the exposed lengths, mm, measured minus design, by value alone.
+
+    Not assessed where the design gives no exposed length or the scan shows no floor.
+    """
+    clause, counted = describe_clause(rule), not rule.advisory
+    if design_exposed_mm is None:
+        reason = Reason("assembly.no_exposed_length")
+        return RuleResult(rule.name, clause, rule.source, Verdict.NOT_ASSESSED, counted, reason)
+    verdicts, reasons, deviations = [], [], []
+    for target, point in zip(design, placed, strict=True):
+        if point is None or point.exposed_length_mm is None:
+            continue
+        deviation_mm = point.exposed_length_mm - design_exposed_mm
+        verdict = decide_signed(deviation_mm, None, rule.lower, rule.upper, "simple").verdict
+        verdicts.append(verdict)
+        deviations.append(deviation_mm)
+        if verdict is Verdict.FAIL:
+            reasons.append(
+                Reason(
+                    "assembly.sticks_out",
+                    label=target.label,
+                    exposed_mm=point.exposed_length_mm,
+                    deviation_mm=deviation_mm,
+                    limits=describe_limits(rule),
+                    clause=clause,
+                )
+            )
+    if not verdicts:
+        reason = Reason("assembly.no_floor")
+        return RuleResult(rule.name, clause, rule.source, Verdict.NOT_ASSESSED, counted, reason)
+    return RuleResult(
+        rule.name, clause, rule.source, worst(verdicts), counted, in_one(reasons), max(deviations, key=abs)
     )

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.assembly.place import flat_covariance
-from aadm_workbench.design.recognise.bar_sizes import over_ribs_mm
+from aadm_workbench.design.recognise.pattern import over_ribs_mm
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Reason
 
 EMBEDMENT_DIAMETERS = 8.0

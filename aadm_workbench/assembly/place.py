@@ -42,6 +42,11 @@ def place_points(extraction: Extraction, placement: Placement) -> tuple[PlacedPo
     )
 
 
+def in_column_frame(extraction: Extraction, placement: Placement) -> list[AssemblyPoint | None]:
+    """The points alone of :func:`place_points`."""
+    return [None if placed is None else placed.point for placed in place_points(extraction, placement)]
+
+
 def _placed(point: AssemblyPoint, T_design_scan: Array) -> AssemblyPoint:
     placed = moved_point(point, T_design_scan)
     return replace(placed, axis=-placed.axis) if placed.axis[2] < 0.0 else placed

@@ -23,11 +23,24 @@ from __future__ import annotations
 
 import math
 import tomllib
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from aadm_workbench.errors import JobError
-from aadm_workbench.model import Profile, Reason, Rule
+from aadm_workbench.model import (
+    GroupReport,
+    PointResult,
+    Profile,
+    Reason,
+    Rule,
+    RuleResult,
+    SpacingResult,
+    TrialReport,
+    Verdict,
+    in_one,
+    worst,
+)
 
 QUANTITIES = {
     "sleeve_position": "radial",
@@ -72,6 +85,8 @@ _TYPE_NAMES = {str: "text", float: "a number", bool: "true or false"}
 _REQUIRED = ("name", "limits", "upper_mm", "clause", "severity", "source")
 
 _Table: TypeAlias = dict[str, Any]
+
+_OF_THE_ERECTED_COLUMN = ("column_axis", "elevation", "verticality")
 
 
 def profile_names() -> tuple[str, ...]:
@@ -213,3 +228,73 @@ def _check_limits(entry: _Table, kind: str, where: str) -> None:
         raise JobError(f"{where}: lower_mm: a {kind} limit has no lower end")
     elif upper <= 0.0:
         raise JobError(f"{where}: upper_mm must be above zero, it is {upper}")
+
+
+def applicable_rules(profile: Profile, quantity: str) -> tuple[tuple[Rule, ...], tuple[Rule, ...]]:
+    """Rules that hold within the group, the governing one first, and those that hold against a datum."""
+    rules = rules_for(profile, quantity)
+    within = tuple(rule for rule in rules if rule.level == "bar_in_group")
+    return within, tuple(rule for rule in rules if rule.level != "bar_in_group")
+
+
+def position_result(rule: Rule, points: Sequence[PointResult]) -> RuleResult:
+    """What one rule of position came to over all points of a group."""
+    deviations = [point.deviation_mm for point in points if point.deviation_mm is not None]
+    verdict, reason = _worst_of([point.verdict for point in points], [point.reason for point in points])
+    return rule_result(rule, verdict, reason, max(deviations, default=None))
+
+
+def spacing_result(rule: Rule, spacing: Sequence[SpacingResult]) -> RuleResult:
+    """What one rule of spacing came to over all adjacent pairs of a group."""
+    deviations = [pair.deviation_mm for pair in spacing if pair.deviation_mm is not None]
+    verdict, reason = _worst_of([pair.verdict for pair in spacing], [pair.reason for pair in spacing])
+    return rule_result(rule, verdict, reason, max(deviations, key=abs, default=None))
+
+
+def _worst_of(verdicts: Sequence[Verdict], reasons: Sequence[str]) -> tuple[Verdict, str]:
+    """The worst verdict, and the reasons of all that are not a pass, the worst first."""
+    order = (Verdict.FAIL, Verdict.NOT_MEASURED, Verdict.INCONCLUSIVE)
+    ordered = [reason for kind in order for verdict, reason in zip(verdicts, reasons, strict=True) if verdict is kind]
+    return worst(verdicts), in_one(reason for reason in ordered if reason)
+
+
+def rule_result(rule: Rule, verdict: Verdict, reason: str, worst_mm: float | None = None) -> RuleResult:
+    """The result of one rule, marked with its clause, its source and whether it counts."""
+    return RuleResult(rule.name, describe_clause(rule), rule.source, verdict, not rule.advisory, reason, worst_mm)
+
+
+def not_assessed(rule: Rule, reason: str) -> RuleResult:
+    """The result of a rule for which there is no input."""
+    return rule_result(rule, Verdict.NOT_ASSESSED, reason)
+
+
+def counted_verdict(rules: Sequence[RuleResult]) -> Verdict:
+    """Worst of the rules that count; not assessed where there is none."""
+    counted = [rule.verdict for rule in rules if rule.counted and rule.verdict is not Verdict.NOT_ASSESSED]
+    return worst(counted) if counted else Verdict.NOT_ASSESSED
+
+
+def sum_up(
+    sleeves: GroupReport | None, rebars: GroupReport | None, trial: TrialReport | None
+) -> tuple[Verdict, Verdict, tuple[str, ...]]:
+    """Verdict of a column, whether it goes on its bars, and the reasons.
+
+    The verdict is the worst of what was asked for (None: not asked for): error, fail, not measured, inconclusive,
+    pass. Whether it goes on is the trial's verdict alone: a bar may be 4 mm from design and the column still go on.
+    What is in the way is the first reason.
+    """
+    parts = [part for part in (sleeves, rebars, trial) if part is not None]
+    goes_on = Verdict.NOT_ASSESSED if trial is None else trial.verdict
+    said = tuple(reason for part in parts if part.verdict is not Verdict.PASS for reason in part.reasons)
+    if trial is not None and trial.in_the_way:
+        said = (trial.reasons[0], *said)
+    return worst(part.verdict for part in parts), goes_on, tuple(dict.fromkeys(said))
+
+
+def rules_of_the_erected_column(profile: Profile) -> tuple[RuleResult, ...]:
+    """The rules of a profile that no scan before hoisting can answer, as not assessed."""
+    return tuple(
+        not_assessed(rule, Reason("assembly.erected"))
+        for rule in profile.rules
+        if rule.limits in _OF_THE_ERECTED_COLUMN
+    )

@@ -6,9 +6,9 @@ import zipfile
 from pathlib import Path
 
 from aadm_workbench.bounded import ArchiveBounds, BoundsError, opened_archive
-from aadm_workbench.design.kernel import read_with_kernel
 from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.recognise.columns import Rules
+from aadm_workbench.design.step import read_with_kernel
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Reason
 

@@ -6,6 +6,7 @@ import unicodedata
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -36,6 +37,21 @@ class NotTaken:
     diameter_mm: float | None = None
     length_mm: float | None = None
     names: tuple[str, ...] = ()
+
+    @classmethod
+    def of(
+        cls,
+        what: str,
+        element: Any,
+        reason: str,
+        point: Array | None = None,
+        diameter_mm: float | None = None,
+        length_mm: float | None = None,
+        names: tuple[str, ...] = (),
+    ) -> NotTaken:
+        """What was left out of an element of any kind of model, under the attribute names of IFC."""
+        name = element.Name.strip() if isinstance(element.Name, str) else ""
+        return cls(what, str(element.is_a()), element.GlobalId, name, reason, point, diameter_mm, length_mm, names)
 
 
 @dataclass(frozen=True, eq=False)

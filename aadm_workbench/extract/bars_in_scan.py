@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.extract.holes import find_discs, rastered
+from aadm_workbench.extract.foot_face import find_discs, rastered
 from aadm_workbench.extract.plane import axes_on, find_planes
 from aadm_workbench.extract.sample import Thinned, counts_in_cells, in_company
 from aadm_workbench.model import Array, FloatArray, Plane

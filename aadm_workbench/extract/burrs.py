@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from aadm_workbench.extract.circle import circles_through
-from aadm_workbench.extract.outlines import Outlines
+from aadm_workbench.extract.circle import Outlines, circles_through
 from aadm_workbench.model import Array
 
 _FEWEST = 4  # of fewer bars nobody knows which are like the others

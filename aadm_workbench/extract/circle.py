@@ -1,12 +1,20 @@
-"""First circles through the outlines of several features at once: robust, and steady where half of one is spoilt."""
+"""First circles through the outlines of several features at once: robust, and steady where half of one is spoilt.
+
+Outlines of holes and discs: of each feature and each angular bin about it, the one point next to the edge. Where the
+camera's position is known, a point *behind* a surface tells as much about the surface's edge as a point on it: the ray
+to it crossed the surface's plane where there is no surface. Pixels lost at the depth step widen the bracket between the
+two and do not shift it.
+
+Points of several features in the plan, one feature after the other.
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
-from aadm_workbench.extract.outlines import Outlines, outlines
-from aadm_workbench.extract.plan_points import PlanPoints
-from aadm_workbench.model import Array, BoolArray
+from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
 
 AGREES_MM = 0.8
 """Outline points this near to a circle agree with it."""
@@ -21,6 +29,9 @@ _MISFIT_MM = 0.5  # residual at which a point counts half in the first fit
 _ROUND_WITHIN_MM, _ROUND_SHARE = 0.5, 0.5
 # of each outline; chords over an eighth, a sixth and a quarter of them, so that most stay within its sound part
 _CHORD_POINTS, _CHORD_PARTS = 48, (8, 6, 4)
+
+# six to a quarter of the smallest circle; half a degree, which is finer than pixels on mouths of up to 50 mm
+_FEWEST_BINS, _MOST_BINS = 24, 720
 
 
 def circles_through(shape: Outlines, centre: Array, radius_mm: float) -> tuple[Array, Array]:
@@ -165,3 +176,112 @@ def _middle(values: Array, seen: BoolArray) -> Array:
     places = np.stack([(count - 1) // 2, count // 2], axis=1).clip(0)
     middle = np.take_along_axis(ordered, places, axis=1).mean(axis=1)
     return np.where(count > 0, middle, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class PlanPoints:
+    """Points ``x``, ``y`` (n,) mm, each about the place of its feature: ``owner`` (n,), sorted, of so many features."""
+
+    x: FloatArray
+    y: FloatArray
+    owner: IntArray
+    features: int
+
+    @classmethod
+    def of(cls, x: FloatArray, y: FloatArray, chosen: IntArray) -> PlanPoints:
+        """Some entries (n,) - indices into the flattened arrays - of x and y (k, m)."""
+        return cls(x.ravel()[chosen], y.ravel()[chosen], chosen // x.shape[1], len(x))
+
+    def where(self, wanted: BoolArray) -> PlanPoints:
+        """Some of the points (n,)."""
+        return PlanPoints(self.x[wanted], self.y[wanted], self.owner[wanted], self.features)
+
+    def distance(self, centre: Array) -> FloatArray:
+        """Distance (n,) mm of each point from the centre (k, 2) of its feature."""
+        x, y = self._about(centre)
+        return np.asarray(np.sqrt(x * x + y * y))
+
+    def bins(self, centre: Array, bins: int) -> IntArray:
+        """Angular bin (n,) of each point about the centre (k, 2) of its feature."""
+        x, y = self._about(centre)
+        turn = np.arctan2(y, x) * (0.5 / np.pi) + 0.5
+        return np.minimum((turn * bins).astype(np.int64), bins - 1)
+
+    def _about(self, centre: Array) -> tuple[FloatArray, FloatArray]:
+        x, y = np.ascontiguousarray(centre.T, self.x.dtype)
+        return self.x - x[self.owner], self.y - y[self.owner]
+
+    def counted(self, wanted: BoolArray) -> IntArray:
+        """How many of some points each feature has (k,)."""
+        return np.bincount(self.owner[wanted], minlength=self.features)
+
+
+def thinned_rows(owner: IntArray, features: int, count_max: int) -> IntArray:
+    """Which of the points of each feature (sorted owners (n,)) to take, evenly, so that none has more than so many."""
+    counts = np.bincount(owner, minlength=features)
+    return np.flatnonzero(ranks(owner, features) % (counts // count_max + 1)[owner] == 0)
+
+
+def ranks(owner: IntArray, features: int) -> IntArray:
+    """Place (n,) of each point among those of its feature (sorted owners (n,))."""
+    counts = np.bincount(owner, minlength=features)
+    return np.asarray(np.arange(len(owner)) - (np.cumsum(counts) - counts)[owner])
+
+
+def in_rows(values: FloatArray, owner: IntArray, features: int) -> tuple[Array, BoolArray]:
+    """Values (n, ...) with sorted owners (n,) as rows (k, m, ...) float64, zero-padded, and which are there (k, m)."""
+    place = ranks(owner, features)
+    longest = int(place.max(initial=-1)) + 1
+    rows = np.zeros((features, longest, *values.shape[1:]))
+    seen = np.zeros((features, longest), bool)
+    rows[owner, place] = values
+    seen[owner, place] = True
+    return rows, seen
+
+
+@dataclass(frozen=True, eq=False)
+class Outlines:
+    """Of k features, per angular bin: the point ``xy`` (k, bins, 2) mm, float64, and whether there is one, ``seen``."""
+
+    xy: Array
+    seen: BoolArray
+
+    @property
+    def coverage(self) -> Array:
+        """Share (k,) of each circle's bins that hold a point."""
+        return np.asarray(self.seen.mean(axis=1))
+
+    @property
+    def bins(self) -> int:
+        """Number of bins of a circle."""
+        return int(self.seen.shape[1])
+
+    def distance(self, centre: Array) -> Array:
+        """Distance (k, bins) mm of each point from the centre (k, 2) of its feature."""
+        about = self.xy - centre[:, None]
+        return np.asarray(np.sqrt(about[..., 0] ** 2 + about[..., 1] ** 2))
+
+    def only(self, wanted: BoolArray) -> Outlines:
+        """The same with fewer bins (k, bins)."""
+        return Outlines(self.xy, self.seen & wanted)
+
+    def of(self, features: BoolArray) -> Outlines:
+        """The outlines of some of the features (k,)."""
+        return Outlines(self.xy[features], self.seen[features])
+
+
+def bins_for(radius_mm: float, pitch_mm: float) -> int:
+    """About one bin for each point on a circle."""
+    return int(np.clip(2 * np.pi * radius_mm / pitch_mm, _FEWEST_BINS, _MOST_BINS))
+
+
+def outlines(points: PlanPoints, centre: Array, bins: int, *, innermost: bool) -> Outlines:
+    """Take, of the points in each bin about a feature's centre (k, 2), the one nearest to it, or the farthest one."""
+    radius = points.distance(centre)
+    cell = points.owner * bins + points.bins(centre, bins)
+    extreme = np.full(points.features * bins, np.inf if innermost else -np.inf, radius.dtype)
+    (np.minimum if innermost else np.maximum).at(extreme, cell, radius)
+    chosen = np.flatnonzero(radius == extreme[cell])
+    xy = np.zeros((len(extreme), 2))
+    xy[cell[chosen], 0], xy[cell[chosen], 1] = points.x[chosen], points.y[chosen]
+    return Outlines(xy.reshape(-1, bins, 2), np.isfinite(extreme).reshape(-1, bins))

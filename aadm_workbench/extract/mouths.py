@@ -6,11 +6,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.extract.circle import agreeing_shares, settled_centres
+from aadm_workbench.extract.circle import (
+    Outlines,
+    PlanPoints,
+    agreeing_shares,
+    bins_for,
+    in_rows,
+    outlines,
+    settled_centres,
+    thinned_rows,
+)
 from aadm_workbench.extract.foot_face import FACE_BAND_MM, RIM_DEPTH_MM, FootFace
-from aadm_workbench.extract.outlines import Outlines, bins_for, outlines
 from aadm_workbench.extract.patches import Patches
-from aadm_workbench.extract.plan_points import PlanPoints, in_rows, thinned_rows
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
 
 REACH_MM = 4.0

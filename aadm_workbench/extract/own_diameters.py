@@ -11,10 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.extract.circle import agreeing_shares, circles_through
-from aadm_workbench.extract.outlines import Outlines, bins_for, outlines
+from aadm_workbench.extract.circle import Outlines, PlanPoints, agreeing_shares, bins_for, circles_through, outlines
 from aadm_workbench.extract.patches import patches_around
-from aadm_workbench.extract.plan_points import PlanPoints
 from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.sample import thinned
 from aadm_workbench.extract.top_planes import top_planes

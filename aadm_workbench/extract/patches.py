@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from aadm_workbench.extract.plan_points import PlanPoints
+from aadm_workbench.extract.circle import PlanPoints
 from aadm_workbench.extract.plane import axes_on, from_plane, in_plane
 from aadm_workbench.extract.sample import Thinned
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane, Scan

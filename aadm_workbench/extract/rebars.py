@@ -17,16 +17,13 @@ from aadm_workbench.extract.burrs import burr_u_mm
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
 from aadm_workbench.extract.edges.edge_shift import Bend, bend_at_edges, eroded_rings, no_bend, shift_of_tops
-from aadm_workbench.extract.edges.seen_disc import seen_discs
-from aadm_workbench.extract.edges.sight_lines import SightLines, sight_lines_on_tops
+from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import filter_signs
 from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
 from aadm_workbench.extract.plane import in_plane
-from aadm_workbench.extract.pooled.edge_law import BracketLaw, RimLaw
-from aadm_workbench.extract.pooled.evidence import Rims, Walls
-from aadm_workbench.extract.pooled.fit import Evidence, PooledFit, fit_pooled
-from aadm_workbench.extract.pooled.start_circles import CircleEvidence, likeliest_circles
+from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw, Rims, Walls
+from aadm_workbench.extract.pooled.fit import CircleEvidence, Evidence, PooledFit, fit_pooled, likeliest_circles
 from aadm_workbench.extract.pooled.system import Priors, State
 from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.extract.top_planes import TopPlanes, top_planes

@@ -20,16 +20,14 @@ from aadm_workbench.extract.edges.edge_shift import (
     shift_of_mouths,
     shift_of_rims,
 )
-from aadm_workbench.extract.edges.seen_disc import SeenDiscs, seen_discs
-from aadm_workbench.extract.edges.sight_lines import SightLines, sight_lines_on_face
+from aadm_workbench.extract.edges.seen_disc import SeenDiscs, SightLines, seen_discs, sight_lines_on_face
 from aadm_workbench.extract.filter_signs import filter_signs
 from aadm_workbench.extract.foot_face import FACE_BAND_MM, FootFace, face_with_holes, level_with_rings
 from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouths_in
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
 from aadm_workbench.extract.plane import from_plane, in_plane, turned_over
-from aadm_workbench.extract.pooled.edge_law import BracketLaw, RimLaw
-from aadm_workbench.extract.pooled.evidence import Rims, Walls, WallTerms
+from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw, Rims, Walls, WallTerms
 from aadm_workbench.extract.pooled.fit import Evidence, PooledFit, fit_pooled, settled
 from aadm_workbench.extract.pooled.system import PUSH, WALL, Priors, State
 from aadm_workbench.extract.sample import Thinned, thinned

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from aadm_workbench.extract.circle import in_rows, thinned_rows
 from aadm_workbench.extract.patches import Patches
-from aadm_workbench.extract.plan_points import in_rows, thinned_rows
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
 
 _TOP_ZONE_MM = 8.0  # a cut of 15 degrees over a 28 mm bar

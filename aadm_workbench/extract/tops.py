@@ -1,4 +1,7 @@
-"""What the top of each bar shows: the plane it was cut in, the outline of the cut, and points of the bar's side."""
+"""What the top of each bar shows: the plane it was cut in, the outline of the cut, and points of the bar's side.
+
+How the side of a bar leans, roughly: what decides which points are looked at, not what is measured from them.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +9,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.extract.circle import settled_centres
-from aadm_workbench.extract.lean_search import LEAN_MAX, leans_that_hold
-from aadm_workbench.extract.outlines import Outlines, bins_for, outlines
+from aadm_workbench.extract.circle import (
+    Outlines,
+    PlanPoints,
+    bins_for,
+    in_rows,
+    outlines,
+    settled_centres,
+    thinned_rows,
+)
 from aadm_workbench.extract.patches import Patches
-from aadm_workbench.extract.plan_points import PlanPoints, in_rows, thinned_rows
 from aadm_workbench.extract.top_planes import TopPlanes, top_planes
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
 
@@ -36,6 +44,16 @@ _PASSED_FROM, _PASSED_BEYOND_MM = 0.75, 6.0  # of the radius; beyond it: so far 
 _SIDE_DEPTH_MM = (0.8, 60.0)  # below a burr; 60 mm tell the lean to 7 mrad (docs/method.md, 2.3)
 _SIDE_BAND_MM = (-1.2, 1.8)  # about the nominal radius: ribs stand out
 _SIDE_POINTS_MAX = 350  # of a side, evenly taken: neighbours share their errors, more of them tell little
+
+LEAN_MAX = float(np.radians(4.5))
+"""What is looked for each way: 60 mm of side then move by 5 mm, nearly the room beside a bar in its patch."""
+
+_LEANS = np.linspace(-LEAN_MAX, LEAN_MAX, 13)  # steps of 0.75 degrees move the end of a side by half of its band
+_EACH = np.stack(np.meshgrid(_LEANS, _LEANS), axis=-1).reshape(-1, 2).astype(np.float32)  # 13 × 13 leans, mm per mm
+_TRIED = _EACH[np.argsort((_EACH**2).sum(axis=1), kind="stable")]
+_SIDE_MM, _HALF_MM = 0.3, 1.5  # about the nominal radius: cores are a little smaller, ribs stand out by 1.5 mm
+_POINTS_MAX = 150  # of a side, for a choice in steps of 0.75 degrees
+_MORE, _MORE_POINTS = 1.1, 8.0  # ribs, strays and strips of a few points win less by another lean
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,3 +237,22 @@ def _in_band(
     values = np.column_stack([points.x[some], points.y[some], depth[some]])
     rows, seen = in_rows(values, points.owner[some], points.features)
     return rows[..., :2], rows[..., 2], seen
+
+
+def leans_that_hold(points: PlanPoints, depth: FloatArray, centre: Array, radius_mm: float) -> Array:
+    """Of each bar the lean (k, 2) that most points of its side agree with; upright where no other is markedly better.
+
+    ``points`` (n,) and their ``depth`` (n,) mm are below the tops; ``centre`` (k, 2) mm is that of the tops.
+    Followed from fit to fit instead, a side of few points may run after its noise.
+    """
+    some = thinned_rows(points.owner, points.features, _POINTS_MAX)
+    owner, below = points.owner[some], depth[some]
+    x, y = (points.x - centre[points.owner, 0])[some], (points.y - centre[points.owner, 1])[some]
+    score = np.empty((len(_TRIED), points.features))
+    for row, lean in enumerate(_TRIED):
+        off_mm = np.hypot(x - lean[0] * below, y - lean[1] * below) - (radius_mm + _SIDE_MM)
+        agreeing = np.maximum(1.0 - (off_mm / _HALF_MM) ** 2, 0.0)
+        score[row] = np.bincount(owner, weights=agreeing, minlength=points.features)
+    best = score.argmax(axis=0)
+    upright, most = score[0], score.max(axis=0)
+    return np.where((most > _MORE * upright + _MORE_POINTS)[:, None], _TRIED[best], 0.0)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.extract.pooled.edge_law import BracketLaw
+from aadm_workbench.extract.pooled.evidence import BracketLaw
 from aadm_workbench.hoisting.frame import HoistingFrame, LocalAxes
 from aadm_workbench.hoisting.pattern_fit import (
     OWN,

@@ -12,8 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 from scipy import stats
 
-from aadm_workbench.assembly.findings.make import make_finding
-from aadm_workbench.assembly.pose.upright import turn
+from aadm_workbench.assembly.findings.finding import make_finding
+from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.model import Array, ColumnDesign, Finding, HoistingMeasurement
 
 _QUARTERS_DEG = (90, -90, 180)  # turns of a square column

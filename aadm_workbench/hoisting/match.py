@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.assembly.matching.pattern_search import PlanarPlacement, search_placements
-from aadm_workbench.assembly.pose.upright import turn, wrap
+from aadm_workbench.assembly.pose.eopa import turn, wrap
 from aadm_workbench.model import Array, IntArray, Reason
 
 # half of a quarter turn, at which the next one begins, and a degree for what is measured

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule
-from aadm_workbench.assembly.pose.upright import turn
+from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.errors import ScanError
 from aadm_workbench.hoisting.bar_fit import fit_bars
 from aadm_workbench.hoisting.bars import SeenBars, find_bars

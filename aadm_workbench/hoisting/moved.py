@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from aadm_workbench.assembly.pose.robust_fit import robust_offsets
+from aadm_workbench.assembly.pose.eopa import robust_offsets
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, HoistingReport, MovedSince, Reason, Verdict
 
 _CHI2 = 18.42  # of two axes at one in ten thousand: a frame of twelve bars accuses wrongly once in a thousand

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule, decide_radial, standard_uncertainty
-from aadm_workbench.assembly.pose.eopa import NoFit
+from aadm_workbench.assembly.pose.eopa import NoFit, turn
 from aadm_workbench.assembly.pose.minimax import fit_minimax
-from aadm_workbench.assembly.pose.upright import turn
 from aadm_workbench.assembly.tolerances import describe_limit, rules_for
 from aadm_workbench.hoisting.bar_fit import BarFit
 from aadm_workbench.hoisting.face import FootFace

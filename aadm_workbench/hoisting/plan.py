@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.hoisting.hidden import hidden_shares
+from aadm_workbench.hoisting.unseen import hidden_shares
 from aadm_workbench.model import Array, BoolArray, Camera, ColumnDesign, Reason
 
 AIMED_AT_GAP_SHARE = 0.45

@@ -9,10 +9,10 @@ from aadm_workbench.hoisting.bars import SeenBars
 from aadm_workbench.hoisting.face import FootFace
 from aadm_workbench.hoisting.foot import FootFit
 from aadm_workbench.hoisting.frame import HoistingFrame
-from aadm_workbench.hoisting.hidden import hidden_shares
 from aadm_workbench.hoisting.match import Matched
 from aadm_workbench.hoisting.pairs import HungFit
 from aadm_workbench.hoisting.pattern_fit import placed
+from aadm_workbench.hoisting.unseen import hidden_shares
 from aadm_workbench.model import Array, BoolArray, Reason
 
 _FEWEST_SEEN = 3  # a pose has three unknowns, and two points leave nothing to check it by

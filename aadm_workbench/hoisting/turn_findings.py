@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from aadm_workbench.assembly.findings.make import make_finding
+from aadm_workbench.assembly.findings.finding import make_finding
 from aadm_workbench.hoisting.match import corner_name
 from aadm_workbench.model import Finding, HoistingReport, Reason, Verdict, worst
 

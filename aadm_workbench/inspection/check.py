@@ -8,30 +8,32 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from aadm_workbench.assembly.blame import with_blame
-from aadm_workbench.assembly.column import rules_of_the_erected_column, sum_up
 from aadm_workbench.assembly.decision import DecisionRule
-from aadm_workbench.assembly.file_axes import axes_not_told, in_coordinates_of_the_file, in_scan_frame
-from aadm_workbench.assembly.findings.group import SeenGroup
+from aadm_workbench.assembly.findings.finding import SeenGroup
 from aadm_workbench.assembly.findings.of_column import Seen, with_findings
-from aadm_workbench.assembly.group_notes import of_the_files, typical_u_mm, unsupported
+from aadm_workbench.assembly.group_notes import (
+    axes_not_told,
+    in_coordinates_of_the_file,
+    in_scan_frame,
+    missing_places,
+    of_the_files,
+    reasons_of_missing,
+    typical_u_mm,
+    unsupported,
+    with_reasons,
+)
 from aadm_workbench.assembly.inspect import describe_ambiguity, inspect_group
 from aadm_workbench.assembly.matching.match import Match, match_extraction
-from aadm_workbench.assembly.matching.views import merge_views
-from aadm_workbench.assembly.missing_points import missing_places, reasons_of_missing, with_reasons
-from aadm_workbench.assembly.place import place_points
+from aadm_workbench.assembly.place import in_column_frame, place_points
 from aadm_workbench.assembly.pose.eopa import NoFit
-from aadm_workbench.assembly.repair.bends import advise_repair
-from aadm_workbench.assembly.survey.absolute import DatumRules, inspect_absolute
-from aadm_workbench.assembly.survey.control import ControlPose, fit_control_points, shown_up_deg
-from aadm_workbench.assembly.survey.datum import with_absolute
+from aadm_workbench.assembly.tolerances import rules_of_the_erected_column, sum_up
 from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.errors import JobError
-from aadm_workbench.extract.sizes import extract_sizes
-from aadm_workbench.inspection.section import section_of
+from aadm_workbench.extract.method import extract_sizes
 from aadm_workbench.model import (
     AssemblyPoint,
     ColumnDesign,
@@ -48,6 +50,9 @@ from aadm_workbench.model import (
     Verdict,
 )
 from aadm_workbench.model.section import SectionReport
+
+if TYPE_CHECKING:
+    from aadm_workbench.assembly.survey.control import ControlPose
 
 IMAGE_UP_SCAN = np.array([0.0, -1.0, 0.0])
 """Direction of the image's top in the scan frame: -y."""
@@ -127,8 +132,7 @@ def check_column(
     with stage("assembly"):
         if "trial" in checks:
             trial = _try(design, measured[Kind.SLEEVE], measured[Kind.REBAR], settings)
-            repair = _repair(design, measured[Kind.SLEEVE], measured[Kind.REBAR], trial, settings)
-            trial = with_blame(trial, repair)
+            trial, repair = _repair(design, measured[Kind.SLEEVE], measured[Kind.REBAR], trial, settings)
         section = _section(design, scans, measured, settings)
     report = replace(_report(design, measured, trial, checks, settings.profile), repair=repair, section=section)
     seen = {kind: Seen(_seen(design, kind, scans, measured[kind]), scans.of(kind)[0]) for kind in measured}
@@ -144,6 +148,8 @@ def _section(
     sleeves = measured.get(Kind.SLEEVE)
     if sleeves is None or len(scans.sleeves) > 1 or settings.method != "refined":
         return None
+    from aadm_workbench.inspection.section import section_of
+
     rng = np.random.default_rng([settings.seed, 5])
     return section_of(
         design, scans.sleeves[0], sleeves.extraction, sleeves.match, settings.profile, settings.decision, rng
@@ -187,7 +193,9 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
         seen = [extract_sizes(view, kind, _diameters_mm(points), settings.method, rng) for view in views]
         control = _control(design, scans, kind, seen[0])
         ups = [up_deg] * len(views)
-        if up_deg is None and isinstance(control, ControlPose):
+        if up_deg is None and control:
+            from aadm_workbench.assembly.survey.control import shown_up_deg
+
             # It says how the first view is turned, and nothing about the others.
             up_deg = ups[0] = shown_up_deg(control, IMAGE_UP_SCAN)
         found = [_matched(points, *one, settings, rng) for one in zip(views, seen, ups, strict=True)]
@@ -196,6 +204,8 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             control = NoFit(Reason("survey.control_unmatched"))
         notes: tuple[str, ...] = ()
         if len(views) > 1:
+            from aadm_workbench.assembly.matching.views import merge_views
+
             extraction, notes = merge_views([one for one, _ in found], [one for _, one in found])
             match = match_extraction(points, extraction, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
             unseen: str = Reason("assembly.in_no_view", views=len(views))
@@ -263,6 +273,8 @@ def _control(
     """The pose of the scan of the bars by the job's control points; None without any."""
     if kind is not Kind.REBAR or not scans.control_points:
         return None
+    from aadm_workbench.assembly.survey.control import fit_control_points
+
     at = in_scan_frame(scans.control_points, scans.rebars[0])
     return fit_control_points(at, design.T_model_column, extraction.vertical)
 
@@ -276,6 +288,8 @@ def _in_the_building(
     scale_error: float,
 ) -> Measured:
     """The measured bars with their absolute position in the report."""
+    from aadm_workbench.assembly.survey.absolute import DatumRules, inspect_absolute, with_absolute
+
     absolute = inspect_absolute(
         points,
         place_points(measured.extraction, measured.match.placements[0]),
@@ -305,26 +319,22 @@ def _try(design: ColumnDesign, sleeves: Measured, rebars: Measured, settings: Ch
 
 def _repair(
     design: ColumnDesign, sleeves: Measured, rebars: Measured, trial: TrialReport, settings: CheckSettings
-) -> RepairReport | None:
-    """Advice where the trial did not pass; none where it is open which bar belongs to which sleeve."""
+) -> tuple[TrialReport, RepairReport | None]:
+    """The trial with what is in its way, and advice where it did not pass.
+
+    There is none where it is open which bar belongs to which sleeve.
+    """
     if "ambiguous" in (sleeves.match.orientation, rebars.match.orientation) or trial.minimax is None:
-        return None
-    placed = {
-        kind: [
-            None if found is None else found.point for found in place_points(one.extraction, one.match.placements[0])
-        ]
-        for kind, one in ((Kind.SLEEVE, sleeves), (Kind.REBAR, rebars))
-    }
+        return trial, None
+    if trial.verdict not in (Verdict.FAIL, Verdict.INCONCLUSIVE):
+        return trial, None
+    from aadm_workbench.assembly.blame import with_blame
+    from aadm_workbench.assembly.repair.bends import advise_repair
+
+    feet, tops = (in_column_frame(one.extraction, one.match.placements[0]) for one in (sleeves, rebars))
     rng = np.random.default_rng([settings.seed, 3])
-    return advise_repair(
-        design,
-        placed[Kind.SLEEVE],
-        placed[Kind.REBAR],
-        trial,
-        settings.profile,
-        rng,
-        decision=settings.decision,
-    )
+    repair = advise_repair(design, feet, tops, trial, settings.profile, rng, decision=settings.decision)
+    return with_blame(trial, repair), repair
 
 
 def _report(

@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
-from aadm_workbench.assembly.trial.aim import with_aim
 from aadm_workbench.errors import AadmError, DesignError
 from aadm_workbench.inspection.check import ColumnScans, check_column
 from aadm_workbench.inspection.stopwatch import Stopwatch
@@ -41,7 +40,11 @@ def inspect_column(task: ColumnTask) -> ColumnOutcome:
             with watch.stage("read"):
                 scans = read_scans(task, task.design)
             report = check_column(task.design, scans, task.settings, watch.stage)
-            report = with_aim(replace(report, id=task.column.id), task.column.set_pose)
+            report = replace(report, id=task.column.id)
+            if task.column.set_pose is not None:
+                from aadm_workbench.assembly.trial.aim import with_aim
+
+                report = with_aim(report, task.column.set_pose)
         else:
             report = _bare_report(task, Verdict.NOT_MEASURED, Reason("run.no_scan"))
         if task.column.hoisting:

@@ -1,21 +1,43 @@
-"""What the columns of a job are checked from: the model is read once, then each has all that any process needs."""
+"""The two ends of an inspection: what the columns of a job are checked from, and the report of all of them.
+
+The model is read once; then each column has all that any process needs for it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from aadm_workbench.design.model_design import ModelDesign
+from aadm_workbench import __version__
+from aadm_workbench.assembly.findings.finding import with_same_scans
 from aadm_workbench.errors import DesignError, JobError, did_you_mean
 from aadm_workbench.inspection.check import CheckSettings
 from aadm_workbench.inspection.job import Job, JobColumn
-from aadm_workbench.model import Array, Camera, ColumnDesign, Kind, Scan
+from aadm_workbench.model import (
+    Array,
+    Camera,
+    ColumnDesign,
+    ColumnReport,
+    JobReport,
+    Kind,
+    MouldDrift,
+    Profile,
+    Scan,
+    StackSettings,
+)
 from aadm_workbench.scan.read import read_scan
 
+if TYPE_CHECKING:
+    from aadm_workbench.design.model_design import ModelDesign
+
 _STEP_MM = 1.0  # no two patterns that are built differ by less
+
+_NUMERICAL_PACKAGES = ("numpy", "scipy", "opencv-python-headless", "ifcopenshell")
 
 
 @dataclass(frozen=True, eq=False)
@@ -204,3 +226,51 @@ def _distances(places: Array) -> tuple[int, ...]:
     apart = np.hypot(*(places[:, None] - places[None]).transpose(2, 0, 1))
     lengths = np.concatenate([apart[np.triu_indices(len(places), 1)], np.hypot(*(places - places.mean(axis=0)).T)])
     return (len(places), *np.sort(np.rint(lengths / _STEP_MM).astype(int)).tolist())
+
+
+def report_of(plan: JobPlan, columns: Sequence[ColumnReport]) -> JobReport:
+    """The report of a job on its columns, as they were inspected one by one."""
+    job, model = plan.job, plan.model
+    columns = with_same_scans(columns)
+    return JobReport(
+        tool=tool_entry(),
+        job=job_entry(plan),
+        capture=job.capture,
+        model=None if model is None else {"source": model.source, "sha256": model.sha256},
+        profile=job.profile,
+        columns=columns,
+        mould_drift=_mould_drift(columns, job.profile),
+    )
+
+
+def _mould_drift(columns: Sequence[ColumnReport], profile: Profile) -> tuple[MouldDrift, ...]:
+    if len(columns) < 2:  # one says nothing about its mould
+        return ()
+    from aadm_workbench.assembly.mould.moulds import assess_moulds
+
+    return assess_moulds(columns, profile)
+
+
+def job_entry(plan: JobPlan) -> dict[str, str]:
+    """What reports say about the job, and how it was run."""
+    settings = plan.settings
+    return {
+        "name": plan.job.name,
+        "sha256": plan.job.sha256,
+        "units": plan.job.units,
+        "method": settings.method,
+        "decision": settings.decision,
+        "seed": str(settings.seed),
+        **({} if plan.job.stack == StackSettings() else {"stack": plan.job.stack.text}),
+    }
+
+
+def tool_entry() -> dict[str, str]:
+    """What reports say about the program: its version and those of the packages that the numbers come from."""
+    found = {"name": "aadm", "version": __version__}
+    for name in _NUMERICAL_PACKAGES:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:  # installed under another name
+            continue
+    return found

@@ -16,17 +16,6 @@ from aadm_workbench.model.absolute import (
     ControlPoint,
     ControlResidual,
 )
-from aadm_workbench.model.arrays import (
-    Array,
-    BoolArray,
-    Figure,
-    Figures,
-    FloatArray,
-    IntArray,
-    Json,
-    Vector2,
-    Vector3,
-)
 from aadm_workbench.model.drift import (
     Capability,
     MouldDrift,
@@ -47,12 +36,21 @@ from aadm_workbench.model.measured import (
     AXES_UNKNOWN,
     CAMERA_AXES,
     OPENGL_AXES,
+    Array,
     AssemblyPoint,
+    BoolArray,
     Camera,
     ColumnDesign,
     Extraction,
+    Figure,
+    Figures,
+    FloatArray,
+    IntArray,
+    Json,
     Plane,
     Scan,
+    Vector2,
+    Vector3,
 )
 from aadm_workbench.model.reason import (
     Reason,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aadm_workbench.model.arrays import Array, Vector2, Vector3
+from aadm_workbench.model.measured import Array, Vector2, Vector3
 from aadm_workbench.model.verdicts import Verdict
 
 

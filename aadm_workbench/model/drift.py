@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aadm_workbench.model.arrays import Vector2
+from aadm_workbench.model.measured import Vector2
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from aadm_workbench.model.arrays import Figures
+from aadm_workbench.model.measured import Figures
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +20,7 @@ class Finding:
     values
         The numbers and names that ``text`` is made of; names of lengths end in ``_mm``.
     text
-        One sentence, in English; :mod:`~aadm_workbench.model.finding_sentences` has it in Chinese too.
+        One sentence, in English; :mod:`~aadm_workbench.model.sentences.finding` has it in Chinese too.
     holds_back
         Whether the column must not pass before this is settled.
     """

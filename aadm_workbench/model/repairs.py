@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from aadm_workbench.model.arrays import Vector2
+from aadm_workbench.model.measured import Vector2
 from aadm_workbench.model.results import BestPose
 
 

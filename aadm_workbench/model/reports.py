@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aadm_workbench.model.arrays import Array
 from aadm_workbench.model.drift import MouldDrift
 from aadm_workbench.model.findings import Finding
 from aadm_workbench.model.hoisting import HoistingReport
+from aadm_workbench.model.measured import Array
 from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, PairResult, PointResult, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile

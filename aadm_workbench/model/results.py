@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from aadm_workbench.model.absolute import AbsolutePosition
-from aadm_workbench.model.arrays import Array, Figures, Vector2, Vector3
+from aadm_workbench.model.measured import Array, Figures, Vector2, Vector3
 from aadm_workbench.model.rules import Source
 from aadm_workbench.model.verdicts import Verdict
 

@@ -7,12 +7,13 @@ import os
 import stat
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from aadm_workbench.errors import ScanError
-from aadm_workbench.model import Array, Camera, FloatArray, Reason
+from aadm_workbench.model import Array, BoolArray, Camera, FloatArray, Reason
 from aadm_workbench.model.reason import said_of
 
 DEPTH_MAPS = (".tif", ".tiff", ".png")
@@ -29,6 +30,12 @@ LARGEST_FILE_BYTES = 2**30
 
 LARGEST_POINT_COUNT = 40_000_000
 """Bound on what a file may unpack to: 1 GB of coordinates. A frame of today's largest cameras has 8 million."""
+
+HUGE_COORDINATE_MM = 1e7
+"""Beyond this, float32 rounds by a millimetre: map coordinates stay float64."""
+
+LARGEST_COORDINATE = 1e12
+"""In the unit of a file: the earth's girth is 4e10 mm. What lies further off is no measurement but a fault."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,3 +145,72 @@ def _check_status(mode: int, size_bytes: int, path: Path) -> None:
     if size_bytes > LARGEST_FILE_BYTES:
         sizes = {"size_bytes": size_bytes, "limit_gb": LARGEST_FILE_BYTES / 2**30}
         raise ScanError(said_of(path, "scan.too_large", **sizes))
+
+
+def without_return(points: FloatArray) -> BoolArray:
+    """Tell which points are no measurement: not finite, out of this world, or all three coordinates exactly zero.
+
+    Cameras write NaN, infinity or the origin where a pixel saw nothing; no surface lies in the camera's centre.
+
+    Parameters
+    ----------
+    points
+        (..., 3) floating, in the frame of the file.
+
+    Returns
+    -------
+    BoolArray
+        (...) bool.
+    """
+    with np.errstate(all="ignore"):
+        # One sum instead of three tests: it is not finite where a term is not, and it is zero at the origin alone.
+        total = np.abs(points[..., 0]) + np.abs(points[..., 1]) + np.abs(points[..., 2])
+        measured: BoolArray = (total > 0.0) & (total < LARGEST_COORDINATE)
+    return ~measured
+
+
+def narrowed(points: Array, dtype: np.dtype[Any], mm_per_unit: float) -> FloatArray:
+    """Return points in the precision of their file, unless float32 would round them by a millimetre.
+
+    Parameters
+    ----------
+    points
+        (..., 3) float64.
+    dtype
+        float32 or float64, what the file declares.
+    mm_per_unit
+        Millimetres in one unit of ``points``.
+    """
+    return points if _is_huge(points, mm_per_unit) else points.astype(dtype, copy=False)
+
+
+def to_millimetres(points: FloatArray, mm_per_unit: float, T_scan_file: Array | None) -> FloatArray:
+    """Move points by the pose that their file carries, then scale them to millimetres.
+
+    Parameters
+    ----------
+    points
+        (..., 3) floating, unit and frame of the file.
+    mm_per_unit
+        Millimetres in one unit of the file.
+    T_scan_file
+        (4, 4) float64, unit of the file; None for no motion.
+
+    Returns
+    -------
+    FloatArray
+        (..., 3) mm, scan frame, in the precision of ``points`` or, for huge coordinates, float64.
+    """
+    if T_scan_file is not None and not np.array_equal(T_scan_file, np.eye(4)):
+        moved = (points.astype(np.float64) @ T_scan_file[:3, :3].T + T_scan_file[:3, 3]) * mm_per_unit
+        return narrowed(moved, points.dtype, 1.0)
+    if mm_per_unit == 1.0:
+        return points
+    if _is_huge(points, mm_per_unit):
+        points = points.astype(np.float64)
+    return points * points.dtype.type(mm_per_unit)
+
+
+def _is_huge(points: FloatArray, mm_per_unit: float) -> bool:
+    reach = np.max(np.abs(points), where=np.isfinite(points), initial=0.0)
+    return bool(reach * mm_per_unit > HUGE_COORDINATE_MM)

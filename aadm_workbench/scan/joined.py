@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from aadm_workbench.model import Array, FloatArray, Reason
-from aadm_workbench.scan.file import Cloud
-from aadm_workbench.scan.points import without_return
+from aadm_workbench.scan.file import Cloud, without_return
 
 
 def joined(clouds: Sequence[Cloud]) -> Cloud:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 from types import MappingProxyType
 
@@ -14,21 +15,8 @@ import numpy.typing as npt
 from aadm_workbench.errors import CameraError, ScanError
 from aadm_workbench.model import CAMERA_AXES, OPENGL_AXES, Array, Camera, FloatArray, Reason, Scan
 from aadm_workbench.scan.axes import AXES, TAKEN_FOR_OPENGL, axes_of, turned
-from aadm_workbench.scan.camera import seen_by
-from aadm_workbench.scan.capture import find_capture
-from aadm_workbench.scan.depth import read_depth_map
-from aadm_workbench.scan.file import DEPTH_MAPS, Cloud, Declared, ScanFile, load
-from aadm_workbench.scan.formats.e57 import read_e57
-from aadm_workbench.scan.formats.las import read_las
-from aadm_workbench.scan.formats.npz import read_npz
-from aadm_workbench.scan.formats.pcd import read_pcd
-from aadm_workbench.scan.formats.ply import read_ply
-from aadm_workbench.scan.formats.pts import read_pts
-from aadm_workbench.scan.formats.ptx import read_ptx
-from aadm_workbench.scan.formats.text import read_text
-from aadm_workbench.scan.picture import grey_of
+from aadm_workbench.scan.file import DEPTH_MAPS, Cloud, Declared, ScanFile, load, to_millimetres, without_return
 from aadm_workbench.scan.pixels import is_picture, on_pixels
-from aadm_workbench.scan.points import to_millimetres, without_return
 
 Reader = Callable[[ScanFile, Declared], Cloud]
 
@@ -39,23 +27,24 @@ _SAMPLE_SIZE = 10_000  # points: enough for an extent and a median
 
 MM_PER_UNIT = MappingProxyType({"mm": 1.0, "m": 1000.0})
 
-_READERS: MappingProxyType[str, Reader] = MappingProxyType(
+_READERS = MappingProxyType(
     {
-        **dict.fromkeys(DEPTH_MAPS, read_depth_map),
-        ".ply": read_ply,
-        ".pcd": read_pcd,
-        ".xyz": read_text,
-        ".txt": read_text,
-        ".csv": read_text,
-        ".asc": read_text,
-        ".pts": read_pts,
-        ".ptx": read_ptx,
-        ".las": read_las,
-        ".laz": read_las,
-        ".e57": read_e57,
-        ".npz": read_npz,
+        **dict.fromkeys(DEPTH_MAPS, "depth.read_depth_map"),
+        ".ply": "formats.ply.read_ply",
+        ".pcd": "formats.pcd.read_pcd",
+        ".xyz": "formats.text.read_text",
+        ".txt": "formats.text.read_text",
+        ".csv": "formats.text.read_text",
+        ".asc": "formats.text.read_text",
+        ".pts": "formats.pts.read_pts",
+        ".ptx": "formats.ptx.read_ptx",
+        ".las": "formats.las.read_las",
+        ".laz": "formats.las.read_las",
+        ".e57": "formats.e57.read_e57",
+        ".npz": "formats.npz.read_npz",
     }
 )
+"""By ending: the function of this package that reads it, imported where such a file is read."""
 
 
 def supported_formats() -> tuple[str, ...]:
@@ -129,6 +118,8 @@ def _is_folder(path: Path) -> bool:
 
 def _read_capture(path: Path, name: str, declared: Declared, image: Path | None) -> Scan:
     """Return the scan of a capture folder: its depth map or cloud, with the intrinsics and the picture beside it."""
+    from aadm_workbench.scan.capture import find_capture
+
     capture = find_capture(path, name, declared)
     texture = capture.texture if image is None else image
     try:
@@ -142,10 +133,7 @@ def _read_capture(path: Path, name: str, declared: Declared, image: Path | None)
 
 def _read_file(path: Path, name: str, declared: Declared, image: Path | None) -> Scan:
     camera = declared.camera
-    reader = _READERS.get(path.suffix.lower())
-    if reader is None:
-        known = " ".join(supported_formats())
-        raise ScanError(Reason("scan.format", path=path, suffix=path.suffix or "(none)", known=known))
+    reader = _reader_of(path)
     file = load(path, name)
     cloud = reader(file, declared)
     axes = _axes(file, cloud, declared)
@@ -171,6 +159,15 @@ def _read_file(path: Path, name: str, declared: Declared, image: Path | None) ->
         declared.mm_per_unit / cloud.mm_per_unit if cloud.unit_from else 1.0,
         axes,
     )
+
+
+def _reader_of(path: Path) -> Reader:
+    if path.suffix.lower() not in _READERS:
+        known = " ".join(supported_formats())
+        raise ScanError(Reason("scan.format", path=path, suffix=path.suffix or "(none)", known=known))
+    module, _, name = _READERS[path.suffix.lower()].rpartition(".")
+    reader: Reader = getattr(import_module(f"aadm_workbench.scan.{module}"), name)
+    return reader
 
 
 def _axes(file: ScanFile, cloud: Cloud, declared: Declared) -> str:
@@ -217,6 +214,8 @@ def _measured(file: ScanFile, cloud: Cloud, camera: Camera | None, axes: str) ->
         cloud.points[missing] = np.nan
     points = cloud.points
     if camera is not None:
+        from aadm_workbench.scan.camera import seen_by
+
         points = seen_by(file.name, turned(points) if axes == OPENGL_AXES else points, camera)
     if dropped and points.ndim == 2:
         points = points[~missing]
@@ -247,6 +246,8 @@ def _can_see(viewpoint: Array, points: FloatArray) -> bool:
 
 
 def _grey_picture(path: Path, points: FloatArray, camera: Camera | None) -> npt.NDArray[np.uint8]:
+    from aadm_workbench.scan.picture import grey_of
+
     file = load(path, str(path))
     grey = grey_of(file)
     size = (camera.height, camera.width) if camera is not None else points.shape[:2] if points.ndim == 3 else grey.shape

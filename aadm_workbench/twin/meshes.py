@@ -1,6 +1,10 @@
 """Triangle meshes of the as-built parts, with a surface number for every triangle.
 
 Boolean work is Manifold's (through ``manifold3d``); bars are height fields over (angle, length).
+
+Meshes of what stands about in a scene and is neither a foot nor a bar: boxes, boards, hoses.
+
+Faces roughened by order: a height field that a foot's block ends in, the same for every camera.
 """
 
 from __future__ import annotations
@@ -8,18 +12,28 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from scipy import ndimage
 
-from aadm_workbench.model import Array
-from aadm_workbench.twin.objects import object_surface
-from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, SleeveAsBuilt, axis_of
-from aadm_workbench.twin.roughness import rough_block
-from aadm_workbench.twin.surface import BAR, CONCRETE, DARK, FLOOR, SLEEVE_WALL, TAPE, Surface, joined, one_kind
+from aadm_workbench.model import Array, IntArray
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose, Roughness, SleeveAsBuilt, axis_of
+from aadm_workbench.twin.surface import BAR, CONCRETE, DARK, FLOOR, OBJECT, SLEEVE_WALL, TAPE, Surface, joined, one_kind
 
 _RIB_INCLINATION = np.radians(60.0)  # of transverse ribs against the bar's axis; 45 to 70 degrees are usual
 _SHIFT_DEPTHS_MM = (1.5, 2.0)  # behind the face: over so much depth a wall goes aside that is shifted; its mouth stays
 _RING_WIDTH_MM, _RING_ROOT_MM = 4.0, 20.0  # a tube with a wall of 4 mm, cast in by 20 mm
 _CAP_LENGTH_MM = 25.0  # of the caps that protect threads
 SEGMENTS = 256  # of a bore's outline: the chord stays within 0.003 mm of a 36 mm circle
+
+_CORNERS = np.array([[x, y, z] for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)])  # (8, 3), of a unit box
+# their numbers, counter-clockwise from outside
+_SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+_AROUND = 32  # corners of a hose's section
+_STEP_MM = 4.0  # of a hose's path: a choice by eye
+
+_STEPS_PER_GRAIN = 4.0  # a grain is drawn round by four
+_FINEST_MM = 1.5  # finer meshes take minutes
+_SPREADS = 2.0  # of the field's standard deviation fit into its depth on either side; what is beyond is cut off
+_KEY_WALL_MM = 2.0  # slope of a key, formed to be stripped
 
 
 def surface_of(part: Foot | BarGroup) -> Surface:
@@ -229,3 +243,91 @@ def _floor(group: BarGroup) -> Surface:
 
 def _cube(x: float, y: float, floor: float, edge: float) -> Box:
     return Box((x - edge / 2, y - edge / 2, floor), (x + edge / 2, y + edge / 2, floor + edge))
+
+
+def object_surface(thing: Box | Hose) -> Surface:
+    """Mesh of one object, in the column frame."""
+    return _box(thing) if isinstance(thing, Box) else _hose(thing)
+
+
+def _box(box: Box) -> Surface:
+    low, high = np.asarray(box.low), np.asarray(box.high)
+    quads = np.array(_SIDES)
+    triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    return one_kind(low + _CORNERS * (high - low), triangles, OBJECT)
+
+
+def _hose(hose: Hose) -> Surface:
+    """A tube of constant height, swept along a line through the given plan positions."""
+    line = _resampled(np.asarray(hose.path))
+    along = np.gradient(line, axis=0)
+    along /= np.linalg.norm(along, axis=1)[:, None]
+    beside = np.column_stack([-along[:, 1], along[:, 0], np.zeros(len(line))])
+    turn = np.linspace(0.0, 2 * np.pi, _AROUND, endpoint=False)
+    ring = np.cos(turn)[None, :, None] * beside[:, None] + np.sin(turn)[None, :, None] * np.array([0.0, 0.0, 1.0])
+    middle = np.column_stack([line, np.full(len(line), hose.height)])
+    vertices = (middle[:, None] + hose.diameter / 2 * ring).reshape(-1, 3)
+    grid = np.arange(len(vertices)).reshape(len(line), _AROUND)
+    beyond = np.roll(grid, -1, axis=1)
+    a, b, c, d = grid[:-1].ravel(), beyond[:-1].ravel(), grid[1:].ravel(), beyond[1:].ravel()
+    return one_kind(vertices, np.vstack([np.column_stack([a, c, b]), np.column_stack([b, c, d])]), OBJECT)
+
+
+def _resampled(path: Array) -> Array:
+    """Points (n, 2) every few mm on a smooth line through the corners of a path (k, 2)."""
+    from scipy.interpolate import CubicSpline
+
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+    line: Array = CubicSpline(length, path)(np.arange(0.0, length[-1], _STEP_MM))
+    return line
+
+
+def rough_block(size: tuple[float, float], height: float, roughness: Roughness) -> Any:
+    """A block of a size whose lower face is rough; a ``manifold3d.Manifold``."""
+    import manifold3d
+
+    step_mm = max(roughness.grain / _STEPS_PER_GRAIN, _FINEST_MM)
+    x, y = (np.linspace(-side / 2, side / 2, int(np.ceil(side / step_mm)) + 1) for side in size)
+    below = rough_heights(x, y, roughness)
+    plan = np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)
+    vertices = np.vstack([np.column_stack([plan, below.ravel()]), np.column_stack([plan, np.full(len(plan), height)])])
+    mesh = manifold3d.Mesh(vertices.astype(np.float32), _closed(len(y), len(x)).astype(np.uint32))
+    return manifold3d.Manifold(mesh)
+
+
+def rough_heights(x: Array, y: Array, roughness: Roughness) -> Array:
+    """How far inside the foot the face lies (rows, columns) mm at the crossings of a grid, 0 to its depth."""
+    if roughness.law == "keyed":
+        return roughness.depth * _pocket(x, roughness.grain)[None, :] * _pocket(y, roughness.grain)[:, None]
+    rng = np.random.default_rng(roughness.seed)
+    step_mm = float(x[1] - x[0])
+    field = ndimage.gaussian_filter(rng.standard_normal((len(y), len(x))), roughness.grain / 4.0 / step_mm)
+    return np.asarray(roughness.depth * np.clip(0.5 + field / field.std() / (2.0 * _SPREADS), 0.0, 1.0))
+
+
+def _pocket(along: Array, wide: float) -> Array:
+    """1 within pockets, 0 between them, with walls that are not upright."""
+    place = np.abs(np.mod(along, 2.0 * wide) - wide)
+    return np.asarray(np.clip((wide / 2.0 - place) / _KEY_WALL_MM + 0.5, 0.0, 1.0))
+
+
+def _closed(rows: int, columns: int) -> IntArray:
+    """Triangles of a box whose lower and upper side are grids of that many vertices, lower ones first."""
+    low = np.arange(rows * columns).reshape(rows, columns)
+    high = low + rows * columns
+    around = np.concatenate([low[0, :-1], low[:-1, -1], low[-1, :0:-1], low[:0:-1, 0]])
+    beyond = np.roll(around, -1)
+    upper, upper_beyond = around + rows * columns, beyond + rows * columns
+    return np.vstack(
+        [
+            _sheet(low)[:, ::-1],
+            _sheet(high),
+            np.column_stack([around, beyond, upper]),
+            np.column_stack([beyond, upper_beyond, upper]),
+        ]
+    )
+
+
+def _sheet(grid: IntArray) -> IntArray:
+    a, b, c, d = grid[:-1, :-1].ravel(), grid[:-1, 1:].ravel(), grid[1:, :-1].ravel(), grid[1:, 1:].ravel()
+    return np.vstack([np.column_stack([a, b, c]), np.column_stack([b, d, c])])

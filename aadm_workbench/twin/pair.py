@@ -1,4 +1,7 @@
-"""A column foot and the bars that it comes down on: two scans, their truth, and a job that checks them."""
+"""A column foot and the bars that it comes down on: two scans, their truth, and a job that checks them.
+
+The virtual cameras by name: what is done with a part and a pose until there is a scan.
+"""
 
 from __future__ import annotations
 
@@ -7,26 +10,29 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.recognise.pattern import inline_design, label_order
-from aadm_workbench.model import AssemblyPoint, ColumnDesign, Json
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Json
 from aadm_workbench.scan.write import write_depth_tiff, write_pcd, write_ply
 from aadm_workbench.twin.camera import DEPTH_SCALE_MM, PRO_M, capture_tables
-from aadm_workbench.twin.cameras import CAMERAS, with_filters
-from aadm_workbench.twin.filters import NO_FILTERS, Filters
+from aadm_workbench.twin.filters import NO_FILTERS, Filters, filtered
+from aadm_workbench.twin.finite_pixel import FinitePixel
 from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot
-from aadm_workbench.twin.scene import TrueScan
+from aadm_workbench.twin.scene import TrueScan, scan_of
 from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_foot, random_pose
 from aadm_workbench.twin.site import left_by_site
 from aadm_workbench.twin.slips import NO_SLIP, Slip, seen_with, told_camera
 from aadm_workbench.twin.truth import true_verdicts
 
 _DECIMALS = 4  # 0.1 µm: truth that is finer than anything it is compared with
+
+Shoot: TypeAlias = Callable[[Foot | BarGroup, Array, np.random.Generator], TrueScan]
+"""From a part, the pose T_column_scan (4, 4) and a generator to a scan with its truth."""
 
 
 def _write_tiff(path: Path, scan: TrueScan) -> None:
@@ -185,3 +191,50 @@ up = "{"-y" if slip.up_deg else "+y"}"
 
 [columns.design]
 {design}"""
+
+
+def ray_camera(noise: CameraNoise) -> Shoot:
+    """The ray caster with a law of noise."""
+    return lambda part, pose, rng: scan_of(part, pose, noise, rng)
+
+
+def fringe_camera(distance: float) -> Shoot:
+    """Fringe projection, path-traced; its lenses are set for a distance in mm.
+
+    Raises
+    ------
+    MissingDependencyError
+        Where Mitsuba, or the LLVM that it compiles with, is not installed.
+    """
+    from aadm_workbench.twin.fringe.renderer import mitsuba_ready
+    from aadm_workbench.twin.fringe.rig import rig_for
+    from aadm_workbench.twin.fringe.shot import FringeCamera, fringe_scan_of
+
+    mitsuba_ready()
+    fringe = FringeCamera(rig_for(distance))
+    return lambda part, pose, rng: fringe_scan_of(part, pose, fringe, rng)
+
+
+def with_filters(shoot: Shoot, filters: Filters) -> Shoot:
+    """A camera that filters its depth maps."""
+
+    def shot(part: Foot | BarGroup, pose: Array, rng: np.random.Generator) -> TrueScan:
+        scan = shoot(part, pose, rng)
+        return replace(scan, depth=filtered(scan.depth, filters, scan.brightness))
+
+    return shot
+
+
+def pixel_camera(noise: CameraNoise) -> Shoot:
+    """The ray caster, its pixels with a size: it loses and mixes at edges what they see, and nothing by chance."""
+    return ray_camera(replace(noise, pixel=FinitePixel(), step_loss=0.0, step_fly=0.0))
+
+
+CAMERAS: Mapping[str, Callable[[float, CameraNoise], Shoot]] = MappingProxyType(
+    {
+        "ray": lambda _distance, noise: ray_camera(noise),
+        "pixel": lambda _distance, noise: pixel_camera(noise),
+        "fringe": lambda distance, _noise: fringe_camera(distance),
+    }
+)
+"""Cameras from a name, by the distance in mm that they are set for and the ray caster's law of noise."""

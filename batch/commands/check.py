@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from ..runner.journal import Journal
     from ..runner.run import JobRun
-    from ..shown.follow import Events, ShownCheck
+    from ..shown.progress import Events, ShownCheck
 
 EXAMPLE = """\
 examples:
@@ -76,7 +76,7 @@ def run(options: argparse.Namespace) -> int:
     from ..runner.folder_lock import locked
     from ..runner.journal import PREVIOUS_NAME, Journal
     from ..runner.run import RunOptions, run_job
-    from ..shown.follow import Events, ShownCheck
+    from ..shown.progress import Events, ShownCheck
     from ..shown.terminal import say
 
     folder = report_folder(options)

@@ -10,6 +10,7 @@ The exit code is 0 when the files are written, whatever the verdicts are.
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -19,7 +20,9 @@ from ..report_files import add_format_switches, chosen_formats, require_packages
 from ..switches import add_switches
 
 if TYPE_CHECKING:
+    from aadm_workbench.inspection.job import Job
     from aadm_workbench.model import JobReport
+    from aadm_workbench.report.pages.scan_card import ScanCard
 
 EXAMPLE = """\
 examples:
@@ -68,7 +71,6 @@ def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
     """Scan cards of columns that were not scanned yet: all that a job alone can give."""
     from aadm_workbench.errors import JobError
 
-    from ..job.cards import job_cards
     from ..job.file import read_job
     from ..report_files import FORMATS
 
@@ -123,3 +125,26 @@ def _say(files: dict[str, Path], options: argparse.Namespace) -> None:
         show_json(encode({"files": {name: str(path) for name, path in files.items()}}))
     elif not options.quiet:
         show(*(f"Written: {path}" for path in files.values()))
+
+
+def job_cards(job: Job, only: Sequence[str] = ()) -> list[ScanCard]:
+    """The cards of a job's columns, in its order; of some of them, where they are named.
+
+    Raises
+    ------
+    JobError
+        Where the job has no such column.
+    DesignError
+        Where the model cannot be read, or does not hold a column.
+    """
+    from aadm_workbench.errors import DesignError
+    from aadm_workbench.inspection.tasks import plan_job
+    from aadm_workbench.report.pages.scan_card import CardDesign, design_cards
+
+    designs = []
+    for task in plan_job(job, only=only).tasks:
+        if task.design is None:
+            raise DesignError(task.no_design)
+        column = task.column
+        designs.append(CardDesign(column.id, task.design, column.sleeves_up_deg, column.rebars_up_deg))
+    return design_cards(designs, job.camera)

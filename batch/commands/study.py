@@ -5,15 +5,15 @@ from __future__ import annotations
 import argparse
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..exit_codes import ALL_PASS
 from ..job.command import METHODS
-from ..study_hoisting import add_hoisting_studies
 from ..study_loop import add_loop_study
 from ..switches import add_switches, whole_number
 
 if TYPE_CHECKING:
+    from aadm_workbench.twin.study.hoisting import HoistingStudy
     from aadm_workbench.twin.study.methods import MethodStudy
 
 EXAMPLE = """\
@@ -26,6 +26,14 @@ examples:
   aadm study methods --setting field --scenes 3 --methods refined fusion --json"""
 _PACKAGES = ("manifold3d", "open3d")
 _SETTINGS = ("lab", "field")
+
+_STUDIES = {
+    "distance": "hoisting: errors over the distance of the camera (Table 3, Fig. 16)",
+    "height": "hoisting: errors over the height of the foot above the bars (Table 4, Fig. 17)",
+    "angle": "hoisting: errors over the angle of the column (Table 5, Fig. 18)",
+    "spacing": "hoisting: errors over the planar spacing (Table 6, Fig. 19)",
+    "conditions": "hoisting: methods in the paper's conditions and in the field (Tables 7 to 9, 12, Figs. 20, 21)",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -54,7 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     methods.add_argument("--out", type=Path, metavar="DIR", help="folder for CSV, summary.json and plots")
     add_switches(methods, prints_json="the numbers")
     methods.set_defaults(run=_study_methods)
-    add_hoisting_studies(kinds, _prepare)
+    _add_hoisting_studies(kinds)
     add_loop_study(kinds, _prepare)
 
 
@@ -138,3 +146,64 @@ def _write(study: MethodStudy, summary: bytes, folder: Path) -> list[Path]:
 
     write_atomically(folder / "summary.json", summary)
     return [folder / "summary.json", *write_tables(study, folder), *write_plots(study, folder)]
+
+
+def _add_hoisting_studies(kinds: Any) -> None:
+    for name, about in _STUDIES.items():
+        parser = kinds.add_parser(
+            name,
+            help=about,
+            description=f"{about[0].upper()}{about[1:]}, on synthetic frames of known truth.",
+            epilog=f"example:\n  aadm study {name} --scenes 5 --out study",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        parser.add_argument(
+            "--scenes", type=whole_number, default=5, metavar="N", help="random scenes of each cell (default: 5)"
+        )
+        parser.add_argument("--seed", type=int, default=0, metavar="S", help="another seed, other scenes (default: 0)")
+        default = METHODS if name == "conditions" else METHODS[:2]
+        parser.add_argument(
+            "--methods", nargs="+", choices=METHODS, default=list(default), metavar="M", help=f"of {', '.join(METHODS)}"
+        )
+        parser.add_argument("--out", type=Path, metavar="DIR", help="folder for summary.json and plots")
+        add_switches(parser, prints_json="the numbers")
+        parser.set_defaults(run=_study_hoisting, study=name)
+
+
+def _study_hoisting(options: argparse.Namespace) -> int:
+    _prepare(options)
+    from aadm_workbench.report.json import encode
+    from aadm_workbench.twin.study.hoisting import cells_of, study_hoisting
+
+    from ..shown.progress import StepProgress
+    from ..shown.study_tables import hoisting_document, hoisting_tables
+    from ..shown.terminal import show, show_json
+
+    cells = cells_of(options.study)
+    with StepProgress("rendering", quiet=options.quiet) as progress:
+        study = study_hoisting(
+            options.study,
+            cells,
+            list(dict.fromkeys(options.methods)),
+            scenes=options.scenes,
+            seed=options.seed,
+            finished=progress.start(options.scenes * len(cells)),
+        )
+    summary = encode(hoisting_document(study))
+    written = [] if options.out is None else _write_hoisting(study, summary, options.out)
+    if options.json:
+        show_json(summary)
+    elif not options.quiet:
+        show(*hoisting_tables(study))
+        if written:
+            show("", f"Wrote {', '.join(path.name for path in written)} to {options.out}")
+    return ALL_PASS
+
+
+def _write_hoisting(study: HoistingStudy, summary: bytes, folder: Path) -> list[Path]:
+    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.twin.study.hoisting_plots import write_hoisting_plots
+
+    path = folder / f"{study.name}.json"
+    write_atomically(path, summary)
+    return [path, *write_hoisting_plots(study, folder)]

@@ -5,11 +5,10 @@ from __future__ import annotations
 from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import DesignError
 from aadm_workbench.inspection.job import JobColumn
-from aadm_workbench.model import ColumnDesign
+from aadm_workbench.model import ColumnDesign, ControlPoint
 from aadm_workbench.model.reports import LONGEST_ID
 from aadm_workbench.scan.axes import AXES
 
-from .control import read_control_points
 from .direction import near_corner, read_frames, up_deg
 from .stack import read_set_pose
 from .table import JobTable
@@ -79,8 +78,16 @@ def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
         near=near_corner(table),
         design=design,
         set_pose=read_set_pose(table),
-        control_points=read_control_points(table, units=units, has_own_design=design is not None),
+        control_points=_control_points(table, units=units, has_own_design=design is not None),
     )
+
+
+def _control_points(table: JobTable, *, units: str, has_own_design: bool) -> tuple[ControlPoint, ...]:
+    if "control_points" not in table.values:
+        return ()
+    from .control import read_control_points
+
+    return read_control_points(table, units=units, has_own_design=has_own_design)
 
 
 def _design(column: JobTable, name: str) -> ColumnDesign | None:

@@ -12,12 +12,10 @@ from pathlib import Path
 from typing import Literal, cast
 
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.design.model_units import MM_PER_UNIT
 from aadm_workbench.errors import CameraError, JobError, ScanError
 from aadm_workbench.inspection.job import Job, JobModel
 from aadm_workbench.model import Camera, Profile
 from aadm_workbench.scan.file import load
-from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
 
 from ..shown.printable import steering_character
 from .columns import read_columns
@@ -168,6 +166,8 @@ def _model(top: JobTable) -> JobModel | None:
     table = top.table("model", "[model]")
     if table is None:
         return None
+    from aadm_workbench.design.model_units import MM_PER_UNIT
+
     table.allow(_MODEL)
     table.require("path", 'path = "floor3.ifc", or remove the table where every column has a [columns.design]')
     units = table.one_of("units", tuple(MM_PER_UNIT), "mm")
@@ -179,6 +179,8 @@ def _camera(top: JobTable) -> tuple[Camera | None, float | None]:
     table = top.table("camera", "[camera]")
     if table is None:
         return None, None
+    from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
+
     table.allow(_CAMERA)
     for key in _CAMERA[:6]:
         table.require(key, f"{key} = ...; the six intrinsics belong together")

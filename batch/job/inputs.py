@@ -9,7 +9,6 @@ from itertools import islice
 from pathlib import Path
 
 from aadm_workbench.inspection.tasks import ColumnTask
-from aadm_workbench.scan.capture import MOST_FILES
 from aadm_workbench.scan.file import LARGEST_FILE_BYTES
 
 from ..runner.exact_json import to_exact_json
@@ -103,6 +102,8 @@ def _inside(folder: Path) -> Iterator[tuple[Path, str]]:
 
     Folders in it are not looked into, as the reader of captures does not: a job may name the root of the disk.
     """
+    from aadm_workbench.scan.capture import MOST_FILES
+
     found = list(islice(folder.iterdir(), MOST_FILES + 1))
     if len(found) <= MOST_FILES:
         yield from ((path, path.name) for path in sorted(found) if path.is_file())

@@ -3,26 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from aadm_workbench.assembly.matching.assign import best_assignment
 from aadm_workbench.assembly.trial.shipment import interchangeable, joined_design, try_margin
 from aadm_workbench.assembly.trial.virtual import try_scans
-from aadm_workbench.errors import JobError
-from aadm_workbench.inspection.check import CheckSettings, Measured
+from aadm_workbench.errors import DesignError, JobError
+from aadm_workbench.inspection.check import CheckSettings, Measured, measure_column
+from aadm_workbench.inspection.column import attempt, read_scans
 from aadm_workbench.inspection.job import Job
-from aadm_workbench.inspection.report import job_entry, tool_entry
 from aadm_workbench.inspection.stopwatch import Stopwatch
-from aadm_workbench.inspection.tasks import plan_job
-from aadm_workbench.model import Assignment, ColumnDesign, FitCell, ShipmentGroup, ShipmentReport
+from aadm_workbench.inspection.tasks import ColumnTask, job_entry, plan_job, tool_entry
+from aadm_workbench.model import (
+    Assignment,
+    ColumnDesign,
+    FitCell,
+    Kind,
+    ShipmentGroup,
+    ShipmentProblem,
+    ShipmentReport,
+    Verdict,
+)
 
 from ..job.inputs import read_for_shipping
 from ..runner.engine import Unwatched, work_through
 from ..runner.pools import opened_pool
 from ..runner.run import RunOptions
-from .task import MeasuredColumn, lost_measurement, measure_task
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,3 +175,65 @@ def _as_listed(feet: Sequence[_Group], bars: Sequence[_Group], cells: Sequence[S
     listed = [cells[row][place_of[foot.id]].margin for row, foot in enumerate(feet) if foot.id in place_of]
     known = [margin for margin in listed if margin is not None]
     return min(known) if known and len(known) == len(listed) else None
+
+
+@dataclass(frozen=True, eq=False)
+class MeasuredColumn:
+    """What was measured of a column: its foot, the bars of its position, each None where there is none.
+
+    ``problems`` says what could not be measured; ``where`` an error that nobody foresaw came from.
+    """
+
+    id: str
+    design: ColumnDesign | None
+    sleeves: Measured | None = None
+    rebars: Measured | None = None
+    problems: tuple[ShipmentProblem, ...] = ()
+    seconds: dict[str, float] = field(default_factory=dict)
+    where: str = ""
+
+
+def measure_task(task: ColumnTask) -> MeasuredColumn:
+    """Read a column's scans and measure what they show; a scan that is broken costs itself alone."""
+    measured: dict[Kind, Measured] = {}
+    problems: list[ShipmentProblem] = []
+    seconds: dict[str, float] = {}
+    where = ""
+    for kind in _scanned(task):
+        alone, found = _task_of(task, kind), None
+        with attempt(alone) as (outcome, watch):
+            if alone.design is None:
+                raise DesignError(alone.no_design)
+            with watch.stage("read"):
+                scans = read_scans(alone, alone.design)
+            found = measure_column(alone.design, scans, alone.settings, watch.stage)[kind]
+        for stage, value in outcome.seconds.items():
+            seconds[stage] = round(seconds.get(stage, 0.0) + value, 4)
+        where = where or outcome.where
+        if found is None:
+            problems.append(ShipmentProblem(task.column.id, kind.plural, Verdict.ERROR, outcome.report.reasons))
+        elif not found.match:
+            reason = f"{kind.plural}: {found.match.reason}"
+            problems.append(ShipmentProblem(task.column.id, kind.plural, Verdict.NOT_MEASURED, (reason,)))
+        else:
+            measured[kind] = found
+    sleeves, rebars = measured.get(Kind.SLEEVE), measured.get(Kind.REBAR)
+    return MeasuredColumn(task.column.id, task.design, sleeves, rebars, tuple(problems), seconds, where)
+
+
+def lost_measurement(task: ColumnTask, reason: str) -> MeasuredColumn:
+    """The outcome for a column whose process was killed."""
+    problem = ShipmentProblem(task.column.id, "column", Verdict.ERROR, (reason,))
+    return MeasuredColumn(task.column.id, task.design, problems=(problem,))
+
+
+def _scanned(task: ColumnTask) -> tuple[Kind, ...]:
+    names = {Kind.SLEEVE: task.column.sleeves, Kind.REBAR: task.column.rebars}
+    return tuple(kind for kind in Kind if names[kind])
+
+
+def _task_of(task: ColumnTask, kind: Kind) -> ColumnTask:
+    """The part of a task that is about one kind of point."""
+    column = task.column
+    alone = replace(column, rebars=(), control_points=()) if kind is Kind.SLEEVE else replace(column, sleeves=())
+    return replace(task, column=alone)

@@ -1,11 +1,18 @@
-"""A scheduler of Dask that somebody has started, wherever its workers are; with certificates where it asks for them."""
+"""A scheduler of Dask that somebody has started, wherever its workers are; with certificates where it asks for them.
+
+Workers that others have started: their nannies replace them, and say how they died.
+"""
 
 from __future__ import annotations
 
 import contextlib
 import logging
+import os
+import re
+import signal
 import socket
 import ssl
+from asyncio import CancelledError
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -16,10 +23,13 @@ from urllib.parse import urlsplit
 
 from aadm_workbench.errors import JobError, MissingDependencyError
 
-from .remote_workers import RemoteWorkers
+from .local_workers import signal_words
 
 _CONNECT_S = 10.0  # a scheduler that is there answers at once: a slow network has seconds
 _LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")
+
+GONE: tuple[type[BaseException], ...] = (OSError, TimeoutError, RuntimeError, ValueError, CancelledError)
+"""What Dask raises where a worker or the scheduler is no longer there."""
 
 
 @dataclass(frozen=True)
@@ -165,3 +175,42 @@ def _messages_to(log: Callable[[str], None]) -> Iterator[None]:
         for logger, handlers, propagate, level in before:
             logger.handlers, logger.propagate = handlers, propagate
             logger.setLevel(level)
+
+
+class RemoteWorkers:
+    """The workers of a scheduler, by a client of Dask."""
+
+    def __init__(self, client: Any) -> None:
+        self._client = client
+
+    def how_ended(self, address: str, pid: int) -> str | None:
+        """How a worker ended, as a nanny on its machine says; None where none has said it (yet)."""
+        return next((words for line in self._nannies_say(address) if (words := exit_in_words(line, pid))), None)
+
+    def kill(self, address: str, pid: int) -> None:
+        """End a worker; its nanny starts another."""
+        with contextlib.suppress(*GONE, KeyError):
+            self._client.run(_kill, pid, workers=[address], nanny=True)
+
+    def _nannies_say(self, address: str) -> Iterator[str]:
+        host = address.rpartition(":")[0]
+        with contextlib.suppress(*GONE):
+            there = self._client.scheduler_info(n_workers=-1)["workers"]
+            near = [other for other in there if other.rpartition(":")[0] == host]
+            logs = self._client.get_worker_logs(workers=near, nanny=True) if near else {}
+            for messages in logs.values():
+                yield from (str(message[-1]) for message in messages)
+
+
+def exit_in_words(message: str, pid: int) -> str | None:
+    """How a process ended, from what its nanny says of it; None where the message is about something else."""
+    found = re.search(rf"\bprocess {pid} (?:was killed by signal (\d+)|exited with status (-?\d+))", message)
+    if found is None:
+        return None
+    return signal_words(int(found[1])) if found[1] else f"ended with status {found[2]}"
+
+
+def _kill(pid: int) -> None:
+    """End a process of this machine, from its nanny."""
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(pid, getattr(signal, "SIGKILL", signal.SIGTERM))

@@ -19,9 +19,8 @@ from typing import Any
 from aadm_workbench.errors import AadmError, JobError
 
 from ..job.inputs import ShippedFile
-from .cluster import Cluster
+from .cluster import GONE, Cluster
 from .engine import Death, Ended
-from .remote_workers import GONE
 from .worker import (
     GRACE_S,
     LOOK_S,

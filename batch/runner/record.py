@@ -1,14 +1,22 @@
-"""What is kept of a column that was checked: one line of text, from which its report comes back bit by bit."""
+"""The work on one column as it travels, and what is kept of it.
+
+An order is a pure function's input, so that it may be filled twice, anywhere; a record is one line of text, from which
+the column's report comes back bit by bit.
+"""
 
 from __future__ import annotations
 
 import json
 import zlib
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
-from aadm_workbench.inspection.column import ColumnOutcome
+from aadm_workbench.inspection.column import ColumnOutcome, inspect_column, lost
+from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.model import ColumnReport, Verdict
 
+from ..job.inputs import ShippedFile, read_for_shipping, task_key
 from .exact_json import from_exact_json, to_exact_json
 
 _REPORT = ',"report":'
@@ -95,3 +103,35 @@ def _is_sound(record: Record) -> bool:
     return all(isinstance(text, str) for text in texts) and (
         isinstance(seconds, dict) and all(isinstance(value, int | float) for value in seconds.values())
     )
+
+
+@dataclass(frozen=True, eq=False)
+class CheckOrder:
+    """A column to be checked unless its key is still ``known``, the one of a result that was kept.
+
+    ``program`` is the key of the program that asks; a worker has the same one.
+    """
+
+    task: ColumnTask
+    program: str
+    known: str = ""
+
+    def at(self, places: Mapping[str, Path]) -> CheckOrder:
+        """The same order where its files lie elsewhere."""
+        return replace(self, task=self.task.at(places))
+
+
+def fill_order(order: CheckOrder) -> Record | None:
+    """Check a column; None where nothing that its result follows from has changed."""
+    key = task_key(order.task, order.program)
+    return None if key == order.known else Record.of(inspect_column(order.task), key)
+
+
+def give_up(order: CheckOrder, reason: str) -> Record:
+    """The record of a column that cost its process too often."""
+    return Record.of(lost(order.task, reason), "")
+
+
+def ship_order(order: CheckOrder) -> tuple[ShippedFile, ...]:
+    """The files of an order by content."""
+    return read_for_shipping(order.task)

@@ -12,17 +12,15 @@ from pathlib import Path
 
 from aadm_workbench.errors import AadmError
 from aadm_workbench.inspection.job import Job
-from aadm_workbench.inspection.report import report_of
 from aadm_workbench.inspection.stopwatch import Stopwatch
-from aadm_workbench.inspection.tasks import ColumnTask, JobPlan, plan_job
+from aadm_workbench.inspection.tasks import ColumnTask, JobPlan, plan_job, report_of
 from aadm_workbench.model import ColumnReport, JobReport
 
 from ..program import program_key
 from .engine import Death, work_through
 from .journal import Journal, Unkept
-from .order import CheckOrder, fill_order, give_up, ship_order
 from .pools import PoolOptions, opened_pool
-from .record import Record
+from .record import CheckOrder, Record, fill_order, give_up, ship_order
 
 
 @dataclass(frozen=True)
@@ -121,19 +119,19 @@ def _orders(tasks: tuple[ColumnTask, ...], journal: Journal | Unkept) -> tuple[l
     return orders, {place for place, task in enumerate(tasks) if task.column.id in interrupted}
 
 
+@dataclass(frozen=True, eq=False)
 class _Watcher:
     """Notes in the journal, and tells who follows, what becomes of columns."""
 
-    def __init__(self, tasks: tuple[ColumnTask, ...], follower: Follower, journal: Journal | Unkept) -> None:
-        self._names = [task.column.id for task in tasks]
-        self._follower = follower
-        self._journal = journal
+    tasks: tuple[ColumnTask, ...]
+    follower: Follower
+    journal: Journal | Unkept
 
     def began(self, place: int) -> None:
-        self._journal.began(self._names[place])
+        self.journal.began(self.tasks[place].column.id)
 
     def lost(self, place: int, death: Death, tries_left: int) -> None:
-        self._follower.lost(self._names[place], death, tries_left)
+        self.follower.lost(self.tasks[place].column.id, death, tries_left)
 
 
 def _collected(plan: JobPlan, records: Iterable[Record]) -> JobRun:

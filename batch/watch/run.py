@@ -16,8 +16,7 @@ from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError, DesignError, JobError, ScanError
 from aadm_workbench.hoisting.contradiction import contradiction_of
-from aadm_workbench.hoisting.motion import Look, Motion, look_at, motion_of, with_look
-from aadm_workbench.hoisting.running import Running, combined
+from aadm_workbench.hoisting.motion import Look, Motion, Running, combined, look_at, motion_of, with_look
 from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.inspection.column import inspect_column
 from aadm_workbench.inspection.hoisting import Before, measure_frame, unread

@@ -7,14 +7,11 @@ import numpy as np
 import pytest
 
 from aadm_workbench.assembly.blame import with_blame
-from aadm_workbench.assembly.column import sum_up
 from aadm_workbench.assembly.inspect import inspect_group
 from aadm_workbench.assembly.matching.match import match_extraction
-from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar
-from aadm_workbench.assembly.pose.robust_fit import robust_offsets
-from aadm_workbench.assembly.pose.upright import turn
+from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar, robust_offsets, turn
 from aadm_workbench.assembly.repair.bends import advise_repair
-from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.assembly.tolerances import load_profile, sum_up
 from aadm_workbench.assembly.trial.virtual import try_assembly
 from aadm_workbench.model import Kind, Verdict
 from aadm_workbench.report.words.reasons import in_both_languages

@@ -13,12 +13,8 @@ import numpy as np
 import pytest
 
 from aadm_workbench.assembly.findings.diameters import sizes_in_words
-from aadm_workbench.assembly.findings.group import SeenGroup
-from aadm_workbench.assembly.findings.hold import held_back
-from aadm_workbench.assembly.findings.make import make_finding
-from aadm_workbench.assembly.findings.rules import findings_of
-from aadm_workbench.assembly.findings.same_scan import with_same_scans
-from aadm_workbench.assembly.findings.scales import student_quantile
+from aadm_workbench.assembly.findings.finding import SeenGroup, held_back, make_finding, with_same_scans
+from aadm_workbench.assembly.findings.rules import findings_of, student_quantile
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.inspection.tasks import design_shape
 from aadm_workbench.model import (

@@ -6,12 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aadm_workbench.assembly.column import rules_of_the_erected_column, sum_up
 from aadm_workbench.assembly.inspect import NO_ABSOLUTE_POSITION, inspect_group
 from aadm_workbench.assembly.matching.match import match_extraction
-from aadm_workbench.assembly.pose.upright import turn
+from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.assembly.position import residual_covariances
-from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.assembly.tolerances import load_profile, rules_of_the_erected_column, sum_up
 from aadm_workbench.model import Array, GroupReport, Kind, Profile, Rule, TrialReport, Verdict
 
 Y_UP = np.array([0.0, 1.0])

@@ -15,7 +15,7 @@ from aadm_workbench.errors import AadmError
 from aadm_workbench.inspection import column
 from aadm_workbench.inspection.tasks import ColumnTask
 from batch.main import main
-from batch.runner import order
+from batch.runner import record
 from batch.runner.journal import Journal
 
 from .conftest import WriteJob, column_text
@@ -48,7 +48,7 @@ def counted(
 ) -> list[str]:
     """Columns as they are checked; at one of them something happens."""
     seen: list[str] = []
-    real = order.inspect_column
+    real = record.inspect_column
 
     def inspect_column(task: ColumnTask) -> column.ColumnOutcome:
         if task.column.id == ends_at and error is not None:
@@ -56,7 +56,7 @@ def counted(
         seen.append(task.column.id)
         return real(task)
 
-    monkeypatch.setattr(order, "inspect_column", inspect_column)
+    monkeypatch.setattr(record, "inspect_column", inspect_column)
     return seen
 
 
@@ -149,14 +149,14 @@ def test_what_killed_the_check_itself_is_given_up_by_the_next(job: Path, reposit
     pytest.importorskip("distributed")
     script = f"""
 import os, sys
-from batch.runner import order
+from batch.runner import record
 from batch.main import main
-real = order.inspect_column
+real = record.inspect_column
 def inspect_column(task):
     if task.column.id == "C-1":
         os.kill(os.getpid(), 9)
     return real(task)
-order.inspect_column = inspect_column
+record.inspect_column = inspect_column
 main(["check", {str(job)!r}, "--out", {str(job.parent / "out")!r}, "--only", "C-0", "C-1", "C-4", "--quiet"])
 """
     killed = subprocess.run([sys.executable, "-c", script], cwd=repository, check=False)

@@ -10,8 +10,7 @@ import pytest
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.errors import JobError
 from aadm_workbench.inspection.check import CheckSettings
-from aadm_workbench.inspection.report import job_entry
-from aadm_workbench.inspection.tasks import JobPlan
+from aadm_workbench.inspection.tasks import JobPlan, job_entry
 from batch.job.file import read_job
 from batch.job.stack import carried_settings
 from batch.main import main

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from aadm_workbench.extract.sizes import distinct_sizes, extract_sizes
+from aadm_workbench.extract.method import distinct_sizes, extract_sizes
 from aadm_workbench.model import Kind
 from aadm_workbench.twin.scenes import LAB, random_bars, random_foot
 from tests.scenes import in_plane_errors, lab_scan

@@ -5,14 +5,22 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aadm_workbench.extract.circle import agreeing_shares, circles_of_radius, circles_through, settled_centres
-from aadm_workbench.extract.holes import find_discs, rastered
-from aadm_workbench.extract.outlines import Outlines, outlines
+from aadm_workbench.extract.circle import (
+    Outlines,
+    PlanPoints,
+    agreeing_shares,
+    circles_of_radius,
+    circles_through,
+    in_rows,
+    outlines,
+    settled_centres,
+    thinned_rows,
+)
+from aadm_workbench.extract.foot_face import find_discs, rastered
 from aadm_workbench.extract.patches import patches_around
-from aadm_workbench.extract.plan_points import PlanPoints, in_rows, thinned_rows
 from aadm_workbench.extract.plane import facing, find_plane, find_planes, from_plane, in_plane
-from aadm_workbench.extract.pooled.edge_law import BracketLaw, RimLaw
-from aadm_workbench.extract.pooled.start_circles import CircleEvidence, likeliest_circles
+from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw
+from aadm_workbench.extract.pooled.fit import CircleEvidence, likeliest_circles
 from aadm_workbench.extract.sample import thinned
 from aadm_workbench.extract.top_planes import top_planes
 from aadm_workbench.model import Camera, Plane, Scan

@@ -19,7 +19,7 @@ from aadm_workbench.model import Camera
 from aadm_workbench.report.read import read_report
 from aadm_workbench.scan import intrinsics
 from aadm_workbench.scan.depth import read_depth_map
-from aadm_workbench.scan.file import Cloud, Declared, ScanFile
+from aadm_workbench.scan.file import Cloud, Declared, ScanFile, to_millimetres, without_return
 from aadm_workbench.scan.formats.e57_outline import check_outline
 from aadm_workbench.scan.formats.las import read_las
 from aadm_workbench.scan.formats.npz import read_npz
@@ -28,7 +28,6 @@ from aadm_workbench.scan.formats.ply import read_ply
 from aadm_workbench.scan.formats.pts import read_pts
 from aadm_workbench.scan.formats.ptx import read_ptx
 from aadm_workbench.scan.formats.text import read_text
-from aadm_workbench.scan.points import to_millimetres, without_return
 from batch.job.file import read_job
 
 Target = Callable[[bytes], None]

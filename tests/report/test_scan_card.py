@@ -15,7 +15,7 @@ from aadm_workbench.model import Camera, Kind
 from aadm_workbench.report.drawing.sketch import Label
 from aadm_workbench.report.pages.scan_card import CardDesign, ScanCard, corner_of, design_cards, scan_cards, top_side
 from aadm_workbench.report.pages.scan_card_page import picture_sketch, write_scan_cards
-from batch.job.cards import job_cards
+from batch.commands.report import job_cards
 from batch.job.file import read_job
 from tests.report.checked_floor import DESIGN, HOSTILE
 from tests.report.typed import typed

@@ -8,11 +8,10 @@ import pytest
 from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import Camera
 from aadm_workbench.twin.camera import PRO_M
-from aadm_workbench.twin.fringe.facets import divided
-from aadm_workbench.twin.fringe.phases import depth_of, unwrapped
+from aadm_workbench.twin.fringe.render import divided
 from aadm_workbench.twin.fringe.renderer import mitsuba_ready
 from aadm_workbench.twin.fringe.rig import FringeRig, Fringes, Lenses, Sensor, rig_for
-from aadm_workbench.twin.fringe.sensor import recorded
+from aadm_workbench.twin.fringe.shot import depth_of, recorded, unwrapped
 from aadm_workbench.twin.surface import CONCRETE, Surface, joined, one_kind
 
 SMALL = Camera(PRO_M.fx, PRO_M.fy, 79.5, 59.5, 160, 120)

@@ -13,7 +13,7 @@ pytest.importorskip("manifold3d")
 from aadm_workbench.twin.study.hoisting import HoistingStudy, cells_of, study_hoisting
 from aadm_workbench.twin.study.hoisting_plots import mean_key_error, write_hoisting_plots
 from aadm_workbench.twin.study.hoisting_tables import CELLS, CONDITIONS
-from batch.shown.study_hoisting_tables import hoisting_document, hoisting_tables
+from batch.shown.study_tables import hoisting_document, hoisting_tables
 
 
 @pytest.fixture(scope="module")

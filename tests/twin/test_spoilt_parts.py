@@ -9,9 +9,8 @@ import pytest
 
 from aadm_workbench.model import Array, Camera
 from aadm_workbench.twin.camera import facing
-from aadm_workbench.twin.meshes import bars_surface, foot_surface
+from aadm_workbench.twin.meshes import bars_surface, foot_surface, object_surface
 from aadm_workbench.twin.noise import CameraNoise
-from aadm_workbench.twin.objects import object_surface
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose, SleeveAsBuilt
 from aadm_workbench.twin.raycast import rays_of
 from aadm_workbench.twin.scene import scan_of

@@ -15,9 +15,8 @@ from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Scan
 from aadm_workbench.twin.camera import PRO_M, facing
 from aadm_workbench.twin.scene import TrueScan
 from aadm_workbench.twin.scenes import LAB
-from aadm_workbench.twin.study.bare_calls import seconds_of_bare_calls
 from aadm_workbench.twin.study.errors import Comparison, FeatureError, SpacingError, compared
-from aadm_workbench.twin.study.methods import BareTime, Measurement, MethodStudy, thinned_camera
+from aadm_workbench.twin.study.methods import BareTime, Measurement, MethodStudy, seconds_of_bare_calls, thinned_camera
 from aadm_workbench.twin.study.plots import write_plots
 from aadm_workbench.twin.study.published import TABLES
 from aadm_workbench.twin.study.scores import bare_seconds, largest_unflagged_mm, scores, spread_of

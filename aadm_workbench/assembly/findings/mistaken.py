@@ -1,25 +1,29 @@
 """Scans that show something else than they were named for: the other group, another column, bars of another size.
 
 Asked only of a group that does not lie on its design: then it is worth the time to look what it is.
+
+Lengths that are wrong by a factor: a focal length that is not the camera's, a depth scale, a unit. A wrong focal length
+stretches a scan across the view and leaves its depths; a wrong unit or depth scale stretches all. Nothing has the
+designed size then, and nothing is found. So the scan is looked at as if it was made with likelier ones: where the
+pattern is there then, sizes and all, that is what was wrong.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from aadm_workbench.assembly.findings.diameters import CORE_ABOVE, CORE_BELOW, sizes_in_words
-from aadm_workbench.assembly.findings.group import SeenGroup
-from aadm_workbench.assembly.findings.lengths import is_usual, length_findings
-from aadm_workbench.assembly.findings.make import make_finding
-from aadm_workbench.assembly.findings.named_scan import FEWEST, FITS_SHARE, NamedScan, fits
-from aadm_workbench.design.recognise.bar_sizes import OVER_RIBS_MM
+from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
+from aadm_workbench.assembly.matching.match import match_extraction
+from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
 from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.edges.edge_shift import BLURRED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
-from aadm_workbench.model import AssemblyPoint, ColumnDesign, Finding, Kind, codes_of
+from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Finding, Kind, codes_of
 
 _BADLY_BUILT_MM = 3.0  # root mean square: a half more than the limit of every single point
 _FITS_BETTER = 2.0  # on its own design, or on one like it, a group scatters by as much: by half is no chance
@@ -27,6 +31,22 @@ _LOOKS = 3  # in one scan, for other columns' sizes: each takes as long as a che
 _UNFIT = {SMOOTHED.code, GAPS_FILLED.code, COPIED.code, BLURRED.code}
 _NEXT_BORE = 1.15  # sleeves for the next bar are 2 to 6 mm wider; found are those within 8 %
 _SIZES_EACH_WAY = 2  # bars two sizes off have been delivered; more would be seen from afar
+
+UNIT_FACTORS = (10.0, 0.1, 100.0, 0.01, 25.4, 1.0 / 25.4)
+"""By which lengths of scans have been too large: slips of a decimal, inches. A thousand is refused when it is read."""
+
+FOCAL_FACTORS = (0.5, 2.0, 1.11, 0.9, 1.25, 0.8, 1.43, 0.7)
+"""Of what the job says to what the camera has: a picture of half the resolution, and steps of a hole's play."""
+
+_USUAL_DISTANCE_MM = (250.0, 4000.0)  # of cameras that see a sleeve by the tenth of a millimetre
+
+FITS_SHARE = 0.75
+"""Of the points of a design: with so many on their places a scan shows it. Half may lie on some pattern by chance."""
+
+FEWEST = 4  # three points lie on some pattern by chance
+
+Look = Callable[[Kind, Sequence[float]], Extraction]
+"""Looks for points of a kind, of some diameters, mm, in one scan."""
 
 
 def mistaken_findings(
@@ -163,3 +183,54 @@ def _sizes_about(designed_mm: Sequence[float]) -> list[float]:
     below = [size for size in sorted(OVER_RIBS_MM, reverse=True) if size < low][:_SIZES_EACH_WAY]
     above = [size for size in sorted(OVER_RIBS_MM) if size > high][:_SIZES_EACH_WAY]
     return sorted([*below, *above], key=lambda size: min(abs(size - one) for one in designed_mm))
+
+
+def length_findings(lost: Sequence[tuple[SeenGroup, NamedScan]]) -> Iterator[Finding]:
+    """A finding for each group that lies on its design once its lengths are put right."""
+    told: list[tuple[str, float]] = []
+    for group, scan in lost:
+        for law, factor in [*told, *_likely(scan.distance_mm)]:
+            across, along = (factor, 1.0) if law == "focal" else (1.0 / factor, 1.0 / factor)
+            looked = scan.stretched(across, along)
+            if fits(group.design, looked.look(group.kind, [point.diameter_mm for point in group.design])):
+                told = [(law, factor)]
+                name = group.kind.plural
+                said = {"times": 1.0 / factor} if law == "focal" else {"factor": factor}
+                yield make_finding(f"scale_differs.{law}", [name], group=name, **said)
+                break
+
+
+def _likely(distance_mm: float) -> list[tuple[str, float]]:
+    """Laws and factors, the likelier first: a camera that stood too near or too far is no camera."""
+    units = [("unit", factor) for factor in UNIT_FACTORS if is_usual(distance_mm / factor)]
+    focal = [("focal", factor) for factor in FOCAL_FACTORS]
+    return [*focal, *units] if is_usual(distance_mm) else units
+
+
+def is_usual(distance_mm: float) -> bool:
+    """Whether a camera stands so far from what it measures."""
+    low, high = _USUAL_DISTANCE_MM
+    return low <= distance_mm <= high
+
+
+@dataclass(frozen=True, eq=False)
+class NamedScan:
+    """The first scan of a group: its file as the job names it, and how to look for other things in it.
+
+    ``stretched`` gives the scan with lengths across the view, and along it, times a factor each. ``distance_mm`` is
+    that of most of its points from the camera.
+    """
+
+    source: str
+    look: Look
+    stretched: Callable[[float, float], NamedScan]
+    distance_mm: float = 0.0
+
+
+def fits(points: Sequence[AssemblyPoint], extraction: Extraction, within_mm: float = math.inf) -> bool:
+    """Whether an extraction lies on a design, mirrored or not, and scatters about it by less than so much, rms."""
+    match = match_extraction(points, extraction)
+    needed = max(FEWEST, FITS_SHARE * len(points))
+    if match.contradiction == "mirrored":
+        return math.isinf(within_mm)
+    return bool(match) and match.placements[0].found >= needed and match.placements[0].rms_mm < within_mm

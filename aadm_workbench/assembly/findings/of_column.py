@@ -1,4 +1,7 @@
-"""What of a measured column contradicts its design, its job or its camera, and what that does to its verdict."""
+"""What of a measured column contradicts its design, its job or its camera, and what that does to its verdict.
+
+Positions that a finding takes back: where the lengths of a scan are wrong, none of its points is off or right.
+"""
 
 from __future__ import annotations
 
@@ -7,19 +10,37 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.assembly.findings.group import SeenGroup
-from aadm_workbench.assembly.findings.hold import held_back
-from aadm_workbench.assembly.findings.mistaken import mistaken_findings
-from aadm_workbench.assembly.findings.named_scan import NamedScan
-from aadm_workbench.assembly.findings.odd_bars import odd_bar_findings
+from aadm_workbench.assembly.findings.diameters import odd_bar_findings
+from aadm_workbench.assembly.findings.finding import SeenGroup, held_back, make_finding
+from aadm_workbench.assembly.findings.mistaken import NamedScan, mistaken_findings
 from aadm_workbench.assembly.findings.rules import findings_of
-from aadm_workbench.assembly.findings.shared_ids import shared_id_findings
-from aadm_workbench.assembly.findings.void import without_spoilt
 from aadm_workbench.assembly.section.findings import section_findings
-from aadm_workbench.extract.sizes import extract_sizes
-from aadm_workbench.model import ColumnDesign, ColumnReport, Extraction, Finding, Kind, Reason, Scan
+from aadm_workbench.assembly.tolerances import sum_up
+from aadm_workbench.extract.method import extract_sizes
+from aadm_workbench.model import (
+    ColumnDesign,
+    ColumnReport,
+    Extraction,
+    Finding,
+    GroupReport,
+    Kind,
+    PointResult,
+    Reason,
+    Scan,
+    SpacingResult,
+    TrialReport,
+    Verdict,
+)
 
 _SAMPLE = 10_000  # points: a look, not a measurement
+
+TAKES_BACK = ("scale_differs", "other_column", "swapped", "gaps_filled")
+"""A part in a hundred moves a point at the corner of a column by millimetres, whoever is to blame; and some points of
+another column, or of the other group, lie on this one by chance; how far filled edges were moved nobody knows."""
+
+OPENS_TRIAL = "common_lean"
+"""Of all sleeves and all bars alike: places within a plane are as they were; leans, and with them the room in the
+sleeves, are not."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,3 +121,88 @@ def _stretched(scan: Scan, across: float, along: float) -> Scan:
         camera = replace(camera, fx=camera.fx * along / across, fy=camera.fy * along / across)
     viewpoint = None if scan.viewpoint is None else scan.viewpoint * factors
     return replace(scan, points=scan.points * factors.astype(scan.points.dtype), camera=camera, viewpoint=viewpoint)
+
+
+def without_spoilt(report: ColumnReport, findings: Sequence[Finding], checks: Sequence[str]) -> ColumnReport:
+    """The report with nothing decided on groups that a finding takes back: their points are not measured.
+
+    Parameters
+    ----------
+    checks
+        What the verdict of the column counts: ``sleeves``, ``rebars``, ``trial``.
+    """
+    reason = {name: one.text for one in findings if one.code in TAKES_BACK for name in one.about}
+    sheared = [one.text for one in findings if one.code == OPENS_TRIAL and len(one.about) > 1]
+    if not reason and not sheared:
+        return report
+    sleeves, rebars = (
+        _voided(group, reason[name]) if group is not None and name in reason else group
+        for name, group in (("sleeves", report.sleeves), ("rebars", report.rebars))
+    )
+    trial = None if report.trial_assembly is None else _open(report.trial_assembly, [*reason.values(), *sheared][0])
+    counted = [group if name in checks else None for name, group in (("sleeves", sleeves), ("rebars", rebars))]
+    verdict, goes_on, reasons = sum_up(counted[0], counted[1], trial if "trial" in checks else None)
+    return replace(
+        report,
+        verdict=verdict,
+        goes_on=goes_on,
+        reasons=reasons,
+        sleeves=sleeves,
+        rebars=rebars,
+        trial_assembly=trial,
+        repair=None,
+    )
+
+
+def _open(trial: TrialReport, reason: str) -> TrialReport:
+    if trial.verdict is Verdict.NOT_MEASURED:
+        return replace(trial, reasons=(reason,))
+    return TrialReport(Verdict.INCONCLUSIVE, rules=trial.rules, reasons=(reason,), missing=trial.missing)
+
+
+def _voided(group: GroupReport, reason: str) -> GroupReport:
+    if group.fit is None:
+        return group
+    return replace(
+        group,
+        found=0,
+        verdict=Verdict.INCONCLUSIVE,
+        points=tuple(_unmeasured(point, reason) for point in group.points),
+        spacing=tuple(_unspaced(spacing, reason) for spacing in group.spacing),
+        rules=tuple(
+            replace(rule, verdict=Verdict.NOT_MEASURED, reason=reason, worst_mm=None)
+            if rule.verdict in (Verdict.PASS, Verdict.FAIL, Verdict.INCONCLUSIVE)
+            else rule
+            for rule in group.rules
+        ),
+        reasons=(reason,),
+        absolute=None,
+    )
+
+
+def _unmeasured(point: PointResult, reason: str) -> PointResult:
+    return replace(
+        point,
+        scan_mm=None,
+        aligned_mm=None,
+        offset_mm=None,
+        deviation_mm=None,
+        u_mm=None,
+        cov_mm2=None,
+        probability=None,
+        verdict=Verdict.NOT_MEASURED,
+        reason=Reason("said.of", what=point.label, why=reason),
+    )
+
+
+def _unspaced(spacing: SpacingResult, reason: str) -> SpacingResult:
+    return SpacingResult(
+        spacing.between, spacing.design_mm, None, None, None, spacing.limit_mm, Verdict.NOT_MEASURED, reason
+    )
+
+
+def shared_id_findings(design: ColumnDesign) -> list[Finding]:
+    """One finding about all of them; it says nothing against the column itself."""
+    if not design.shared_ids:
+        return []
+    return [replace(make_finding("duplicate_global_id", design.shared_ids), holds_back=False)]

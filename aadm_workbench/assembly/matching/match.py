@@ -15,11 +15,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.assembly.matching.likelihood import CONTRADICTS_LOG_RATIO, DISTINCT_LOG_RATIO, log_likelihood
-from aadm_workbench.assembly.matching.pattern_search import PlanarPlacement, search_placements
+from aadm_workbench.assembly.matching.pattern_search import (
+    CONTRADICTS_LOG_RATIO,
+    DISTINCT_LOG_RATIO,
+    PlanarPlacement,
+    log_likelihood,
+    search_placements,
+)
 from aadm_workbench.assembly.matching.symmetry import is_its_own_mirror
-from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar
-from aadm_workbench.assembly.pose.upright import plane_basis, upright_transform, wrap
+from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar, plane_basis, upright_transform, wrap
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Orientation, Reason
 
 DECLARED_WITHIN_RAD = math.radians(44.0)
@@ -59,7 +63,7 @@ class Placement:
     scale
         Free scale of the fit, a diagnostic.
     log_likelihood
-        What placements of one scan are compared by: see :mod:`~aadm_workbench.assembly.matching.likelihood`.
+        What placements of one scan are compared by: see :mod:`~aadm_workbench.assembly.matching.pattern_search`.
     scatter_mm
         Per axis, of the matched points about their design places, robust; what a wrong scale adds is left out.
     """

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
-from aadm_workbench.assembly.pose.upright import planar_transform, plane_basis
+from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar, planar_transform, plane_basis
 from aadm_workbench.model import Array, AssemblyPoint, Extraction
 
 VIEW_U_MM = 0.1

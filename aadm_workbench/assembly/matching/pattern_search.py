@@ -4,6 +4,11 @@ Poses are proposed by pairs of measured points laid on pairs of design points of
 raster, refined by least absolute distances, and counted as different where turn or place differ. Least absolute
 distances, cut off at the gate, make a missing point, an extra one and one that is far off cost alike in all poses:
 a single bad point cannot make a wrong turn better than the right one.
+
+How well a placement explains what was measured: what competing placements of one scan are compared by. Sleeves and bars
+are built with a scatter that nobody knows beforehand, and single ones may be far off. So the deviations follow
+Student's law in the plane, and its width is taken from the deviations themselves, with a prior: a fit that is perfect
+by chance, of four points, say, is no proof.
 """
 
 from __future__ import annotations
@@ -12,7 +17,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.assembly.matching.nearest_raster import NearestRaster
 from aadm_workbench.model import Array, IntArray
 
 GATE_MM = 20.0
@@ -27,6 +31,27 @@ _KEPT_FINE = 96  # of the best that differ: a choice, not tuned since
 _SAME_TURN_RAD = np.deg2rad(1.5)  # moves a bar 300 mm from the middle by as much as the next number
 _SAME_PLACE_MM = 8.0  # closer than any two features of a pattern
 _SMALLEST_DISTANCE_MM = 0.5  # keeps the weight of a point that is hit: nearer than this all are as good
+
+_CELL_MM = 4.0  # half the step in which placements are told apart (placements.py)
+_CELLS_PER_SIDE = 128  # 16,000 cells: bounds the memory
+
+DISTINCT_LOG_RATIO = 7.0
+"""Another placement is ruled out where the deviations make it a thousand times (e⁷) less likely than the best one."""
+
+CONTRADICTS_LOG_RATIO = 9.0
+"""What is declared is contradicted where another placement is eight thousand times (e⁹) more likely.
+
+More than for choosing freely: a declaration is evidence too, and of sound scans not one in a thousand may be refused.
+"""
+
+USUAL_SCATTER_MM = 0.7
+"""Per axis: with it 98 % of the points keep their 2 mm (T/CCES 30-2022, 4.3.3); the prior of the width."""
+
+_FREEDOM = 3.0  # of Student's law: one point in a hundred lies beyond six widths
+_PRIOR_WEIGHT = 2.0  # the prior counts as one point does
+_LEAST_SCATTER_MM = 0.1  # below it lies what scans can tell
+# mm, 13 % apart: to 12 mm, beyond which nothing belongs to a place
+_WIDTHS_MM = np.geomspace(_LEAST_SCATTER_MM, 12.0, 40)
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,3 +220,59 @@ def _same(a: PlanarPlacement, b: PlanarPlacement) -> bool:
 def _uncentred(found: PlanarPlacement, middle: Array, centre: Array) -> PlanarPlacement:
     shift = found.shift + centre - _turned(middle[None, None], np.array([found.yaw]))[0, 0]
     return replace(found, shift=shift)
+
+
+@dataclass(frozen=True, eq=False)
+class NearestRaster:
+    """A raster of the plane: in each cell the nearest design point and its distance, cut off at the gate.
+
+    Parameters
+    ----------
+    origin
+        (2,) mm, corner of the raster.
+    nearest
+        (rows, columns) int64, index of the nearest design point.
+    distance_mm
+        (rows, columns) float64, from the middle of the cell, at most ``gate_mm``.
+    """
+
+    origin: Array
+    cell_mm: float
+    gate_mm: float
+    nearest: IntArray
+    distance_mm: Array
+
+    @classmethod
+    def of(cls, design: Array, gate_mm: float) -> NearestRaster:
+        """Raster of design points (m, 2) mm and everything within ``gate_mm`` of their bounding box."""
+        low, high = design.min(axis=0) - gate_mm, design.max(axis=0) + gate_mm
+        cell_mm = max(_CELL_MM, float((high - low).max()) / _CELLS_PER_SIDE)
+        # One more cell all round is at the gate's distance: what falls outside is clipped into it.
+        origin = low - cell_mm
+        columns, rows = (int(np.ceil(extent / cell_mm)) + 2 for extent in high - low)
+        x = origin[0] + (np.arange(columns) + 0.5) * cell_mm
+        y = origin[1] + (np.arange(rows) + 0.5) * cell_mm
+        squared = (x[None, :, None] - design[:, 0]) ** 2 + (y[:, None, None] - design[:, 1]) ** 2
+        nearest = squared.argmin(axis=2)
+        distance = np.minimum(np.sqrt(squared.min(axis=2)), gate_mm)
+        return cls(origin, cell_mm, gate_mm, nearest, distance)
+
+    def look_up(self, points: Array) -> tuple[IntArray, Array]:
+        """Nearest design point and distance (both of shape (...)), for points (..., 2) mm."""
+        cells = np.floor((points - self.origin) / self.cell_mm).astype(np.int64)
+        column = np.clip(cells[..., 0], 0, self.nearest.shape[1] - 1)
+        row = np.clip(cells[..., 1], 0, self.nearest.shape[0] - 1)
+        return self.nearest[row, column], self.distance_mm[row, column]
+
+
+def log_likelihood(radial_mm: Array) -> float:
+    """Logarithm of the likelihood of radial deviations (m,) mm, at the width that suits them best.
+
+    Only differences of it mean something, and only between placements of the same number of points: one that a
+    placement leaves without a measured point counts as being as far off as a point may be.
+    """
+    squared = _WIDTHS_MM[:, None] ** 2
+    excess = np.log1p(np.asarray(radial_mm, dtype=np.float64) ** 2 / (_FREEDOM * squared)).sum(axis=1)
+    widths = np.log(squared[:, 0])
+    prior = 0.5 * _PRIOR_WEIGHT * (widths + USUAL_SCATTER_MM**2 / squared[:, 0])
+    return float(np.max(-len(radial_mm) * widths - 0.5 * (_FREEDOM + 2.0) * excess - prior))

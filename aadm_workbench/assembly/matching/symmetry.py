@@ -6,8 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
-from aadm_workbench.assembly.pose.upright import turn, wrap
+from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar, turn, wrap
 from aadm_workbench.model import Array, IntArray
 
 SYMMETRIC_WITHIN_MM = 0.5

@@ -15,9 +15,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.assembly.matching.likelihood import DISTINCT_LOG_RATIO
 from aadm_workbench.assembly.matching.match import Match, Placement
 from aadm_workbench.assembly.matching.overlap import Overlap, View, overlap_of
+from aadm_workbench.assembly.matching.pattern_search import DISTINCT_LOG_RATIO
 from aadm_workbench.assembly.place import moved_point
 from aadm_workbench.model import AssemblyPoint, Extraction, Reason
 

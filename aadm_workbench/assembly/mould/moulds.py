@@ -12,9 +12,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from aadm_workbench.assembly.mould.drift import CONFIDENCE, SharedDisplacement, shared_displacement
-from aadm_workbench.assembly.mould.drift_laws import cp_index, cpk_index
-from aadm_workbench.assembly.rules import applicable_rules
+from aadm_workbench.assembly.mould.drift import CONFIDENCE, SharedDisplacement, cp_index, cpk_index, shared_displacement
+from aadm_workbench.assembly.tolerances import applicable_rules
 from aadm_workbench.model import (
     Capability,
     ColumnReport,

@@ -3,7 +3,7 @@
 Not the product over the pairs: at one fixed pose a pair may fail that another pose would save, and all pairs move
 together. True centres, leans and rooms are drawn from what is known of them (:mod:`.true_offsets`); for each draw it is
 decided whether a pose meets all limits, distances and rooms over the ribs alike, which is a convex question
-(:mod:`.discs`).
+(:mod:`.smallest_common_disc`).
 
 That a pair stands like the others where it was hardly seen is likely, and no evidence: such a pair is named, and keeps
 the trial from passing.
@@ -19,13 +19,10 @@ import numpy as np
 
 from aadm_workbench.assembly.decision import PASS_PROBABILITY, probability_within_disc
 from aadm_workbench.assembly.pairs import Pair
-from aadm_workbench.assembly.pose.best_pose import WITHIN, BestFit, fit_best_pose
-from aadm_workbench.assembly.pose.constraints import Part, start_pose
-from aadm_workbench.assembly.pose.eopa import NoFit
-from aadm_workbench.assembly.pose.interior_point import squared
-from aadm_workbench.assembly.pose.smallest_common_disc import proven_bound, smallest_common_disc
+from aadm_workbench.assembly.pose.best_pose import WITHIN, BestFit, Part, fit_best_pose, start_pose
+from aadm_workbench.assembly.pose.eopa import NoFit, turn
+from aadm_workbench.assembly.pose.smallest_common_disc import proven_bound, smallest_common_disc, squared
 from aadm_workbench.assembly.pose.true_offsets import Measured, true_offsets, true_shifts
-from aadm_workbench.assembly.pose.upright import turn
 from aadm_workbench.model import Array, BoolArray
 
 SAMPLES = 1200

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.assembly.matching.likelihood import USUAL_SCATTER_MM
+from aadm_workbench.assembly.matching.pattern_search import USUAL_SCATTER_MM
 from aadm_workbench.model import Array
 
 CHAINS = 300

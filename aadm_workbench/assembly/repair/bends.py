@@ -14,7 +14,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from aadm_workbench.assembly.decision import DecisionRule
+from aadm_workbench.assembly.decision import PASS_PROBABILITY, DecisionRule
 from aadm_workbench.assembly.pose.best_pose import fit_best_pose
 from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.pose.pose_probability import existence_of_a_pose
@@ -22,7 +22,6 @@ from aadm_workbench.assembly.repair.case import RepairCase, guarded_case, repair
 from aadm_workbench.assembly.repair.plan import RepairPlan, after_repair, choose_plan
 from aadm_workbench.assembly.repair.search import of_bars_that_stay, smallest_sets, within_reach
 from aadm_workbench.assembly.repair.steps import repair_steps, still_beyond
-from aadm_workbench.assembly.repair.words import ADVICE_TO_RESCAN, NOTHING_FOUND, advice_on_steps
 from aadm_workbench.assembly.tolerances import describe_clause
 from aadm_workbench.assembly.trial.pose import evaluate_best_pose
 from aadm_workbench.model import (
@@ -33,14 +32,23 @@ from aadm_workbench.model import (
     Reason,
     RepairAction,
     RepairReport,
+    RepairStep,
     TrialReport,
     Verdict,
+    in_one,
 )
 
 SAMPLES = 1000
 """As of the trial itself (existence.py)."""
 
 _GRAVEST_FIRST = tuple(reversed(RepairAction))
+
+DISPOSAL_PLAN = Reason("assembly.disposal_plan")
+NOTHING_FOUND = Reason("assembly.no_bars_found", plan=DISPOSAL_PLAN)
+
+ADVICE_TO_RESCAN = Reason("assembly.rescan")
+
+_MOST_NAMED = 3  # more of them make no line
 
 
 def advise_repair(
@@ -150,3 +158,36 @@ def _tried_again(
         probability=None if existence is None else existence.probability,
         still_fails=still_beyond(case, pairs),
     )
+
+
+def advice_on_steps(report: RepairReport, trial: TrialReport) -> Reason:
+    """What to do about each pair, and what the trial comes to once it is done."""
+    if report.action is RepairAction.DISPOSAL_PLAN:
+        why = [step.reason for step in report.steps if step.action is RepairAction.DISPOSAL_PLAN]
+        more = [Reason("assembly.more", count=len(why) - _MOST_NAMED)] if len(why) > _MOST_NAMED else []
+        return Reason("assembly.advise_plan", plan=DISPOSAL_PLAN, why=[*why[:_MOST_NAMED], *more])
+    what = Reason("said.all", parts=[_of_step(step) for step in report.steps])
+    if not report.exact:
+        what = Reason("assembly.best_found", what=what)
+    if report.after is not None:
+        what = _outcome(what, report.after.max_mm, report.probability)
+    if report.still_fails:
+        one = len(report.still_fails) == 1
+        code = "assembly.still_beyond" if one else "assembly.still_beyond.several"
+        what = Reason(code, what=what, labels=report.still_fails)
+    doubtful = trial.verdict is Verdict.INCONCLUSIVE
+    return Reason("assembly.advise.if_confirmed" if doubtful else "assembly.advise", what=what)
+
+
+def _of_step(step: RepairStep) -> str:
+    if step.action is RepairAction.REJECT_SLEEVE:
+        return Reason("assembly.reject", sleeve=step.sleeve, why=step.reason)
+    dx, dy = step.bend_mm or (0.0, 0.0)
+    text = Reason("assembly.bend.upright" if step.upright else "assembly.bend", rebar=step.rebar, dx=dx, dy=dy)
+    return in_one([text, step.reason] if step.reason else [text])
+
+
+def _outcome(what: Reason, max_mm: float, probability: float | None) -> Reason:
+    if probability is not None and probability < PASS_PROBABILITY:
+        return Reason("assembly.after.doubtful", what=what, max_mm=max_mm, percent=100.0 * probability)
+    return Reason("assembly.after", what=what, max_mm=max_mm)

@@ -10,13 +10,10 @@ import numpy as np
 
 from aadm_workbench.assembly.matching.symmetry import symmetric_turns
 from aadm_workbench.assembly.pairs import Pair, form_pairs
-from aadm_workbench.assembly.pose.best_pose import BestFit, fit_best_pose
-from aadm_workbench.assembly.pose.constraints import PoseConstraints, pose_constraints
-from aadm_workbench.assembly.pose.eopa import NoFit
-from aadm_workbench.assembly.pose.robust_fit import robust_offsets
+from aadm_workbench.assembly.pose.best_pose import BestFit, PoseConstraints, fit_best_pose, pose_constraints
+from aadm_workbench.assembly.pose.eopa import NoFit, robust_offsets
 from aadm_workbench.assembly.repair.places import FreePlace, free_place
-from aadm_workbench.assembly.rules import applicable_rules
-from aadm_workbench.assembly.tolerances import rules_for
+from aadm_workbench.assembly.tolerances import applicable_rules, rules_for
 from aadm_workbench.assembly.trial.virtual import distance_limits
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, ColumnDesign, Profile, Rule, TrialReport
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.assembly.pairs import Pair
-from aadm_workbench.assembly.pose.constraints import leans_at
+from aadm_workbench.assembly.pose.best_pose import leans_at
 from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.model import Array
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.assembly.pairs import Pair
-from aadm_workbench.assembly.pose.upright import turn
+from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.assembly.repair.case import RepairCase
 from aadm_workbench.assembly.repair.places import nearest_in_discs, own_places
 from aadm_workbench.assembly.repair.search import FEASIBLE, BarSet, Limits, solve_sets

@@ -1,8 +1,8 @@
 """The smallest sets of bars whose bending lets a column in.
 
-Where no pose meets all limits, the multipliers of :mod:`.discs` name the few pairs, at most four but for ties, that
-prove it. Every set that helps must hold one of them, so it is enough to branch on these: all sets of up to three bars
-are decided by at most 4 + 16 + 64 small convex problems, and none is missed.
+Where no pose meets all limits, the multipliers of :mod:`aadm_workbench.assembly.pose.smallest_common_disc` name the few
+pairs, at most four but for ties, that prove it. Every set that helps must hold one of them, so it is enough to branch
+on these: all sets of up to three bars are decided by at most 4 + 16 + 64 small convex problems, and none is missed.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.assembly.pose.constraints import PoseConstraints
+from aadm_workbench.assembly.pose.best_pose import PoseConstraints
 from aadm_workbench.assembly.pose.smallest_common_disc import DiscSolution, proven_bound, smallest_common_disc
 from aadm_workbench.assembly.repair.places import FreePlace
 from aadm_workbench.model import Array, BoolArray, IntArray

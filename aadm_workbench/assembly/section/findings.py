@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from aadm_workbench.assembly.findings.make import make_finding
+from aadm_workbench.assembly.findings.finding import make_finding
 from aadm_workbench.model import Finding, Verdict
 from aadm_workbench.model.section import SectionReport
 

@@ -14,8 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule, decide_signed
-from aadm_workbench.assembly.rules import counted_verdict, not_assessed, rule_result
-from aadm_workbench.assembly.tolerances import rules_for
+from aadm_workbench.assembly.tolerances import counted_verdict, not_assessed, rule_result, rules_for
 from aadm_workbench.extract.section.face_heights import FaceHeights
 from aadm_workbench.extract.section.outline import SIDES, SeenEdge
 from aadm_workbench.model import Array, ColumnDesign, Profile, Reason, Rule, RuleResult, Verdict, worst

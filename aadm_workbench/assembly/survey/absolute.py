@@ -2,6 +2,8 @@
 
 The fit to design hides a group that stands off its place as a whole. The column would follow it: once the bars are in
 its sleeves, a few millimetres of play are all that is left to put the column on its axis.
+
+The report on a group of bars, completed by its absolute position.
 """
 
 from __future__ import annotations
@@ -19,12 +21,18 @@ from aadm_workbench.assembly.decision import (
     decide_radial,
     standard_uncertainty,
 )
+from aadm_workbench.assembly.inspect import NO_ABSOLUTE_POSITION
 from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
 from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.position import as_vector
-from aadm_workbench.assembly.rules import applicable_rules, rule_result
 from aadm_workbench.assembly.survey.control import ControlPose
-from aadm_workbench.assembly.tolerances import describe_clause, rules_for
+from aadm_workbench.assembly.tolerances import (
+    applicable_rules,
+    counted_verdict,
+    describe_clause,
+    rule_result,
+    rules_for,
+)
 from aadm_workbench.model import (
     AbsolutePoint,
     AbsolutePosition,
@@ -32,6 +40,7 @@ from aadm_workbench.model import (
     AssemblyPoint,
     ControlPoint,
     ControlResidual,
+    GroupReport,
     Profile,
     Reason,
     Rule,
@@ -213,3 +222,37 @@ def _residuals(points: Sequence[ControlPoint], pose: ControlPose) -> tuple[Contr
         ControlResidual(point.name, as_vector(known), point.scan_mm, as_vector(residual), float(u_mm))
         for point, known, residual, u_mm in zip(points, pose.known, pose.residuals, pose.u_mm, strict=True)
     )
+
+
+def with_absolute(report: GroupReport, absolute: AbsolutePosition, profile: Profile) -> GroupReport:
+    """The report with the absolute position, its rules and its reasons; its verdict is the worse of the two.
+
+    Nothing is said about the position of a group that was not measured at all.
+    """
+    if report.fit is None:
+        return report
+    results = results_of(absolute, DatumRules.of(profile))
+    verdict = _verdict(report, results)
+    reasons = [result.reason for result in results if result.reason and result.verdict is not Verdict.PASS]
+    return replace(
+        report,
+        verdict=verdict,
+        absolute=absolute,
+        rules=_in_place(report.rules, results),
+        reasons=(*report.reasons, *reasons),
+        notes=tuple(note for note in report.notes if note != NO_ABSOLUTE_POSITION),
+    )
+
+
+def _verdict(report: GroupReport, results: Sequence[RuleResult]) -> Verdict:
+    counted = counted_verdict(results)
+    if counted is Verdict.NOT_ASSESSED:
+        return report.verdict
+    return counted if report.verdict is Verdict.NOT_ASSESSED else worst((report.verdict, counted))
+
+
+def _in_place(rules: Sequence[RuleResult], results: Sequence[RuleResult]) -> tuple[RuleResult, ...]:
+    """The results where the same rules stood as not assessed, and behind them what is new."""
+    known = {result.rule: result for result in results}
+    kept = tuple(known.pop(rule.rule, rule) if rule.verdict is Verdict.NOT_ASSESSED else rule for rule in rules)
+    return (*kept, *known.values())

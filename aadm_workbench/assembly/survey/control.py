@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.assembly.pose.eopa import EopaFit, NoFit, fit_eopa, fit_eopa_planar
-from aadm_workbench.assembly.pose.upright import plane_basis, upright_transform
+from aadm_workbench.assembly.pose.eopa import EopaFit, NoFit, fit_eopa, fit_eopa_planar, plane_basis, upright_transform
 from aadm_workbench.model import Array, ControlPoint, Reason
 
 DEFAULT_U_MM = 0.5

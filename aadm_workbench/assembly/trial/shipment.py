@@ -11,13 +11,12 @@ import numpy as np
 from aadm_workbench.assembly.matching.match import Match
 from aadm_workbench.assembly.matching.symmetry import SymmetricTurn, symmetric_turns
 from aadm_workbench.assembly.pairs import form_pairs
-from aadm_workbench.assembly.place import place_points
+from aadm_workbench.assembly.place import in_column_frame
 from aadm_workbench.assembly.pose.best_pose import fit_best_pose
 from aadm_workbench.assembly.pose.eopa import NoFit
-from aadm_workbench.assembly.rules import applicable_rules
-from aadm_workbench.assembly.trial.open_ways import open_ways
+from aadm_workbench.assembly.tolerances import applicable_rules
 from aadm_workbench.assembly.trial.pose import evaluate_pose
-from aadm_workbench.assembly.trial.virtual import distance_limits
+from aadm_workbench.assembly.trial.virtual import distance_limits, open_ways
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, FitCell, Profile, Reason
 
 SAME_PLACE_MM = 0.5
@@ -69,8 +68,8 @@ def try_margin(
     """
     cells = []
     for sleeve_turn, rebar_turn in open_ways(design, sleeves[1], rebars[1]):
-        feet = [None if one is None else one.point for one in place_points(sleeves[0], sleeve_turn)]
-        tops = [None if one is None else one.point for one in place_points(rebars[0], rebar_turn)]
+        feet = in_column_frame(sleeves[0], sleeve_turn)
+        tops = in_column_frame(rebars[0], rebar_turn)
         cells.append(_best_turn(design, feet, tops, profile, turns))
     return min(cells, key=_by_margin)
 

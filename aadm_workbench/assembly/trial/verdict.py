@@ -11,10 +11,10 @@ import numpy as np
 from aadm_workbench.assembly.decision import PASS_PROBABILITY, decide_probability
 from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.pose.best_pose import BestFit
+from aadm_workbench.assembly.pose.eopa import turn
+from aadm_workbench.assembly.pose.minimax import find_window
 from aadm_workbench.assembly.pose.pose_probability import Existence
-from aadm_workbench.assembly.pose.upright import turn
-from aadm_workbench.assembly.pose.window import find_window
-from aadm_workbench.assembly.rules import applicable_rules, not_assessed, rule_result
+from aadm_workbench.assembly.tolerances import applicable_rules, not_assessed, rule_result
 from aadm_workbench.model import PairResult, PoseWindow, Profile, Reason, RuleResult, TrialPose, TrialReport, Verdict
 
 QUANTITY = "sleeve_rebar_distance"

@@ -3,32 +3,33 @@
 Bars are brought onto sleeves in the plane. Least squares, as published, says how they differ; minimax is the pose with
 the smallest largest distance; and the best pose leaves most of distance and room over the ribs together. The column
 goes on where some pose keeps every limit and every room: the verdict follows the probability that there is one.
+
+In how many ways the sleeves of one scan may meet the bars of another, where it is open how the two lie. Turned
+together, both make the same pairs again: what counts is which measured sleeve meets which measured bar. Of a square
+ring that was seen whole four ways are left of sixteen; of parts of a row, that may be shifted against each other from
+either side, all that differ.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from aadm_workbench.assembly.agreement import agreed
-from aadm_workbench.assembly.decision import DecisionRule
+from aadm_workbench.assembly.decision import DecisionRule, agreed
 from aadm_workbench.assembly.inspect import describe_ambiguity
 from aadm_workbench.assembly.matching.match import Match, Placement
 from aadm_workbench.assembly.matching.symmetry import SymmetricTurn, symmetric_turns
 from aadm_workbench.assembly.pairs import Pair, embedded_length_mm, form_pairs
-from aadm_workbench.assembly.place import place_points
+from aadm_workbench.assembly.place import in_column_frame
 from aadm_workbench.assembly.pose.best_pose import fit_best_pose
 from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.pose.minimax import fit_minimax
 from aadm_workbench.assembly.pose.pose_probability import SAMPLES, existence_of_a_pose
-from aadm_workbench.assembly.rules import applicable_rules
-from aadm_workbench.assembly.tolerances import describe_limit
-from aadm_workbench.assembly.trial.common_lean import common_lean
-from aadm_workbench.assembly.trial.open_ways import open_ways
-from aadm_workbench.assembly.trial.pose import evaluate_best_pose, evaluate_pose
+from aadm_workbench.assembly.tolerances import applicable_rules, describe_limit
+from aadm_workbench.assembly.trial.pose import common_lean, evaluate_best_pose, evaluate_pose
 from aadm_workbench.assembly.trial.verdict import collisions, judge_trial, judge_without_limits
 from aadm_workbench.model import (
     Array,
@@ -74,8 +75,8 @@ def try_scans(
     for sleeve_turn, rebar_turn in open_ways(design, sleeves[1], rebars[1]):
         report = try_assembly(
             design,
-            _in_column_frame(sleeves[0], sleeve_turn),
-            _in_column_frame(rebars[0], rebar_turn),
+            in_column_frame(sleeves[0], sleeve_turn),
+            in_column_frame(rebars[0], rebar_turn),
             profile,
             generator,
             decision=decision,
@@ -148,10 +149,6 @@ def _design_notes(design: ColumnDesign, profile: Profile) -> tuple[str, ...]:
                 pair = {"rebar": rebar.label, "sleeve": sleeve.label}
                 notes.append(Reason("assembly.design_off", **pair, apart_mm=apart_mm, limit=describe_limit(rule)))
     return tuple(notes)
-
-
-def _in_column_frame(extraction: Extraction, placement: Placement) -> list[AssemblyPoint | None]:
-    return [None if placed is None else placed.point for placed in place_points(extraction, placement)]
 
 
 def _try_both_ways(
@@ -239,3 +236,25 @@ def _agree(reports: Sequence[TrialReport], match: Match) -> TrialReport:
         reasons.append(Reason("assembly.turns_come_to", turns=len(reports), found=found))
     reasons += [Reason("assembly.first_turn", why=reason) for reason in reports[0].reasons]
     return replace(reports[0], verdict=verdict, reasons=tuple(reasons))
+
+
+def open_ways(design: ColumnDesign, sleeves: Match, rebars: Match) -> Iterator[tuple[Placement, Placement]]:
+    """Placements of sleeves and of rebars, each that makes pairs of its own once, the chosen one first."""
+    known = set()
+    for sleeve_turn in sleeves.evaluated:
+        for rebar_turn in rebars.evaluated:
+            pairs = _pairs(design, sleeve_turn, rebar_turn)
+            if pairs not in known:
+                known.add(pairs)
+                yield sleeve_turn, rebar_turn
+
+
+def _pairs(design: ColumnDesign, sleeve_turn: Placement, rebar_turn: Placement) -> frozenset[tuple[float, ...]]:
+    """Which measured points meet, with the sizes that the design gives them there."""
+    pairs = set()
+    places = zip(sleeve_turn.matched.tolist(), rebar_turn.matched.tolist(), strict=False)
+    for place, (sleeve, rebar) in enumerate(places):
+        bar = design.rebars[place]
+        sizes = design.sleeves[place].diameter_mm, bar.diameter_mm, bar.outer_diameter_mm or 0.0
+        pairs.add((sleeve, rebar, *sizes))
+    return frozenset(pairs)

@@ -10,7 +10,7 @@ from typing import Any
 
 from aadm_workbench.design.ifc.names import properties, text_of
 from aadm_workbench.design.ifc.text.file import OpenedIfc
-from aadm_workbench.design.recognise.bar_sizes import nominal_of_over_ribs
+from aadm_workbench.design.recognise.pattern import nominal_of_over_ribs
 from aadm_workbench.model import Reason
 from aadm_workbench.model.reason import listed
 

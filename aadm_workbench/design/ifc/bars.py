@@ -13,7 +13,6 @@ from aadm_workbench.design.ifc import names as ifc_names
 from aadm_workbench.design.ifc.attributes import Contradictions, written_diameter_mm
 from aadm_workbench.design.ifc.geometry.shapes import Shapes
 from aadm_workbench.design.ifc.text.file import OpenedIfc
-from aadm_workbench.design.ifc.words import NOT_REBAR, REBAR, SLEEVE
 from aadm_workbench.design.model_design import NotTaken
 from aadm_workbench.design.recognise.bar_courses import Course
 from aadm_workbench.design.recognise.paths import Leg, Straight
@@ -26,8 +25,7 @@ _SHORTEST_MM = 100.0
 """A connecting rebar goes eight diameters into its sleeve; a shorter upright end is a hook or a drawing error."""
 
 _HIGHEST_MM = 1.0  # rounding of a level: both legs of a U end highest
-_NOT_CONNECTING = frozenset({"LIGATURE", "SHEAR", "STUD", "RING", "SPACEBAR", "PUNCHING"})
-_OTHER_CLASSES = (
+NAMED_CLASSES = (
     "IfcBuildingElementProxy",
     "IfcElementComponent",
     "IfcMember",
@@ -59,6 +57,32 @@ class BarEnd:
     over_ribs_mm: float | None
     wholes: frozenset[int]
     why: str
+
+    @classmethod
+    def of(
+        cls,
+        element: Any,
+        bar: Course,
+        top: tuple[Array, Array],
+        why: str,
+        diameter_mm: float,
+        over_ribs_mm: float | None = None,
+        wholes: frozenset[int] = frozenset(),
+    ) -> BarEnd:
+        """One end (top, axis) of a bar of an element of any kind of model, under the attribute names of IFC."""
+        return cls(
+            global_id=element.GlobalId,
+            name=element.Name.strip() if isinstance(element.Name, str) else "",
+            ifc_class=str(element.is_a()),
+            top=top[0],
+            axis=top[1],
+            lowest_mm=float(bar.points[:, 2].min()),
+            diameter_mm=diameter_mm,
+            length_mm=bar.length_mm,
+            over_ribs_mm=over_ribs_mm,
+            wholes=wholes,
+            why=why,
+        )
 
     def point(self, why: str) -> AssemblyPoint:
         """The assembly point of this end, in the model frame, without a label."""
@@ -103,7 +127,7 @@ def find_bars(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> FoundB
             ends += taken
             left += refused
             continue
-        left.append(_undrawn(element, shapes.undrawn(element)))
+        left.append(NotTaken.of("rebar", element, shapes.undrawn(element)))
     return FoundBars(tuple(ends), tuple(left), tuple(contradictions.lines()))
 
 
@@ -118,7 +142,9 @@ def _ends_of(
     """The upright ends of the bars of one element, and those of its bars that have none."""
     ends: list[BarEnd] = []
     left: list[NotTaken] = []
-    refused = None if selector else _refused_by_kind(opened, element)
+    refused = None
+    if not selector:
+        refused = opened.naming.of(element).why_not_connecting(opened.naming.predefined_type(element))
     bars, is_axis = _bars_of(opened, element, shapes)
     evidence = Reason("ifc.axis_of", what=evidence) if is_axis else evidence
     if not bars:
@@ -126,19 +152,19 @@ def _ends_of(
     lengths_mm = [bar.length_mm for bar in bars]
     for bar in bars:
         sizes = contradictions.compare_bar(element, bar.diameter_mm, lengths_mm)
-        reason = refused or _not_a_bar(bar)
+        reason = refused or not_a_bar(bar)
         tops = [] if reason else upright_ends(list(bar.legs))
-        ends += [_end(opened, element, evidence, bar, sizes, top) for top in tops]
+        wholes = frozenset(whole.id() for whole in ifc_names.wholes(element)) if tops else frozenset()
+        said = opened.naming.said(element)
+        why = in_one([Reason("ifc.evidence", evidence=evidence, said=said) if said else evidence, *sizes[2]])
+        ends += [BarEnd.of(element, bar, top, why, sizes[0], sizes[1], wholes) for top in tops]
         if not tops:
-            left.append(_left_out(element, bar, sizes[0], reason or geometric_reason(list(bar.legs))))
+            left.append(no_end(element, bar, sizes[0], reason or geometric_reason(list(bar.legs))))
     return ends, left
 
 
-def _undrawn(element: Any, reason: str) -> NotTaken:
-    return NotTaken("rebar", element.is_a(), element.GlobalId, ifc_names.text_of(element.Name), reason)
-
-
-def _not_a_bar(bar: Course) -> str | None:
+def not_a_bar(bar: Course) -> str | None:
+    """Why a body is no reinforcing bar whatever it is called; None where it may be one."""
     if bar.hollow:
         return Reason("ifc.hollow")
     if bar.diameter_mm > _THICKEST_MM:
@@ -153,23 +179,13 @@ def _candidates(opened: OpenedIfc, selector: str | None) -> Iterable[tuple[Any, 
         return
     yield from ((element, "IfcReinforcingBar") for element in opened.file.by_type("IfcReinforcingBar"))
     seen: set[int] = set()
-    for ifc_class in _OTHER_CLASSES:
+    for ifc_class in NAMED_CLASSES:
         for element in opened.file.by_type(ifc_class):
             if element.id() in seen or element.is_a() == "IfcReinforcingBar":
                 continue
             seen.add(element.id())
-            if opened.naming.find(REBAR, element) and not opened.naming.find(SLEEVE, element):
+            if opened.naming.of(element).is_rebar:
                 yield element, element.is_a()
-
-
-def _refused_by_kind(opened: OpenedIfc, element: Any) -> str | None:
-    kind = opened.naming.predefined_type(element)
-    if kind in _NOT_CONNECTING:
-        return Reason("ifc.bar_kind", kind=kind)
-    named = opened.naming.find(NOT_REBAR, element)
-    if named and not opened.naming.find(REBAR, element):
-        return Reason("ifc.bar_called", named=repr(named))
-    return None
 
 
 def _bars_of(opened: OpenedIfc, element: Any, shapes: Shapes) -> tuple[Sequence[Course], bool]:
@@ -190,7 +206,7 @@ def _without_bars(element: Any, shapes: Shapes, refused: str | None) -> NotTaken
         reason = Reason("ifc.axis_alone")
     elif shapes.of_product(element):
         reason = Reason("ifc.no_round_ends")
-    return _undrawn(element, refused or reason)
+    return NotTaken.of("rebar", element, refused or reason)
 
 
 def upright_ends(legs: list[Leg]) -> list[tuple[Array, Array]]:
@@ -218,42 +234,10 @@ def geometric_reason(legs: list[Leg]) -> str:
     return Reason("ifc.no_end", least_mm=_SHORTEST_MM)
 
 
-def _end(
-    opened: OpenedIfc,
-    element: Any,
-    evidence: str,
-    bar: Course,
-    sizes: tuple[float, float | None, tuple[str, ...]],
-    top: tuple[Array, Array],
-) -> BarEnd:
-    said = opened.naming.said(element)
-    return BarEnd(
-        global_id=element.GlobalId,
-        name=ifc_names.text_of(element.Name),
-        ifc_class=element.is_a(),
-        top=top[0],
-        axis=top[1],
-        lowest_mm=float(bar.points[:, 2].min()),
-        diameter_mm=sizes[0],
-        length_mm=bar.length_mm,
-        over_ribs_mm=sizes[1],
-        wholes=frozenset(whole.id() for whole in ifc_names.wholes(element)),
-        why=in_one([Reason("ifc.evidence", evidence=evidence, said=said) if said else evidence, *sizes[2]]),
-    )
-
-
-def _left_out(element: Any, bar: Course, diameter_mm: float, reason: str) -> NotTaken:
-    points = bar.points
-    return NotTaken(
-        what="rebar",
-        ifc_class=element.is_a(),
-        global_id=element.GlobalId,
-        name=ifc_names.text_of(element.Name),
-        reason=reason,
-        point=points[int(points[:, 2].argmax())],
-        diameter_mm=diameter_mm,
-        length_mm=bar.length_mm,
-    )
+def no_end(element: Any, bar: Course, diameter_mm: float, reason: str) -> NotTaken:
+    """A bar of an element of any kind of model that has no end to come down on."""
+    top = bar.points[int(bar.points[:, 2].argmax())]
+    return NotTaken.of("rebar", element, reason, top, diameter_mm, bar.length_mm)
 
 
 def _highest(legs: list[Leg]) -> float:

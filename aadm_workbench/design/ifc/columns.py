@@ -10,10 +10,11 @@ import numpy as np
 
 from aadm_workbench.design.ifc import names as ifc_names
 from aadm_workbench.design.ifc.bars import UP
-from aadm_workbench.design.ifc.entity import optional
 from aadm_workbench.design.ifc.geometry.placement import frame
 from aadm_workbench.design.ifc.geometry.shapes import Shapes
+from aadm_workbench.design.ifc.names import optional
 from aadm_workbench.design.ifc.text.file import OpenedIfc
+from aadm_workbench.design.ifc.words import SLEEVE
 from aadm_workbench.design.model_design import NotTaken
 from aadm_workbench.design.recognise.shapes import Prism, Shape, edges
 from aadm_workbench.model import Array, BoolArray
@@ -21,10 +22,10 @@ from aadm_workbench.model import Array, BoolArray
 _AT_FOOT_MM = 60.0
 """Corners of the concrete this near to the foot face give its size: above its chamfers, below corbels and heads."""
 
-_NAMED_CLASSES = ("IfcBuildingElementProxy", "IfcMember", "IfcBeam", "IfcElementAssembly", "IfcBuildingElementPart")
+COLUMN_CLASSES = ("IfcBuildingElementProxy", "IfcMember", "IfcBeam", "IfcElementAssembly", "IfcBuildingElementPart")
 """Classes that programs export columns as which they do not know to be columns."""
 
-_THINNEST_MM = 200.0
+THINNEST_MM = 200.0
 """No column is thinner; no sleeve and no bar is thicker."""
 
 _ON_FACE_MM = 1e-3  # rounding
@@ -115,15 +116,8 @@ def _body_of(opened: OpenedIfc, shapes: Shapes, element: Any) -> ColumnBody | No
 
 
 def not_a_column(element: Any, reason: str) -> NotTaken:
-    """A column that was looked at and left out."""
-    return NotTaken(
-        what="column",
-        ifc_class=element.is_a(),
-        global_id=element.GlobalId,
-        name=ifc_names.text_of(element.Name),
-        reason=reason,
-        names=names(element),
-    )
+    """A column that was left out."""
+    return NotTaken.of("column", element, reason, names=names(element))
 
 
 def names(element: Any) -> tuple[str, ...]:
@@ -140,8 +134,8 @@ def _elements(opened: OpenedIfc, selector: str | None) -> Iterator[Any]:
         chosen = ifc_names.select(opened.file, opened.source, "columns", selector)
     else:
         chosen = list(opened.file.by_type("IfcColumn"))
-        for ifc_class in _NAMED_CLASSES:
-            named = [e for e in opened.file.by_type(ifc_class) if _is_called_column(opened, e)]
+        for ifc_class in COLUMN_CLASSES:
+            named = [e for e in opened.file.by_type(ifc_class) if opened.naming.of(e).is_column]
             # Columns inside an assembly speak for themselves.
             chosen += [e for e in named if not any(part.is_a("IfcColumn") for part in ifc_names.parts(e))]
     columns = {column.id(): column for column in (_column_in(element) or element for element in chosen)}
@@ -153,19 +147,10 @@ def _elements(opened: OpenedIfc, selector: str | None) -> Iterator[Any]:
 
 def _is_sleeve_or_bar(opened: OpenedIfc, shapes: Shapes, element: Any) -> bool:
     """Whether a thin round body is called a sleeve or a bar: a program exports whatever stands upright as a column."""
-    called = opened.naming.find(ifc_names.SLEEVE, element) or opened.naming.find(ifc_names.REBAR, element)
-    if not called:
+    if not opened.naming.of(element).is_sleeve_or_bar:
         return False
     outer_mm = [tube.outer_mm for tube in shapes.tubes_of_product(element, coarse=True) if tube.outer_mm is not None]
-    return bool(outer_mm) and max(outer_mm) < _THINNEST_MM
-
-
-def _is_called_column(opened: OpenedIfc, element: Any) -> bool:
-    return bool(
-        opened.naming.find(ifc_names.COLUMN, element)
-        and not opened.naming.find(ifc_names.NOT_COLUMN, element)
-        and not opened.naming.find(ifc_names.SLEEVE, element)
-    )
+    return bool(outer_mm) and max(outer_mm) < THINNEST_MM
 
 
 def _column_in(element: Any) -> Any:
@@ -188,7 +173,7 @@ def concrete_parts(opened: OpenedIfc, element: Any) -> list[Any]:
     return [
         part
         for part in ifc_names.parts(element)
-        if not any(part.is_a(ifc_class) for ifc_class in no_concrete) and not opened.naming.find(ifc_names.SLEEVE, part)
+        if not any(part.is_a(ifc_class) for ifc_class in no_concrete) and not opened.naming.find(SLEEVE, part)
     ]
 
 

@@ -14,7 +14,7 @@ from aadm_workbench.design.ifc.columns import ColumnBody, concrete_parts, find_c
 from aadm_workbench.design.ifc.geometry.kernel import closing_kernel
 from aadm_workbench.design.ifc.geometry.shapes import Shapes, evaluator
 from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
-from aadm_workbench.design.ifc.words import BEAM, NOT_BEAM
+from aadm_workbench.design.ifc.words import BEAM, COLUMN, NOT_BEAM, REBAR, SLEEVE
 from aadm_workbench.design.recognise.shapes import edges
 from aadm_workbench.model import Array
 
@@ -89,7 +89,7 @@ def _is_told_by_class(opened: OpenedIfc, element: Any) -> bool:
 
 
 def _is_called_beam(opened: OpenedIfc, element: Any) -> bool:
-    others = (NOT_BEAM, ifc_names.COLUMN, ifc_names.SLEEVE, ifc_names.REBAR)
+    others = (NOT_BEAM, COLUMN, SLEEVE, REBAR)
     return bool(opened.naming.find(BEAM, element)) and not any(opened.naming.find(word, element) for word in others)
 
 

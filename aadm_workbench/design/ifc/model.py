@@ -1,12 +1,16 @@
-"""As-designed assembly points from an IFC model."""
+"""As-designed assembly points from an IFC model.
+
+Bars that stand in walls: dowels too, but none that a column comes down on.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
+from typing import Any
 
 import numpy as np
 
@@ -16,20 +20,25 @@ from aadm_workbench.design.ifc.bars import BarEnd, FoundBars, find_bars
 from aadm_workbench.design.ifc.columns import ColumnBody, find_columns, not_a_column
 from aadm_workbench.design.ifc.design import design_of, with_ids
 from aadm_workbench.design.ifc.geometry.kernel import closing_kernel
+from aadm_workbench.design.ifc.geometry.placement import frame
 from aadm_workbench.design.ifc.geometry.shapes import Shapes, evaluator
 from aadm_workbench.design.ifc.geometry.solids import BROKEN
 from aadm_workbench.design.ifc.grid import crossings
 from aadm_workbench.design.ifc.hints import explain
 from aadm_workbench.design.ifc.ids import shared_id_warning, shared_ids, with_shared_ids
-from aadm_workbench.design.ifc.search import FoundFoot, SleeveSearch
+from aadm_workbench.design.ifc.search import FoundFoot, Nearby, SleeveSearch
 from aadm_workbench.design.ifc.sleeves import MOUTH_TO_FOOT_MM, Candidate, left_out, loose_point, named_candidates
 from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc.under import bars_under
-from aadm_workbench.design.ifc.walls import ends_in_walls
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
+from aadm_workbench.design.recognise.shapes import edges
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Reason
 
+NO_SLEEVES = Reason("ifc.no_sleeves")
 _SHOWN_PROBLEMS = 6  # of a sort: more fill a screen and say no more
+
+_BESIDE_MM = 1.0  # rounding: a dowel may touch the face of its wall
+_LEVEL_SINE = 0.1  # 6 degrees: what runs more steeply is no course of a wall
 
 
 def read_ifc(
@@ -72,7 +81,7 @@ def _found(
     bodies, unreadable = find_columns(opened, shapes, columns)
     named, excluded = named_candidates(opened, shapes, sleeves)
     bars = find_bars(opened, shapes, rebars)
-    search = SleeveSearch(opened, shapes, named, selected=sleeves is not None, bodies=bodies, bars=bars)
+    search = SleeveSearch(opened, shapes, Nearby(named), selected=sleeves is not None, bodies=bodies, bars=bars)
     searched, lost = _searched(shapes, search, bodies)
     feet, doubles = _one_column_each(searched)
     loose_sleeves, refused = loose_sleeves_of(named, feet)
@@ -250,7 +259,7 @@ def _bare(feet: Sequence[tuple[ColumnBody, FoundFoot]], search: SleeveSearch) ->
 def _why_bare(body: ColumnBody, search: SleeveSearch) -> str:
     if count := search.on_its_head(body):
         return Reason("ifc.on_head", count=count)
-    return Reason("ifc.no_sleeves")
+    return NO_SLEEVES
 
 
 def _problems(shapes: Shapes) -> list[str]:
@@ -267,3 +276,59 @@ def _world(opened: OpenedIfc, shapes: Shapes) -> Array:
         return shapes.placements.of_context(model)
     except BROKEN:
         return np.eye(4)
+
+
+def ends_in_walls(opened: OpenedIfc, shapes: Shapes, ends: Sequence[BarEnd]) -> dict[int, str]:
+    """Bar ends, by their place in ``ends``, that are parts of a wall or end inside one, with the name of that wall."""
+    found: dict[int, str] = {}
+    if not ends:
+        return found
+    tops = np.array([end.top for end in ends])
+    for wall in opened.file.by_type("IfcWall"):
+        with shapes.guarded(wall):
+            _note_ends(wall, shapes, ends, tops, found)
+    return found
+    tops = np.array([end.top for end in ends])
+    for wall in opened.file.by_type("IfcWall"):
+        called = ifc_names.called(wall)
+        own_ids = set(_own_ids(wall))
+        for index in {*np.flatnonzero(_inside(wall, shapes, tops)).tolist()}:
+            found.setdefault(index, called)
+        for index, end in enumerate(ends):
+            if end.wholes & own_ids:
+                found.setdefault(index, called)
+    return found
+
+
+def _note_ends(wall: Any, shapes: Shapes, ends: Sequence[BarEnd], tops: Array, found: dict[int, str]) -> None:
+    called = ifc_names.called(wall)
+    own_ids = set(_own_ids(wall))
+    for index in {*np.flatnonzero(_inside(wall, shapes, tops)).tolist()}:
+        found.setdefault(index, called)
+    for index, end in enumerate(ends):
+        if end.wholes & own_ids:
+            found.setdefault(index, called)
+
+
+def _own_ids(wall: Any) -> Iterator[int]:
+    """Numbers of a wall and of the assemblies that it is a part of and no column is."""
+    yield wall.id()
+    for whole in ifc_names.wholes(wall):
+        if not any(part.is_a("IfcColumn") for part in ifc_names.parts(whole)):
+            yield whole.id()
+
+
+def _inside(wall: Any, shapes: Shapes, points: Array) -> Array:
+    """Which points (n, 3) lie in the upright box around a wall, whose long side is the longest level edge."""
+    drawn = edges(shapes.of_product(wall))
+    ways = drawn[:, 1] - drawn[:, 0]
+    lengths_mm = np.linalg.norm(ways, axis=1)
+    level = np.abs(ways[:, 2]) < _LEVEL_SINE * lengths_mm
+    if not level.any():
+        return np.zeros(len(points), dtype=np.bool_)
+    along = ways[level][int(lengths_mm[level].argmax())]
+    T = frame(drawn[0, 0], None, np.array([along[0], along[1], 0.0]))
+    corners, local = ((p - T[:3, 3]) @ T[:3, :3] for p in (drawn.reshape(-1, 3), points))
+    low, high = corners.min(axis=0) - _BESIDE_MM, corners.max(axis=0) + _BESIDE_MM
+    inside: Array = np.all((local >= low) & (local <= high), axis=1)
+    return inside

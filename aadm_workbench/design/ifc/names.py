@@ -8,12 +8,9 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from aadm_workbench.design.ifc.entity import optional
-from aadm_workbench.design.ifc.words import COLUMN, NOT_COLUMN, NOT_REBAR, NOT_SLEEVE, REBAR, SLEEVE, find
+from aadm_workbench.design.ifc.words import Said, find
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Reason
-
-__all__ = ["COLUMN", "NOT_COLUMN", "NOT_REBAR", "NOT_SLEEVE", "REBAR", "SLEEVE"]
 
 _PIECE_MARK = frozenset(
     {"piecemark", "piece mark", "assembly/cast unit mark", "cast unit mark", "castunitmark", "构件编号", "構件編號"}
@@ -27,10 +24,14 @@ _MACHINE_MADE = re.compile(
 )
 """Tags that programs give (Revit's element number, Tekla's and ArchiCAD's GUID) and nobody on site says."""
 
-_SAID = (2, 4, 3)
+_NAME = 2  # place of Name among the attributes of an object
+_SAID = (_NAME, 4, 3)
 """Places of Name, ObjectType and Description among the attributes of an object; by name they take thrice as long."""
 
 _TAG = 7  # place of the attribute in IfcElement
+
+_PLACES: dict[str, dict[str, int]] = {}
+"""Places of attributes by schema and class, such as IFC4.IfcWall."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,6 +77,10 @@ class Naming:
     def said(self, element: Any) -> str:
         """All that an element and its type are called, in one line."""
         return " | ".join(self.texts(element))
+
+    def of(self, element: Any) -> Said:
+        """What an element says of itself."""
+        return Said(text_of(element[_NAME]), self.texts(element))
 
     def find(self, pattern: re.Pattern[str], element: Any) -> str | None:
         """The first match of a pattern in what an element and its type are called."""
@@ -250,3 +255,19 @@ def holdings(file: Any) -> str:
     ranked = sorted(count.items(), key=lambda item: (-item[1], item[0]))
     parts = [f"{number} {ifc_class}" for ifc_class, number in ranked]
     return Reason("said.list", parts=parts) if parts else Reason("design.no_elements")
+
+
+def optional(entity: Any, name: str) -> Any:
+    """An attribute of an entity; None where its class has none of that name, or the file leaves it out.
+
+    ifcopenshell looks for an attribute that is not there in the rules of the schema, and needs three calls to find
+    one that is; a floor asks for half a million.
+    """
+    if entity is None:
+        return None
+    ifc_class = entity.is_a(True)
+    places = _PLACES.get(ifc_class)
+    if places is None:
+        places = _PLACES[ifc_class] = {entity.attribute_name(place): place for place in range(len(entity))}
+    place = places.get(name)
+    return None if place is None else entity[place]

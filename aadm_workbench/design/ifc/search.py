@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -42,48 +43,46 @@ class FoundFoot:
 
 
 @dataclass(frozen=True, eq=False)
+class Nearby:
+    """Candidates by place: a floor has thousands, a column a dozen."""
+
+    candidates: Sequence[Candidate]
+
+    @cached_property
+    def _middles(self) -> Array:
+        return np.array([(c.tube.start + c.tube.end) / 2.0 for c in self.candidates]).reshape(-1, 3)
+
+    def to(self, foot: Foot, without: Any = None) -> list[Candidate]:
+        """Candidates over whose middle a column stands, those of one element left out."""
+        across_mm = np.abs(foot.local(self._middles)[:, :2])
+        near = np.flatnonzero(np.all(across_mm <= foot.half_size_mm + BESIDE_MM, axis=1)).tolist()
+        return [self.candidates[k] for k in near if without is None or self.candidates[k].element is not without]
+
+
+@dataclass(frozen=True, eq=False)
 class SleeveSearch:
     """Looks for sleeves column by column; ``selected`` where a selector named them, which is then the last word."""
 
     opened: OpenedIfc
     shapes: Shapes
-    named: Sequence[Candidate]
+    named: Nearby
     selected: bool
     bodies: Sequence[ColumnBody]
     bars: FoundBars
 
     @cached_property
-    def unnamed(self) -> list[Candidate]:
+    def unnamed(self) -> Nearby:
         """Round bodies and openings of the whole model; evaluated only where a column needs them."""
-        return unnamed_candidates(self.opened, self.shapes, self._all_feet)
+        return Nearby(unnamed_candidates(self.opened, self.shapes, self._all_feet))
 
     @cached_property
-    def openings(self) -> list[Candidate]:
+    def openings(self) -> Nearby:
         """Round openings of the whole model: some programs relate only a part of them to the column."""
-        return unnamed_candidates(self.opened, self.shapes, self._all_feet, OPENING_CLASSES)
+        return Nearby(unnamed_candidates(self.opened, self.shapes, self._all_feet, OPENING_CLASSES))
 
     @property
     def _all_feet(self) -> list[Foot]:
         return [foot for body in self.bodies for foot in body.feet]
-
-    @cached_property
-    def _opening_middles(self) -> Array:
-        return _middles(self.openings)
-
-    @cached_property
-    def _named_middles(self) -> Array:
-        return _middles(self.named)
-
-    @cached_property
-    def _unnamed_middles(self) -> Array:
-        return _middles(self.unnamed)
-
-    @staticmethod
-    def _near(foot: Foot, candidates: Sequence[Candidate], middles: Array) -> list[Candidate]:
-        """Candidates over whose middle the column stands: a floor has thousands, a column a dozen."""
-        across_mm = np.abs(foot.local(middles)[:, :2])
-        near = np.all(across_mm <= foot.half_size_mm + BESIDE_MM, axis=1)
-        return [candidate for candidate, is_near in zip(candidates, near, strict=True) if is_near]
 
     def on(self, body: ColumnBody) -> FoundFoot:
         """The foot face of a column with its sleeves: of a lying column's two ends, the one with more."""
@@ -95,27 +94,26 @@ class SleeveSearch:
         head = head_of(self.shapes.placements.of_product(body.element), shapes)
         if head is None:
             return 0
-        named = self._near(head, self.named, self._named_middles)
         own = () if self.selected else own_candidates(self.opened, body, self.shapes)
-        return len(sleeves_in(head, named, own).mouths)
+        return len(sleeves_in(head, self.named.to(head), own).mouths)
 
     def _on_foot(self, body: ColumnBody, foot: Foot) -> FoundFoot:
-        named = self._near(foot, self.named, self._named_middles)
+        named = self.named.to(foot)
         if self.selected:
             return sleeves_in(foot, named)
         return sleeves_in(
             foot,
             named,
             own_candidates(self.opened, body, self.shapes),
-            lambda: self._near(foot, self.openings, self._opening_middles),
-            lambda: self._near(foot, self.unnamed, self._unnamed_middles),
+            lambda: self.openings.to(foot),
+            lambda: self.unnamed.to(foot),
             lambda: bars_below(body, foot, self.bars),
         )
 
     def refused_in(self, body: ColumnBody, foot: Foot) -> list[tuple[Candidate, str]]:
         """Round things without a name that lie in a foot face and are no sleeves, with the reason."""
-        unnamed = self._near(foot, self.unnamed, self._unnamed_middles)
-        mouths, refused = mouths_on(foot, [*own_candidates(self.opened, body, self.shapes), *unnamed])
+        own = own_candidates(self.opened, body, self.shapes)
+        mouths, refused = mouths_on(foot, [*own, *self.unnamed.to(foot)])
         few = Reason("ifc.fewer_alike", fewest=FEWEST_UNNAMED)
         return [*refused, *((mouth.candidate, few) for mouth in mouths)]
 
@@ -156,11 +154,6 @@ def _entered(foot: Foot, mouths: Sequence[Mouth], below: Sequence[BarEnd]) -> li
         for mouth in mouths
         if (np.linalg.norm(tops - mouth.centre, axis=1) + diameters_mm / 2.0 <= mouth.bore_mm / 2.0).any()
     ]
-
-
-def _middles(candidates: Sequence[Candidate]) -> Array:
-    """(n, 3) mm, model frame."""
-    return np.array([(c.tube.start + c.tube.end) / 2.0 for c in candidates]).reshape(-1, 3)
 
 
 def _apart(mouth: Mouth, others: Sequence[Mouth]) -> bool:

@@ -14,7 +14,7 @@ from aadm_workbench.design.ifc.bars import UP
 from aadm_workbench.design.ifc.columns import ColumnBody, Foot
 from aadm_workbench.design.ifc.geometry.shapes import Shapes
 from aadm_workbench.design.ifc.text.file import OpenedIfc
-from aadm_workbench.design.ifc.words import NOT_SLEEVE, SLEEVE
+from aadm_workbench.design.ifc.words import COUPLERS, NOT_SLEEVE, SLEEVE
 from aadm_workbench.design.model_design import NotTaken
 from aadm_workbench.design.recognise.tubes import Tube, stacked
 from aadm_workbench.model import Array, AssemblyPoint, Kind, Reason
@@ -133,7 +133,7 @@ def _take_by_name(
         return
     excluded = opened.naming.find(NOT_SLEEVE, element)
     if excluded:
-        left.append(_left_out(element, Reason("ifc.no_sleeve", excluded=repr(excluded))))
+        left.append(NotTaken.of("sleeve", element, Reason("ifc.no_sleeve", excluded=repr(excluded))))
         return
     evidence = Evidence.CLASS if is_coupler else Evidence.NAME
     why = Reason("ifc.evidence", evidence=element.is_a(), said=opened.naming.said(element))
@@ -142,7 +142,7 @@ def _take_by_name(
         # Bars are called after the sleeve that they go into.
         drawn = [candidate for candidate in drawn if candidate.is_hollow]
     elif not drawn:
-        left.append(_left_out(element, _undrawn(element, shapes)))
+        left.append(NotTaken.of("sleeve", element, _undrawn(element, shapes)))
     found += drawn
 
 
@@ -159,7 +159,7 @@ def _couplers(opened: OpenedIfc) -> Iterator[Any]:
             elements = opened.file.by_type(ifc_class)
         except RuntimeError:  # the schema has no such class
             continue
-        yield from (e for e in elements if opened.naming.predefined_type(e) in ("COUPLER", "GROUTING_DUCT"))
+        yield from (e for e in elements if opened.naming.predefined_type(e) in COUPLERS)
 
 
 def _by_property(opened: OpenedIfc, shapes: Shapes, left: list[NotTaken]) -> tuple[list[Candidate], list[NotTaken]]:
@@ -171,7 +171,7 @@ def _by_property(opened: OpenedIfc, shapes: Shapes, left: list[NotTaken]) -> tup
         if text is None or element.is_a("IfcReinforcingBar") or opened.naming.find(NOT_SLEEVE, element):
             continue
         if any(isinstance(value, str) and NOT_SLEEVE.search(value) for _, value in ifc_names.properties(element)):
-            left.append(_left_out(element, Reason("ifc.other_sleeve")))
+            left.append(NotTaken.of("sleeve", element, Reason("ifc.other_sleeve")))
             continue
         why = Reason("ifc.by_property", type=element.is_a(), name=opened.naming.said(element), text=text)
         found += _candidates(element, shapes, Evidence.NAME, why)
@@ -326,20 +326,8 @@ def loose_point(candidate: Candidate) -> AssemblyPoint | str:
 def left_out(candidate: Candidate, reason: str) -> NotTaken:
     """A candidate that was looked at and left out."""
     tube = candidate.tube.upwards(UP)
-    return _left_out(candidate.element, reason, tube)
-
-
-def _left_out(element: Any, reason: str, tube: Tube | None = None) -> NotTaken:
-    return NotTaken(
-        what="sleeve",
-        ifc_class=element.is_a(),
-        global_id=element.GlobalId,
-        name=ifc_names.text_of(element.Name),
-        reason=reason,
-        point=None if tube is None else tube.start,
-        diameter_mm=None if tube is None else tube.bore_mm[0] or tube.outer_mm,
-        length_mm=None if tube is None else tube.length_mm,
-    )
+    diameter_mm = tube.bore_mm[0] or tube.outer_mm
+    return NotTaken.of("sleeve", candidate.element, reason, tube.start, diameter_mm, tube.length_mm)
 
 
 def _candidates(

@@ -1,10 +1,17 @@
-"""Words by which elements are told apart: sleeve, connecting rebar, column, wall, or something else in steel."""
+"""Words by which elements are told apart: sleeve, connecting rebar, column, or something else; for models of any kind.
+
+What an element is follows from its class and PredefinedType, then from what it is called, by the same rules whether it
+comes from an IFC file or from another program.
+"""
 
 from __future__ import annotations
 
 import re
 import unicodedata
+from dataclasses import dataclass
 from functools import lru_cache
+
+from aadm_workbench.model import Reason
 
 SLEEVE = re.compile(
     r"灌[浆漿]套[筒管]|[全半]灌[浆漿]|钢筋套筒|鋼筋套筒|连接套筒|連接套筒|套筒|波[纹紋]管|浆锚孔|漿錨孔|预留孔|預留孔"
@@ -64,3 +71,54 @@ def find(pattern: re.Pattern[str], text: str) -> str | None:
     """
     found = pattern.search(text if text.isascii() else unicodedata.normalize("NFKC", text))
     return found.group() if found else None
+
+
+COUPLERS = frozenset({"COUPLER", "GROUTING_DUCT"})
+"""PredefinedTypes of couplers of bars, and of ducts that grout goes into."""
+
+_NOT_CONNECTING = frozenset({"LIGATURE", "SHEAR", "STUD", "RING", "SPACEBAR", "PUNCHING"})
+
+
+@dataclass(frozen=True)
+class Said:
+    """What an element says of itself: its own ``name``, and all ``texts`` that it and its type are called."""
+
+    name: str
+    texts: tuple[str, ...]
+
+    def find(self, pattern: re.Pattern[str]) -> str | None:
+        """The first match of a pattern in all that is said."""
+        return next((found for text in self.texts if (found := find(pattern, text))), None)
+
+    @property
+    def is_column(self) -> bool:
+        """Whether something says column, and nothing a part or the steel of one: 柱帽, 柱箍筋, "column dowel".
+
+        What a column is described with ("with grouting sleeves") does not make it a sleeve; its own name does.
+        """
+        if _steel(self.name) or self.find(NOT_COLUMN):
+            return False
+        return any(find(COLUMN, text) and not _steel(text) for text in self.texts)
+
+    @property
+    def is_sleeve_or_bar(self) -> bool:
+        """Whether it is called a sleeve or a connecting bar."""
+        return bool(self.find(SLEEVE) or self.find(REBAR))
+
+    @property
+    def is_rebar(self) -> bool:
+        """Whether it is called a connecting bar, and not after the sleeve that a bar goes into."""
+        return bool(self.find(REBAR)) and not self.find(SLEEVE)
+
+    def why_not_connecting(self, predefined_type: str) -> str | None:
+        """Why a reinforcing bar is none that a column stands on; None where it may be one."""
+        if predefined_type in _NOT_CONNECTING:
+            return Reason("ifc.bar_kind", kind=predefined_type)
+        word = self.find(NOT_REBAR)
+        if word and not self.find(REBAR):
+            return Reason("ifc.bar_called", named=repr(word))
+        return None
+
+
+def _steel(text: str) -> bool:
+    return bool(find(SLEEVE, text) or find(REBAR, text) or find(NOT_REBAR, text))

@@ -1,34 +1,45 @@
-"""Columns, sleeves and connecting rebars among the elements of a model that is no IFC file."""
+"""Columns, sleeves and connecting rebars among the elements of a model that is no IFC file.
+
+The directions that a body runs in: those of its placement where its edges agree, else those of its edges.
+"""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import partial
 
 import numpy as np
 
-from aadm_workbench.design.elements import Element, counted_once, holdings
+from aadm_workbench.design.elements import Element, Solid, counted_once, holdings
 from aadm_workbench.design.ifc.bars import FoundBars
-from aadm_workbench.design.ifc.columns import ColumnBody, Foot, feet_of
+from aadm_workbench.design.ifc.columns import ColumnBody, feet_of
 from aadm_workbench.design.ifc.design import points_of, with_ids
-from aadm_workbench.design.ifc.model import loose_rebars_of, loose_sleeves_of
-from aadm_workbench.design.ifc.search import FoundFoot, sleeves_in
+from aadm_workbench.design.ifc.model import NO_SLEEVES, loose_rebars_of, loose_sleeves_of
+from aadm_workbench.design.ifc.search import FoundFoot, Nearby, sleeves_in
 from aadm_workbench.design.ifc.sleeves import Candidate
 from aadm_workbench.design.ifc.under import Under, bars_below, bars_under
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
-from aadm_workbench.design.recognise.bars import drawn_bars, named_bars
 from aadm_workbench.design.recognise.element_kind import is_column, is_thin, may_hold_sleeves, spoken
-from aadm_workbench.design.recognise.own_frame import own_frame
 from aadm_workbench.design.recognise.selectors import called_by, select
-from aadm_workbench.design.recognise.sleeves import named_sleeves, own_holes, round_holes, unnamed_sleeves
-from aadm_workbench.design.sound_elements import sound_elements
-from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Reason
+from aadm_workbench.design.recognise.steel import (
+    drawn_bars,
+    named_bars,
+    named_sleeves,
+    own_holes,
+    round_holes,
+    unnamed_sleeves,
+)
+from aadm_workbench.design.sound import sound_elements
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
-_NEAR_MM = 100.0  # beside a foot: bars that are bent off, and no neighbour's
 _WIDEST_PLAN_RATIO = 4.0
 """A body that is wider than so many of its thicknesses is a wall, unless its class or its name says column."""
+
+_PARALLEL_COS = float(np.cos(np.radians(0.1)))  # 0.1 degrees: directions of edges, up to rounding
+_UP = np.array([0.0, 0.0, 1.0])
+_SQUARE_SINE = 0.01  # 0.6 degrees: what is square to the axis, up to a slope that is drawn by hand
 
 
 @dataclass(frozen=True)
@@ -177,23 +188,6 @@ def _feet(
     ]
 
 
-@dataclass(frozen=True, eq=False)
-class Nearby:
-    """Candidates by place: a floor has thousands, a column a dozen."""
-
-    candidates: tuple[Candidate, ...]
-
-    @cached_property
-    def _middles(self) -> Array:
-        return np.array([(c.tube.start + c.tube.end) / 2.0 for c in self.candidates]).reshape(-1, 3)
-
-    def to(self, foot: Foot, without: Element | None = None) -> list[Candidate]:
-        """Candidates over whose middle a foot face stands, those of one element left out."""
-        across_mm = np.abs(foot.local(self._middles)[:, :2])
-        near = np.flatnonzero(np.all(across_mm <= foot.half_size_mm + _NEAR_MM, axis=1))
-        return [self.candidates[k] for k in near if self.candidates[k].element is not without]
-
-
 def _column_like(found: FoundFoot) -> bool:
     narrow_mm, wide_mm = sorted(float(side) for side in found.foot.half_size_mm)
     return wide_mm <= _WIDEST_PLAN_RATIO * narrow_mm
@@ -218,16 +212,55 @@ def _on(
 
 
 def _bare(feet: Sequence[tuple[ColumnBody, FoundFoot]]) -> list[NotTaken]:
-    reason = Reason("ifc.no_sleeves")
     return [
-        NotTaken(
-            "column",
-            str(body.element.is_a()),
-            body.element.GlobalId,
-            body.element.Name,
-            reason,
-            names=tuple(called_by(body.element)),
-        )
+        NotTaken.of("column", body.element, NO_SLEEVES, names=tuple(called_by(body.element)))
         for body, found in feet
         if not found.mouths
     ]
+
+
+def own_frame(T_model_element: Array, solids: Sequence[Solid]) -> Array:
+    """The frame (4, 4) that a body was drawn in.
+
+    Imported bodies often stand turned under a placement that is not: then z is the direction of their long edges that
+    is nearest to upright, and x that of the edges across, within 45 degrees of the placement's x.
+    """
+    edges = _straight(solids)
+    length_mm = np.linalg.norm(edges, axis=1)
+    total_mm = float(length_mm.sum())
+    if total_mm <= 0.0:
+        return T_model_element
+    directions = edges / length_mm[:, np.newaxis]
+    z = _strongest(directions, length_mm * (0.5 + np.abs(directions @ _UP)))
+    across = np.abs(directions @ z) < _SQUARE_SINE
+    x = _strongest(directions[across], length_mm[across]) if across.any() else T_model_element[:3, 0]
+    if all(np.abs(T_model_element[:3, :3].T @ side).max() > _PARALLEL_COS for side in (z, x)):
+        return T_model_element
+    return _frame(T_model_element, z if float(z @ _UP) >= 0.0 else -z, x)
+
+
+def _straight(solids: Sequence[Solid]) -> Array:
+    """(n, 3) mm, the straight edges of bodies as vectors; none without length."""
+    vectors = np.array([line[1] - line[0] for solid in solids for line in solid.edges if len(line) == 2])
+    vectors = vectors.reshape(-1, 3)
+    kept: Array = vectors[np.linalg.norm(vectors, axis=1) > 0.0]
+    return kept
+
+
+def _strongest(directions: Array, weight: Array) -> Array:
+    """The direction that the greatest weight of edges has, of either sign."""
+    longest = np.argsort(-weight, kind="stable")[:50]
+    shares = [float(weight[np.abs(directions @ directions[k]) > _PARALLEL_COS].sum()) for k in longest]
+    found: Array = directions[longest[int(np.argmax(shares))]]
+    return found
+
+
+def _frame(T_model_element: Array, z: Array, x: Array) -> Array:
+    """A right-handed frame with z and about x, turned by quarters to be near the placement's x."""
+    x = x - float(x @ z) * z
+    x = x / np.linalg.norm(x)
+    quarters = [x, np.cross(z, x), -x, -np.cross(z, x)]
+    x = max(quarters, key=lambda side: float(side @ T_model_element[:3, 0]))
+    T = T_model_element.copy()
+    T[:3, :3] = np.column_stack([x, np.cross(z, x), z])
+    return T

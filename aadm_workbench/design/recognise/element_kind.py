@@ -1,11 +1,13 @@
-"""What an element says of itself, by class and by name: column, sleeve, connecting rebar, or neither."""
+"""What an element of a model that is no IFC file says of itself, by class and by name; the words are those of all."""
 
 from __future__ import annotations
 
 import re
 
 from aadm_workbench.design.elements import Element
-from aadm_workbench.design.ifc.words import COLUMN, NOT_COLUMN, NOT_REBAR, NOT_SLEEVE, REBAR, SLEEVE, find
+from aadm_workbench.design.ifc.bars import NAMED_CLASSES
+from aadm_workbench.design.ifc.columns import COLUMN_CLASSES, THINNEST_MM
+from aadm_workbench.design.ifc.words import COUPLERS, NOT_COLUMN, NOT_REBAR, NOT_SLEEVE, REBAR, SLEEVE, Said, find
 from aadm_workbench.model import Reason
 
 _GENERIC = frozenset(
@@ -13,7 +15,6 @@ _GENERIC = frozenset(
 )
 """Classes that say nothing: FreeCAD's own solids, and what exporters use for everything."""
 
-_NOT_CONNECTING = frozenset({"LIGATURE", "SHEAR", "STUD", "RING", "SPACEBAR", "PUNCHING"})
 THINNEST_COLUMN_MM = 120.0
 """A round body thinner than this is a tube or a bar: no precast column is."""
 _NUMBERED = re.compile(r"[A-Za-z]+(0\d\d)?|\d+")
@@ -31,38 +32,38 @@ def words(element: Element) -> str:
 def is_column(element: Element) -> bool:
     """Whether class or name says column, and nothing says that it is something in one."""
     if element.ifc_class == "IfcColumn":
-        return True
-    if not generic(element) or find(NOT_COLUMN, element.Name):
-        return False
-    in_steel = find(SLEEVE, element.Name) or find(REBAR, element.Name) or find(NOT_REBAR, element.Name)
-    return bool(find(COLUMN, element.Name)) and not in_steel
+        return not (_said(element).is_sleeve_or_bar and is_thin(element, THINNEST_MM))
+    return (generic(element) or element.ifc_class in COLUMN_CLASSES) and Said(element.Name, (element.Name,)).is_column
 
 
 def is_rebar(element: Element) -> bool:
     """Whether class or name says reinforcing bar of any kind."""
     if element.ifc_class == "IfcReinforcingBar":
         return True
-    said = element.said if is_hollow(element) else words(element)
-    return generic(element) and bool(find(REBAR, said)) and not find(SLEEVE, element.Name)
+    may_be = generic(element) or element.ifc_class in NAMED_CLASSES
+    said = Said(element.Name, (element.said,)) if is_hollow(element) else _said(element)
+    return may_be and bool(said.find(REBAR)) and not find(SLEEVE, element.Name)
 
 
 def not_connecting(element: Element) -> str | None:
     """Why a reinforcing bar is none that a column stands on; None where it may be one."""
-    if element.predefined_type in _NOT_CONNECTING:
-        return Reason("ifc.bar_kind", kind=element.predefined_type)
-    word = find(NOT_REBAR, words(element))
-    if word and not find(REBAR, words(element)):
-        return Reason("ifc.bar_called", named=repr(word))
-    return None
+    return _said(element).why_not_connecting(element.predefined_type)
 
 
 def sleeve_word(element: Element) -> str | None:
     """The word for a sleeve that an element is called by, or what its class says; None for none."""
-    if element.ifc_class == "IfcReinforcingBar" or is_column(element):
+    if is_column(element):
         return None
-    if element.predefined_type == "COUPLER":
-        return "COUPLER"
-    return find(SLEEVE, words(element) if is_hollow(element) else element.said)
+    if element.predefined_type in COUPLERS:
+        return element.predefined_type
+    if is_hollow(element):
+        return find(SLEEVE, words(element))
+    # Bars are called after the sleeve that they go into.
+    return None if element.ifc_class == "IfcReinforcingBar" else find(SLEEVE, element.said)
+
+
+def _said(element: Element) -> Said:
+    return Said(element.Name, (words(element),))
 
 
 def not_a_sleeve(element: Element) -> str | None:
@@ -76,10 +77,10 @@ def generic(element: Element) -> bool:
 
 
 def may_hold_sleeves(element: Element) -> bool:
-    """Whether it may be a column by its shape: of no telling class, neither bar nor sleeve nor stirrup."""
+    """Whether it may be a column by its shape: of no telling class, neither bar, sleeve, stirrup nor capital."""
     if not generic(element) or is_rebar(element) or sleeve_word(element) or not_a_sleeve(element):
         return False
-    return not find(NOT_REBAR, words(element))
+    return not find(NOT_REBAR, words(element)) and not find(NOT_COLUMN, element.Name)
 
 
 def is_hollow(element: Element) -> bool:
@@ -87,10 +88,10 @@ def is_hollow(element: Element) -> bool:
     return any(tube.bore_mm != (None, None) for tube in element.tubes)
 
 
-def is_thin(element: Element) -> bool:
+def is_thin(element: Element, thinnest_mm: float = THINNEST_COLUMN_MM) -> bool:
     """Whether all its bodies are bars or tubes, too thin for a column of any name."""
     return all(
-        solid.bars or (len(solid.tubes) == 1 and (solid.tubes[0].outer_mm or THINNEST_COLUMN_MM) < THINNEST_COLUMN_MM)
+        solid.bars or (len(solid.tubes) == 1 and (solid.tubes[0].outer_mm or thinnest_mm) < thinnest_mm)
         for solid in element.solids
     )
 

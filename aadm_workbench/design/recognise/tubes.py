@@ -19,9 +19,10 @@ from aadm_workbench.design.recognise.shapes import (
     Shape,
     SweptDisk,
     Turned,
+    as_turned,
+    radius_at,
     scale_across,
 )
-from aadm_workbench.design.turned import as_turned, radius_at
 from aadm_workbench.model import Array
 
 _ON_AXIS_MM = 0.5

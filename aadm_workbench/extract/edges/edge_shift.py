@@ -14,9 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.extract.edges.seen_disc import SeenDiscs, seen_discs
-from aadm_workbench.extract.edges.sight_lines import SightLines
-from aadm_workbench.extract.outlines import Outlines
+from aadm_workbench.extract.circle import Outlines
+from aadm_workbench.extract.edges.seen_disc import SeenDiscs, SightLines, seen_discs
 from aadm_workbench.model import Array, BoolArray, FloatArray, Reason
 
 _MOUTHS, _TOPS = 1.0, -1.0  # the side on which the surface lies: outside of the disc, or within

@@ -25,12 +25,12 @@ import numpy as np
 
 from aadm_workbench.extract.plane import from_plane, in_plane, turned_over
 from aadm_workbench.extract.published.binary_image import BinaryImage, binary_image, pitch_mm
-from aadm_workbench.extract.published.face_side import out_of_the_concrete
 from aadm_workbench.extract.published.hough import RADIUS_MISFIT, hough_circles, votes_needed
 from aadm_workbench.extract.published.pass_through import (
     face_range_mm,
     finite_points,
     near_is_low,
+    out_of_the_concrete,
     passed,
     tops_range_mm,
 )

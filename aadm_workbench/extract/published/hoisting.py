@@ -32,8 +32,7 @@ import numpy as np
 from aadm_workbench.extract.method import METHODS as RECIPES
 from aadm_workbench.extract.plane import facing, from_plane, in_plane
 from aadm_workbench.extract.published.binary_image import binary_image
-from aadm_workbench.extract.published.clusters import dbscan
-from aadm_workbench.extract.published.edge_points import edge_points
+from aadm_workbench.extract.published.edge_points import dbscan, edge_points
 from aadm_workbench.extract.published.fusion import INLIER_DISTANCE_MM, ITERATIONS, projected_onto
 from aadm_workbench.extract.published.hough import RADIUS_MISFIT, hough_circles, votes_needed
 from aadm_workbench.extract.published.pass_through import finite_points

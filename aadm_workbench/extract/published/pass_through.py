@@ -9,13 +9,16 @@ thresholds are chosen. Here they are read off the histogram of z, in slices of `
 
 A range of z is square to the view and not to the bars: from about 7 degrees of tilt on, the far tops of a large group
 lie as deep as the floor under the near ones, and no thresholds part them.
+
+On which side of a foot face the air is.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from aadm_workbench.model import Array, FloatArray, Scan
+from aadm_workbench.extract.plane import facing, in_plane, turned_over
+from aadm_workbench.model import Array, FloatArray, Plane, Scan
 
 SLICE_MM = 2.0  # twenty times the noise of the reference camera at 1 m
 RUN_SHARE = 0.02  # of the fullest slice (a choice, not tuned since)
@@ -25,6 +28,9 @@ FLOOR_QUANTILE = 0.1  # bars cover less of a scan than this
 FLOOR_GAP_MM = 40.0  # a scan that is shallower than this shows no floor
 DEEPEST_MM = 50_000.0  # no scan of a component is as deep
 _HIGHEST_TILT = 1.5  # of a slice: the lower rim of a top may lie in the slice after the one that counts
+
+WALL_DEPTH_MM = 3.0  # from here on a point beside the plane is a wall and no noise
+_AROUND = 1.1  # of the radius
 
 
 def finite_points(scan: Scan) -> FloatArray:
@@ -87,3 +93,18 @@ def _slices(z: FloatArray) -> tuple[Array, Array]:
     edges = np.arange(low - SLICE_MM, high + 2.0 * SLICE_MM, SLICE_MM)
     counts, edges = np.histogram(z, edges)
     return counts.astype(np.float64), np.asarray(edges, np.float64)
+
+
+def out_of_the_concrete(plane: Plane, scan: Scan, points: FloatArray, centres: Array, radius_mm: float) -> Plane:
+    """Turn the normal of a face to the viewpoint; without one, away from where its holes have their walls.
+
+    ``points`` (n, 3) mm are all of the scan, ``centres`` (k, 3) mm those of the holes, both in the scan frame.
+    """
+    if scan.viewpoint is not None:
+        return facing(plane, scan.viewpoint)
+    beside = in_plane(points[np.abs(plane.height(points)) > WALL_DEPTH_MM].astype(np.float64), plane)
+    balance = 0.0
+    for centre in in_plane(centres, plane):
+        inside = np.hypot(*(beside[:, :2] - centre[:2]).T) < _AROUND * radius_mm
+        balance += float(np.sign(beside[inside, 2]).sum())
+    return turned_over(plane) if balance > 0 else plane

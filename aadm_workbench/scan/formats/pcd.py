@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+from types import ModuleType
+
 import numpy as np
 
+from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import FloatArray, Reason
-from aadm_workbench.scan.file import Cloud, Declared, ScanFile
-from aadm_workbench.scan.formats.lzf import GREATEST_EXPANSION, decompress
+from aadm_workbench.scan.file import Cloud, Declared, ScanFile, narrowed
 from aadm_workbench.scan.formats.pcd_header import Field, PcdHeader, parse_header
 from aadm_workbench.scan.formats.records import check_room, coordinate_dtype, gather
 from aadm_workbench.scan.formats.rows import parse_rows
-from aadm_workbench.scan.points import narrowed
 
 _SIZES_BYTES = 8
 """Before a compressed body stand its length packed and its length unpacked, uint32 each."""
+
+GREATEST_EXPANSION = 88
+"""Three bytes, a longest back reference, unpack to 264: no honest stream announces more than 88 times its size."""
 
 
 def read_pcd(file: ScanFile, declared: Declared) -> Cloud:
@@ -104,3 +109,40 @@ def _planes(unpacked: bytes, count: int, axes: tuple[Field, ...]) -> FloatArray:
     for axis, field in enumerate(axes):
         points[:, axis] = np.frombuffer(unpacked, field.dtype, count, count * field.offset_bytes)
     return points
+
+
+def _lzf() -> ModuleType:
+    try:
+        return import_module("lzf")
+    except ImportError as error:
+        raise MissingDependencyError("python-neo-lzf", "a compressed PCD file (DATA binary_compressed)") from error
+
+
+def decompress(packed: bytes, size_bytes: int) -> bytes | None:
+    """Return the ``size_bytes`` bytes that an LZF stream unpacks to, or None where it does not unpack to that.
+
+    Raises
+    ------
+    MissingDependencyError
+        Where the LZF library is not installed.
+    """
+    if size_bytes > GREATEST_EXPANSION * len(packed):
+        return None
+    try:
+        unpacked: bytes | None = _lzf().decompress(packed, size_bytes)
+    except ValueError:
+        return None
+    return unpacked if unpacked is not None and len(unpacked) == size_bytes else None
+
+
+def compress(content: bytes) -> bytes:
+    """Return bytes packed by LZF; what does not shrink grows by one byte in 32.
+
+    Raises
+    ------
+    MissingDependencyError
+        Where the LZF library is not installed.
+    """
+    longest_bytes = len(content) + len(content) // 16 + 64
+    packed: bytes = _lzf().compress(content, longest_bytes)
+    return packed

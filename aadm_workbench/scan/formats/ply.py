@@ -7,11 +7,10 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.model import FloatArray, Reason
-from aadm_workbench.scan.file import Cloud, Declared, ScanFile
+from aadm_workbench.scan.file import Cloud, Declared, ScanFile, narrowed
 from aadm_workbench.scan.formats.ply_header import Element, PlyHeader, parse_header
 from aadm_workbench.scan.formats.records import check_room, coordinate_dtype, gather
 from aadm_workbench.scan.formats.rows import parse_rows
-from aadm_workbench.scan.points import narrowed
 
 MOST_UNEQUAL_ROWS = 1_000_000
 """Rows of lists before the points that are gone through one by one, at a microsecond each."""

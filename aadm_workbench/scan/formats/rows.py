@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import math
+import re
 import warnings
 from collections.abc import Sequence
 
@@ -11,10 +13,15 @@ import numpy as np
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array, Reason
 from aadm_workbench.scan.file import ScanFile
-from aadm_workbench.scan.formats.no_number import number_in, without_signs, without_words
 
 LONGEST_LINE_BYTES = 2**20
 """A row of numbers takes some hundred bytes: what has no end in a megabyte is no text of points."""
+
+_WITH_SIGN = re.compile(rb"[-+]?\d\.[#$]\w*|#(?:N/?A|NUM!|VALUE!|DIV/0!|REF!|NAME\?|NULL!|NV|ZAHL!|WERT!)")
+_WORDS = re.compile(
+    rb"(?<![^\s,;])(?:[-+]?s?q?nan[sq]?(?:\s?\([^()\s]{0,20}\))?|n/?a|null|none|nil|invalid|(?:---?))(?![^\s,;])",
+    re.IGNORECASE,
+)
 
 
 def parse_rows(
@@ -101,3 +108,33 @@ def _bad_row(
             needed = max(columns) + 1
             return file.wrong(Reason("points.bad_row", number=number, needed=needed, shown=repr(shown)))
     return file.wrong(Reason("points.bad_rows", why=reason, first_line=first_line))
+
+
+def without_signs(body: bytes) -> bytes:
+    """Return rows in which what has a ``#`` and is no comment is "nan", before anybody takes it for one."""
+    return _WITH_SIGN.sub(b"nan", body) if b"#" in body or b".$" in body else body
+
+
+def without_words(body: bytes) -> bytes:
+    """Return rows in which all that programs write for no number is "nan"."""
+    return _WORDS.sub(b"nan", without_signs(body))
+
+
+def number_in(field: str) -> float | None:
+    """Return the number in a field, NaN where it says that there is none, None where it is something else."""
+    text = without_words(field.strip().strip("\"'").encode()).decode()
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
+def is_finite(field: str) -> bool:
+    """Whether a field holds a number that is one."""
+    value = number_in(field)
+    return value is not None and math.isfinite(value)
+
+
+def is_none(field: str) -> bool:
+    """Whether a field says that there is no number."""
+    return number_in(field) is not None and not is_finite(field)

@@ -10,9 +10,15 @@ import numpy as np
 
 from aadm_workbench.model import Array, Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
-from aadm_workbench.scan.formats.no_number import is_finite, is_none, number_in, without_signs
 from aadm_workbench.scan.formats.records import check_room
-from aadm_workbench.scan.formats.rows import LONGEST_LINE_BYTES, parse_rows
+from aadm_workbench.scan.formats.rows import (
+    LONGEST_LINE_BYTES,
+    is_finite,
+    is_none,
+    number_in,
+    parse_rows,
+    without_signs,
+)
 from aadm_workbench.scan.formats.text_names import named_columns, named_unit, names_some_axis
 
 _LONGEST_PREAMBLE_LINES = 200  # exporters write up to some dozen lines before the table

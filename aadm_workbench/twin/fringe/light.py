@@ -3,6 +3,8 @@
 Light is linear in what the projector shows, so one set of paths answers for all patterns: each path carries the
 pattern's constant part and, for every number of periods, the cosine and the sine of the phase at the projector
 pixel that it started from. What four phase steps would record is put together from these afterwards.
+
+The fine relief and the stains of cast concrete, as a tile that repeats.
 """
 
 from __future__ import annotations
@@ -14,14 +16,21 @@ import drjit as dr
 import mitsuba as mi
 import numpy as np
 import numpy.typing as npt
+from scipy import ndimage
 
 from aadm_workbench.model import BoolArray, Camera
-from aadm_workbench.twin.fringe.relief import TEXEL_MM
 from aadm_workbench.twin.fringe.rig import FringeRig
 
 VERTICES = 7  # of the longest path; what bounces more often inside a sleeve has lost all but a hundredth
 _ROULETTE_FROM = 3  # vertices: shorter paths carry most of the light and are all followed to their end
 _PRIMARY_DIMENSIONS = 10  # random numbers of a path that are spread evenly; those of its later turns are not
+
+TEXEL_MM = 0.2  # finer than half a pixel's width on the nearest face
+_TEXELS = 1024  # 205 mm: no two sleeves of a face lie on the same part of it
+_GRAIN_MM = (0.4, 1.5, 6.0)  # sand, trowel marks and the formwork's waves
+_GRAIN_SHARES = (0.5, 0.6, 0.6)  # amplitudes of these lengths: a choice by eye
+_STAIN_MM = (0.6, 8.0)  # lengths of stains: sand, and damp patches
+_STAIN_SHARES = (0.6, 0.8)  # their amplitudes: a choice by eye
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,3 +204,22 @@ def _on_relief(stage: Stage, si: Any, ray: Any, active: Any) -> tuple[Any, Any]:
     si.sh_frame = dr.select(cast, frame, si.sh_frame)
     si.wi = dr.select(cast, si.to_local(-ray.d), si.wi)
     return dr.select(cast, albedo, 1.0), dr.select(cast, ray.d * (-height / facing), 0.0)
+
+
+def relief_tile(relief_mm: float, mottling: float, rng: np.random.Generator) -> npt.NDArray[np.float32]:
+    """Height in mm and relative albedo (n, n, 2) of a square tile with sides of n times :data:`TEXEL_MM`."""
+    height = relief_mm * _noise(_GRAIN_MM, _GRAIN_SHARES, rng)
+    albedo = np.clip(1.0 + mottling * _noise(_STAIN_MM, _STAIN_SHARES, rng), 0.3, 1.7)
+    return np.stack([height, albedo], -1).astype(np.float32)
+
+
+def _noise(
+    lengths_mm: tuple[float, ...], shares: tuple[float, ...], rng: np.random.Generator
+) -> npt.NDArray[np.float64]:
+    """Smooth noise (n, n) of some lengths, with mean 0 and variance 1."""
+    total = np.zeros((_TEXELS, _TEXELS))
+    for length, share in zip(lengths_mm, shares, strict=True):
+        white = rng.standard_normal((_TEXELS, _TEXELS), dtype=np.float32)
+        layer = ndimage.gaussian_filter(white, length / 2.0 / TEXEL_MM, mode="wrap")
+        total += share * layer / layer.std()
+    return np.asarray((total - total.mean()) / total.std())

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.assembly.matching.symmetry import symmetric_turns
-from aadm_workbench.assembly.pose.upright import turn
+from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.model import Array
 
 

@@ -3,8 +3,15 @@
 import numpy as np
 import pytest
 
-from aadm_workbench.assembly.mould.drift import SharedDisplacement, shared_displacement
-from aadm_workbench.assembly.mould.drift_laws import cp_index, cpk_index, f_exceeded, holm, t_quantile
+from aadm_workbench.assembly.mould.drift import (
+    SharedDisplacement,
+    cp_index,
+    cpk_index,
+    f_exceeded,
+    holm,
+    shared_displacement,
+    t_quantile,
+)
 from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar
 from aadm_workbench.model import Array
 

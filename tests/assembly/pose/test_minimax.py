@@ -5,10 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from aadm_workbench.assembly.pose.eopa import fit_eopa_planar
-from aadm_workbench.assembly.pose.minimax import MinimaxPose, fit_minimax
-from aadm_workbench.assembly.pose.upright import turn
-from aadm_workbench.assembly.pose.window import find_window
+from aadm_workbench.assembly.pose.eopa import fit_eopa_planar, turn
+from aadm_workbench.assembly.pose.minimax import MinimaxPose, find_window, fit_minimax
 from aadm_workbench.errors import AadmError
 from aadm_workbench.model import Array
 

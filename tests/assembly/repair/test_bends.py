@@ -9,8 +9,8 @@ import pytest
 
 from aadm_workbench.assembly.matching.symmetry import symmetric_turns
 from aadm_workbench.assembly.pairs import form_pairs
+from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.assembly.pose.minimax import MinimaxPose, fit_minimax
-from aadm_workbench.assembly.pose.upright import turn
 from aadm_workbench.assembly.repair.bends import advise_repair
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.assembly.trial.virtual import _try_pairs, try_assembly

@@ -9,11 +9,9 @@ import pytest
 from aadm_workbench.assembly.inspect import NO_ABSOLUTE_POSITION, inspect_group
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.assembly.place import place_points
-from aadm_workbench.assembly.pose.eopa import NoFit
-from aadm_workbench.assembly.pose.upright import turn
-from aadm_workbench.assembly.survey.absolute import DatumRules, inspect_absolute, results_of
+from aadm_workbench.assembly.pose.eopa import NoFit, turn
+from aadm_workbench.assembly.survey.absolute import DatumRules, inspect_absolute, results_of, with_absolute
 from aadm_workbench.assembly.survey.control import DEFAULT_U_MM, fit_control_points
-from aadm_workbench.assembly.survey.datum import with_absolute
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.model import AbsolutePosition, Array, ControlPoint, GroupReport, Kind, Profile, Rule, Verdict
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.assembly.matching.match import Match, Placement
-from aadm_workbench.assembly.trial.open_ways import open_ways
+from aadm_workbench.assembly.trial.virtual import open_ways
 from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.model import ColumnDesign
 

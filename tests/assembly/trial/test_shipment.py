@@ -8,7 +8,7 @@ import pytest
 
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.assembly.matching.symmetry import symmetric_turns
-from aadm_workbench.assembly.pose.upright import turn
+from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.assembly.trial.shipment import interchangeable, try_margin
 from aadm_workbench.assembly.trial.virtual import try_scans

@@ -12,9 +12,9 @@ import pytest
 
 from aadm_workbench.errors import AadmError, JobError, MissingDependencyError
 from batch.runner import local_workers, worker
+from batch.runner.cluster import exit_in_words
 from batch.runner.engine import Death, Unwatched, work_through
 from batch.runner.pools import MOST_COLUMNS_HERE, PoolOptions, open_pool
-from batch.runner.remote_workers import exit_in_words
 from batch.runner.worker import last_words
 from tests.batch.killers import Chore, do, give_up
 

@@ -11,7 +11,7 @@ from aadm_workbench.inspection.column import ColumnOutcome
 from aadm_workbench.model import ColumnReport, Verdict
 from batch.runner.engine import Death
 from batch.runner.record import Record
-from batch.shown.follow import Events, ShownCheck
+from batch.shown.progress import Events, ShownCheck
 
 
 def record(name: str, verdict: Verdict) -> Record:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.design.ifc.model import read_ifc
-from aadm_workbench.design.recognise.bar_sizes import nominal_of_over_ribs, over_ribs_mm
+from aadm_workbench.design.recognise.pattern import nominal_of_over_ribs, over_ribs_mm
 
 Ring = list[tuple[float, float]]
 

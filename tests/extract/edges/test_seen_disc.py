@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from aadm_workbench.extract.edges.seen_disc import seen_discs
-from aadm_workbench.extract.edges.sight_lines import SightLines
+from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs
 
 RADIUS, PITCH, MOUTHS = 18.0, 0.5, 6
 

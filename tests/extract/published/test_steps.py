@@ -5,12 +5,16 @@ import open3d
 import pytest
 
 from aadm_workbench.extract.published.binary_image import binary_image, pitch_mm
-from aadm_workbench.extract.published.clusters import dbscan
-from aadm_workbench.extract.published.edge_points import edge_points
-from aadm_workbench.extract.published.face_side import out_of_the_concrete
+from aadm_workbench.extract.published.edge_points import dbscan, edge_points
 from aadm_workbench.extract.published.fusion import projected_onto
 from aadm_workbench.extract.published.hough import hough_circles, votes_needed
-from aadm_workbench.extract.published.pass_through import face_range_mm, near_is_low, passed, tops_range_mm
+from aadm_workbench.extract.published.pass_through import (
+    face_range_mm,
+    near_is_low,
+    out_of_the_concrete,
+    passed,
+    tops_range_mm,
+)
 from aadm_workbench.extract.published.ransac_plane import ransac_plane
 from aadm_workbench.extract.published.round_fits import ransac_circle, ransac_cylinder
 from aadm_workbench.model import Array, Plane, Scan

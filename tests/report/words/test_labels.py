@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aadm_workbench.assembly.file_axes import AXES_NOT_TOLD
+from aadm_workbench.assembly.group_notes import AXES_NOT_TOLD
 from aadm_workbench.errors import CameraError, ScanError
 from aadm_workbench.model import Scan
 from aadm_workbench.report.pages.fonts import FONT_FILE

@@ -8,7 +8,7 @@ import pytest
 
 from aadm_workbench.errors import CameraError, MissingDependencyError, ScanError
 from aadm_workbench.model import OPENGL_AXES, Camera, FloatArray
-from aadm_workbench.scan.formats import lzf
+from aadm_workbench.scan.formats import pcd
 from aadm_workbench.scan.read import read_scan
 from aadm_workbench.scan.write import write_pcd
 
@@ -57,7 +57,7 @@ def test_compressed_with_other_fields(tmp_path: Path) -> None:
     xyz = np.array(POINTS)
     planes = [np.arange(9, dtype="u1"), np.arange(6, dtype="<f4"), xyz[:, 2], np.arange(3, dtype="<i2"), *xyz[:, :2].T]
     body = b"".join(plane.tobytes() for plane in planes)
-    packed = lzf.compress(body)
+    packed = pcd.compress(body)
     content = header("binary_compressed", **WIDE) + struct.pack("<II", len(packed), len(body)) + packed
     np.testing.assert_array_equal(read_bytes(tmp_path, content), POINTS)
 
@@ -162,7 +162,7 @@ def test_unknown_storage_and_no_header(tmp_path: Path) -> None:
 
 def test_hostile_compressed_bodies(tmp_path: Path) -> None:
     head = header("binary_compressed")
-    packed = lzf.compress(FLOATS)
+    packed = pcd.compress(FLOATS)
 
     def refused(content: bytes, message: str) -> None:
         with pytest.raises(ScanError, match=message):
@@ -172,7 +172,7 @@ def test_hostile_compressed_bodies(tmp_path: Path) -> None:
     refused(head + struct.pack("<II", len(packed) + 1, 36) + packed, "it is cut off")
     refused(head + struct.pack("<II", len(packed), 35) + packed, "its header is wrong")
     refused(head + struct.pack("<II", len(packed), 36) + b"\xff" * len(packed), "do not unpack to 3 points")
-    refused(head + struct.pack("<II", 5, 36) + lzf.compress(b"1234"), "do not unpack to 3 points")
+    refused(head + struct.pack("<II", 5, 36) + pcd.compress(b"1234"), "do not unpack to 3 points")
     many = header("binary_compressed", WIDTH="300000000", POINTS="300000000")
     refused(many + struct.pack("<II", len(packed), 3_600_000_000) + packed, "300000000 points of 12 bytes, but")
 
@@ -185,7 +185,7 @@ def test_compressed_without_the_library_names_the_command_that_installs_it(
     def not_installed(name: str) -> None:
         raise ImportError(name)
 
-    monkeypatch.setattr(lzf, "import_module", not_installed)
+    monkeypatch.setattr(pcd, "import_module", not_installed)
     with pytest.raises(MissingDependencyError, match=r"python-neo-lzf.*pip install 'aadm-workbench\[formats\]'"):
         read_scan(tmp_path / "scan.pcd")
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.design.ifc.entity import optional
 from aadm_workbench.design.ifc.geometry.curve import Curves
 from aadm_workbench.design.ifc.geometry.placement import Placements, UnreadableGeometryError, frame, unit
+from aadm_workbench.design.ifc.names import optional
 from aadm_workbench.design.recognise.paths import Straight, joined
 from aadm_workbench.model import Array, Reason
 

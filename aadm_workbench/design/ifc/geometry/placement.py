@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.design.ifc.entity import optional
 from aadm_workbench.design.ifc.geometry.representation import body_of
+from aadm_workbench.design.ifc.names import optional
 from aadm_workbench.design.sound import FARTHEST_MM
 from aadm_workbench.model import Array, Reason
 

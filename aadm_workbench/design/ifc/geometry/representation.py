@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from aadm_workbench.design.ifc.entity import optional
+from aadm_workbench.design.ifc.names import optional
 
 _NOT_BODIES = frozenset(
     {

@@ -10,13 +10,13 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from aadm_workbench.design.ifc.entity import optional
 from aadm_workbench.design.ifc.geometry.curve import Curves
 from aadm_workbench.design.ifc.geometry.grid_placement import grid_frame
 from aadm_workbench.design.ifc.geometry.placement import NothingThereError, Placements
 from aadm_workbench.design.ifc.geometry.profile import Profiles
 from aadm_workbench.design.ifc.geometry.representation import axis_items, body_of
 from aadm_workbench.design.ifc.geometry.solids import BROKEN, Solids
+from aadm_workbench.design.ifc.names import optional
 from aadm_workbench.design.recognise.bar_courses import Course, courses, whole_bars
 from aadm_workbench.design.recognise.paths import Leg, joined
 from aadm_workbench.design.recognise.shapes import Mesh, Shape

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.design.ifc.entity import optional
 from aadm_workbench.design.ifc.geometry.curve import Curves, check_turn
 from aadm_workbench.design.ifc.geometry.kernel import Kernel
 from aadm_workbench.design.ifc.geometry.placement import (
@@ -21,6 +20,7 @@ from aadm_workbench.design.ifc.geometry.placement import (
     within,
 )
 from aadm_workbench.design.ifc.geometry.profile import Profiles
+from aadm_workbench.design.ifc.names import optional
 from aadm_workbench.design.recognise.circles import Circle
 from aadm_workbench.design.recognise.paths import Arc, rounded
 from aadm_workbench.design.recognise.shapes import Cut, HalfSpace, Loop, Mesh, Prism, Shape, SweptDisk, Turned, pieces

@@ -1,18 +1,21 @@
-"""IFC files: opened, or refused with the place and the reason; never half read in silence."""
+"""IFC files: opened, or refused with the place and the reason; never half read in silence.
+
+The IFC model in an .ifczip, the packed form that buildingSMART defines.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import re
+import zipfile
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from time import perf_counter
 from typing import Any
 
-from aadm_workbench.bounded import BoundsError, read_bounded
+from aadm_workbench.bounded import ArchiveBounds, BoundsError, entry_bytes, opened_archive, read_bounded
 from aadm_workbench.design.ifc.names import Naming
-from aadm_workbench.design.ifc.text.archive import model_in_archive
 from aadm_workbench.design.ifc.text.prepared import prepared
 from aadm_workbench.design.ifc.text.step import numbered_once
 from aadm_workbench.design.model_file import LARGEST_MODEL_BYTES
@@ -24,7 +27,12 @@ _LOG_ERROR = re.compile(r"\[error\]\s*(?:\[[^\]]*\]\s*)*(?P<text>.+)")
 _AT_OFFSET = re.compile(r"\s*at offset (?P<offset>\d+)")
 _COMMENT = re.compile(rb"/\*.*?\*/", re.DOTALL)
 _OVERWRITTEN = re.compile(r"Overwriting instance with name #(\d+)")
-_SHOWN = 4  # complaints in a message
+_SHOWN = 4  # complaints, or names, in a message
+
+IFCZIP_BOUNDS = ArchiveBounds(
+    "zip archive of a model", entries=10_000, entry_bytes=LARGEST_MODEL_BYTES, all_bytes=LARGEST_MODEL_BYTES
+)
+"""A model, and what some programs pack with it: pictures, documents."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,3 +244,31 @@ def _angle_unit(path: Path, file: Any) -> float:
 def _area_unit_mm2(path: Path, file: Any) -> float | None:
     scale = _unit(path, file, "AREAUNIT", "area")
     return None if scale is None else 1e6 * scale
+
+
+def model_in_archive(path: Path) -> bytes:
+    """The bytes of the one .ifc file in an archive.
+
+    Raises
+    ------
+    DesignError
+        Where the archive is damaged or encrypted, holds no model or several, or would burst.
+    """
+    try:
+        with opened_archive(path, IFCZIP_BOUNDS) as archive:
+            return entry_bytes(archive, _model_of(path, archive))
+    except BoundsError as error:
+        message = Reason("ifc.zip_refused", path=path, why=error)
+        raise DesignError(message) from error
+    except OSError as error:
+        raise DesignError(Reason("design.unopened", path=path, why=error.strerror)) from error
+
+
+def _model_of(path: Path, archive: zipfile.ZipFile) -> zipfile.ZipInfo:
+    parts = [part for part in archive.infolist() if not part.is_dir() and not part.filename.startswith("__MACOSX/")]
+    models = [part for part in parts if PurePosixPath(part.filename.replace("\\", "/")).suffix.lower() == ".ifc"]
+    if len(models) == 1:
+        return models[0]
+    shown = [part.filename for part in (models or parts)[:_SHOWN]] or Reason("ifc.zip_nothing")
+    what = Reason("ifc.zip_models" if models else "ifc.zip_no_model", count=len(models))
+    raise DesignError(Reason("ifc.zip_holds", path=path, what=what, shown=shown))

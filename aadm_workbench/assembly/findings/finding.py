@@ -1,0 +1,174 @@
+"""The one place where findings are made: a code, what it is about, its values, and the sentence that they fill.
+
+And what they do to a verdict: one that holds back keeps a column from passing, and from being hoisted. One scan that is
+named for two columns, or twice for one, is found by the hash of its file, whatever it is called.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from aadm_workbench.assembly.matching.match import Match
+from aadm_workbench.assembly.place import PlacedPoint, place_points
+from aadm_workbench.model import (
+    AssemblyPoint,
+    ColumnReport,
+    Extraction,
+    Finding,
+    GroupReport,
+    Kind,
+    Reason,
+    TrialReport,
+    Verdict,
+    worst,
+)
+
+NOT_MEASURED = ("mirrored", "swapped", "turn_contradicted", "other_column")
+"""What was scanned is not what was to be measured; all else that holds back leaves a verdict open."""
+
+SPOILS_ALL = (*NOT_MEASURED, "same_scan_twice", "scale_differs")
+"""These stand before whatever else is said: with them no deviation is to be believed."""
+
+_NAMED = 4  # more of them make no sentence
+
+
+def make_finding(name: str, about: Sequence[str], **values: Any) -> Finding:
+    """A finding that holds back, whose sentence is ``name``, a code with or without a part after a dot.
+
+    Parameters
+    ----------
+    name
+        The code of its sentence in :mod:`aadm_workbench.model.sentences.finding`, without the first part.
+    about
+        Labels of points, or ``sleeves``, ``rebars``, ``column``.
+    values
+        What the sentence says; numbers as they are, the sentence rounds them.
+    """
+    text = Reason(f"finding.{name}", about=about, **values)
+    return Finding(name.partition(".")[0], tuple(about), values, text, holds_back=True)
+
+
+def held_back(report: ColumnReport, findings: Sequence[Finding], superseded: Sequence[str] = ()) -> ColumnReport:
+    """The report with some findings more, in its verdicts too.
+
+    Parameters
+    ----------
+    superseded
+        Reasons that a finding says better.
+    """
+    if not findings:
+        return report
+    holding = [finding for finding in findings if finding.holds_back]
+    told = [finding.text for finding in findings if not finding.holds_back]
+    verdict = worst((report.verdict, *(_verdict_of(finding) for finding in holding)))
+    trial = report.trial_assembly
+    goes_on = report.goes_on
+    if holding and report.goes_on is Verdict.PASS and trial is not None:
+        trial = _held_trial(trial, holding)
+        goes_on = trial.verdict
+    return replace(
+        report,
+        verdict=verdict,
+        goes_on=goes_on,
+        trial_assembly=trial,
+        reasons=_reasons(report, holding, superseded),
+        notes=(*report.notes, *told),
+        findings=(*report.findings, *findings),
+    )
+
+
+def _verdict_of(finding: Finding) -> Verdict:
+    return Verdict.NOT_MEASURED if finding.code in NOT_MEASURED else Verdict.INCONCLUSIVE
+
+
+def _held_trial(trial: TrialReport, holding: Sequence[Finding]) -> TrialReport:
+    verdict = worst((trial.verdict, *(_verdict_of(finding) for finding in holding)))
+    return replace(trial, verdict=verdict, reasons=(*trial.reasons, *(finding.text for finding in holding)))
+
+
+def _reasons(report: ColumnReport, holding: Sequence[Finding], superseded: Sequence[str]) -> tuple[str, ...]:
+    """The findings first, unless a failure was found that does not hang on them."""
+    kept = [reason for reason in report.reasons if reason not in superseded]
+    first = [finding.text for finding in holding if finding.code in SPOILS_ALL or report.verdict is not Verdict.FAIL]
+    last = [finding.text for finding in holding if finding.text not in first]
+    return tuple(dict.fromkeys([*first, *kept, *last]))
+
+
+@dataclass(frozen=True, eq=False)
+class SeenGroup:
+    """The sleeves or the rebars of a column, as designed, as extracted and as matched.
+
+    ``scale_error`` is the relative standard uncertainty (k = 1) of the camera's lengths.
+    """
+
+    kind: Kind
+    design: Sequence[AssemblyPoint]
+    extraction: Extraction
+    match: Match
+    scale_error: float = 0.0
+
+    def placed(self) -> list[tuple[AssemblyPoint, PlacedPoint]]:
+        """Each design point that was measured, with its measurement, in the first placement."""
+        if not self.match:
+            return []
+        points = place_points(self.extraction, self.match.placements[0])
+        return [(target, point) for target, point in zip(self.design, points, strict=True) if point is not None]
+
+
+@dataclass(frozen=True)
+class _Use:
+    """One file of one group of one column."""
+
+    column: int
+    group: str
+    source: str
+    sha256: str
+
+
+def with_same_scans(columns: Sequence[ColumnReport]) -> tuple[ColumnReport, ...]:
+    """The columns of a job, each with a finding where a scan of it was used elsewhere too."""
+    uses = [use for number, column in enumerate(columns) for use in _uses(number, column)]
+    by_hash: dict[str, list[_Use]] = {}
+    for use in uses:
+        by_hash.setdefault(use.sha256, []).append(use)
+    twice = {key: same for key, same in by_hash.items() if len(same) > 1}
+    if not twice:
+        return tuple(columns)
+    return tuple(held_back(column, _findings(number, columns, twice)) for number, column in enumerate(columns))
+
+
+def _listed(names: Sequence[str]) -> str:
+    """The first of some columns, and how many more there are."""
+    more = f", … (+{len(names) - _NAMED})" if len(names) > _NAMED else ""
+    return ", ".join(names[:_NAMED]) + more
+
+
+def _uses(number: int, column: ColumnReport) -> Iterator[_Use]:
+    for name, group in (("sleeves", column.sleeves), ("rebars", column.rebars)):
+        if isinstance(group, GroupReport):
+            files = zip(group.source.split(", "), group.sha256.split(", "), strict=False)
+            yield from (_Use(number, name, source, sha256) for source, sha256 in files if sha256)
+
+
+def _findings(number: int, columns: Sequence[ColumnReport], twice: dict[str, list[_Use]]) -> list[Finding]:
+    found = []
+    for same in twice.values():
+        own = [use for use in same if use.column == number]
+        others = list(dict.fromkeys(columns[use.column].id for use in same if use.column != number))
+        if own and others:
+            use = own[0]
+            found.append(
+                make_finding(
+                    "same_scan_twice.columns",
+                    [use.group],
+                    group=use.group,
+                    source=use.source,
+                    others=_listed(others),
+                )
+            )
+        if len(own) > 1:
+            about = list(dict.fromkeys(use.group for use in own))
+            found.append(make_finding("same_scan_twice.column", about, source=own[0].source))
+    return found
