@@ -70,12 +70,12 @@ class PatternPlace:
     ``u_mm`` is the standard uncertainty of the offset per axis.
     """
 
+    verdict: Verdict
     offset_mm: Vector2 | None = None
     u_mm: Vector2 | None = None
     turn_deg: float | None = None
     u_turn_deg: float | None = None
     limit_mm: float | None = None
-    verdict: Verdict = Verdict.NOT_ASSESSED
     probability: float | None = None
     reason: str = ""
 

@@ -196,6 +196,7 @@ def _pattern(
         u[axis] = math.sqrt((below_var + above_var + apart**2) / 4.0 + fit_u_mm**2)
     turn, turn_u = _mean_turn(list(lines.values()))
     found = PatternPlace(
+        Verdict.NOT_ASSESSED,
         (float(offset[0]), float(offset[1])),
         (float(u[0]), float(u[1])),
         -math.degrees(turn),

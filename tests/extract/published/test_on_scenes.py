@@ -89,7 +89,7 @@ def test_fusion_takes_given_thresholds(scenes: Scenes, kind: Kind) -> None:
     scan = scenes[kind].scan()
     rng = np.random.default_rng(1)
     given = recipe(scan, DIAMETER_MM[kind], rng, z_range_mm=(780.0, 825.0))
-    assert given.quality["z_range_mm"] == [780.0, 825.0]
+    assert given.quality["z_range_mm"] == (780.0, 825.0)
     assert len(given.points) == 12
     beside = recipe(scan, DIAMETER_MM[kind], rng, z_range_mm=(100.0, 200.0))
     assert beside.points == ()
