@@ -59,7 +59,7 @@ def bcf() -> Container:
 
     with tempfile.TemporaryDirectory() as folder:
         sound = Path(folder) / "sound.bcf"
-        write_bcf(report, sound, snapshots=pictures)
+        write_bcf(typed(report), sound, snapshots=pictures)
         entries = entries_of(sound)
     return Container(".bcf", lambda rng: harmed(entries, rng), read)
 
