@@ -49,7 +49,11 @@
     const link = event.target.closest("a[href]");
     if (link && link.getAttribute("href") === location.hash) { follow(); }
   });
-  byId("open-all").addEventListener("click", () => columns.forEach((column) => open(column, true)));
+  // Guessed heights keep many open columns quick, and move what is below them once they are known: none for a few.
+  byId("open-all").addEventListener("click", () => {
+    root.classList.add("many");
+    columns.forEach((column) => open(column, true));
+  });
   byId("close-all").addEventListener("click", () => columns.forEach((column) => open(column, false)));
 
   // Filter and search.

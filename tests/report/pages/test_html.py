@@ -206,6 +206,32 @@ def test_pages_glide_only_for_those_who_want_it(
     assert page.evaluate("getComputedStyle(document.documentElement).scrollBehavior") == scrolling
 
 
+def test_nothing_moves_while_the_page_is_scrolled(page: Any, floor: dict[str, Any], tmp_path: Path) -> None:
+    """What a person is about to click stays where it is, also under a column that was open from the start."""
+    opened(page, floor, tmp_path)
+    heights = []
+    for place in (0, 1, 0.5, 1):
+        page.evaluate("share => scrollTo(0, share * document.documentElement.scrollHeight)", place)
+        page.wait_for_timeout(150)
+        heights.append(page.evaluate("document.documentElement.scrollHeight"))
+    assert len(set(heights)) == 1, heights
+
+
+def test_chinese_in_an_english_page_is_no_row_of_boxes(page: Any, floor: dict[str, Any], tmp_path: Path) -> None:
+    """Names of columns, and the button that asks for Chinese, on a machine without any Chinese font, too."""
+    opened(page, floor, tmp_path)
+    page.wait_for_function("document.fonts.status === 'loaded'")
+    session = page.context.new_cdp_session(page)
+    session.send("DOM.enable")
+    session.send("CSS.enable")
+    root = session.send("DOM.getDocument")["root"]["nodeId"]
+    button = session.send("DOM.querySelector", {"nodeId": root, "selector": "#language"})
+    assert page.locator("#language").inner_text() == "中文"
+    fonts = session.send("CSS.getPlatformFontsForNode", {"nodeId": button["nodeId"]})["fonts"]
+    assert [font["familyName"] for font in fonts if "DejaVu" in font["familyName"]] == []
+    assert sum(font["glyphCount"] for font in fonts) == 2
+
+
 def test_view_of_the_points_is_drawn_and_turns(page: Any, floor: dict[str, Any], tmp_path: Path) -> None:
     opened(page, floor, tmp_path)
     page.locator(".col .head").nth(1).click()
