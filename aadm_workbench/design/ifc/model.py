@@ -288,16 +288,6 @@ def ends_in_walls(opened: OpenedIfc, shapes: Shapes, ends: Sequence[BarEnd]) -> 
         with shapes.guarded(wall):
             _note_ends(wall, shapes, ends, tops, found)
     return found
-    tops = np.array([end.top for end in ends])
-    for wall in opened.file.by_type("IfcWall"):
-        called = ifc_names.called(wall)
-        own_ids = set(_own_ids(wall))
-        for index in {*np.flatnonzero(_inside(wall, shapes, tops)).tolist()}:
-            found.setdefault(index, called)
-        for index, end in enumerate(ends):
-            if end.wholes & own_ids:
-                found.setdefault(index, called)
-    return found
 
 
 def _note_ends(wall: Any, shapes: Shapes, ends: Sequence[BarEnd], tops: Array, found: dict[int, str]) -> None:
