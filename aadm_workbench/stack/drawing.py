@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import unicodedata
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -19,6 +20,7 @@ WIDTH = 1000.0
 _MARGIN, _HIGHEST = 80.0, 640.0  # about the columns, for arrows and names; of the drawing
 _LONGEST = 62.0  # of an arrow: within the margin, and longer than the square of its column
 _HALF_COLUMN, _HALF_BEAM = 15.0, 5.0  # squares that hold a sign; beams that are told from axes
+_NAME_SIZE = 13.0  # of letters, as in the plan of the report
 _ROUND = (1.0, 2.0, 5.0)  # factors of a scale that people can divide by
 _SMALLEST_MM = 0.05  # prints as 0.1
 
@@ -114,8 +116,15 @@ def _column(column: StackedColumn, frame: _Frame, times: int) -> Iterator[Shape]
         style = "not_measured" if column.basis == "bars" else "move"
         yield arrow((x, y), (x + float(dx), y + float(dy)), style, 12.0)
     off = "" if column.top is None or column.top.judged.value is None else f" {column.top.judged.value:.1f}"
-    at = (x - _HALF_COLUMN + 2.0, y - _HALF_COLUMN - 11.0)  # beside the beams that come from below
-    yield Label(at, f"{_short(column.measured.id)}{off}", 13.0, "text", "end", bold=True)
+    name = f"{_short(column.measured.id)}{off}"
+    # Beside the beams that come from below, and within the drawing.
+    at = (max(x - _HALF_COLUMN + 2.0, _reach(name, _NAME_SIZE)), y - _HALF_COLUMN - 11.0)
+    yield Label(at, name, _NAME_SIZE, "text", "end", bold=True)
+
+
+def _reach(text: str, size: float) -> float:
+    """How wide a text is drawn at most: Chinese signs fill their square, others two thirds of it."""
+    return size * sum(1.0 if unicodedata.east_asian_width(sign) in "WF" else 0.67 for sign in text)
 
 
 def _short(name: str) -> str:
