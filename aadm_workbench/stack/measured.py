@@ -1,22 +1,30 @@
-"""What report.json tells of a column, as far as the tower needs it: the one place of this room that reads it."""
+"""What a report tells of a column, as far as the tower needs it: the one place of this room that reads it."""
 
 from __future__ import annotations
 
-import json
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
+from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.pose.play import Gap, pair_gaps
-from aadm_workbench.model import Array, BestPair, JobReport, Verdict
+from aadm_workbench.model import (
+    Array,
+    ColumnReport,
+    GroupReport,
+    HoistingReport,
+    JobReport,
+    Kind,
+    PointResult,
+    TrialReport,
+    Verdict,
+)
+from aadm_workbench.model.results import AimedPose, TrialPose
 from aadm_workbench.report.directions import Compass, Heading, compass_of
-from aadm_workbench.report.json import encoded_report
 from aadm_workbench.report.words.labels import Phrase
-
-_Json = Mapping[str, Any]
 
 _AS_ASKED = 1e-3
 """mm and degrees: rounding of what was asked for."""
@@ -107,7 +115,6 @@ class MeasuredColumn:
     told: tuple[float, float, float] | None = None
     told_is_cut: bool = False
     ground: Ground | None = None
-    ground_reason: str = ""
     hung: Hung | None = None
     radius_mm: float | None = None
     compass: Compass = PLAIN
@@ -120,141 +127,128 @@ class MeasuredColumn:
 
 @dataclass(frozen=True, eq=False)
 class MeasuredFloor:
-    """One report: its columns, the model it was checked against, the settings and rules that it carries."""
+    """One report: its name, its columns, and how its job decides."""
 
     name: str
     columns: tuple[MeasuredColumn, ...]
-    model_sha256: str | None
     decision: str
 
 
-def measured_floor(typed: JobReport) -> MeasuredFloor:
-    """A report that was read, as this room needs it."""
-    report: _Json = json.loads(encoded_report(typed))
-    compasses = [compass_of(typed.columns, column) for column in typed.columns]
-    return MeasuredFloor(
-        name=str(report["job"]["name"]),
-        columns=tuple(map(_column, report["columns"], compasses)),
-        model_sha256=(report["model"] or {}).get("sha256"),
-        decision=str(report["job"].get("decision", "guarded")),
-    )
+def measured_floor(report: JobReport) -> MeasuredFloor:
+    """A report as this room needs it."""
+    columns = (_column(column, compass_of(report.columns, column)) for column in report.columns)
+    return MeasuredFloor(str(report.job["name"]), tuple(columns), str(report.job.get("decision", "guarded")))
 
 
-def _column(column: _Json, compass: Compass) -> MeasuredColumn:
-    trial = column["trial_assembly"] or {}
-    pose = trial.get("best") or trial.get("minimax")
-    sleeves, rebars = (_points(column[kind]) for kind in ("sleeves", "rebars"))
-    ground, why = _ground(column["rebars"])
+def _column(column: ColumnReport, compass: Compass) -> MeasuredColumn:
+    trial = column.trial_assembly or TrialReport(Verdict.NOT_ASSESSED)
+    pose, target, window = trial.shown, trial.target, trial.window
+    points = _Points.of(column)
     return MeasuredColumn(
-        id=column["id"],
-        global_id=column["global_id"],
-        storey=column["storey"],
-        grid=column["grid"],
-        size_mm=None if column["size_mm"] is None else (column["size_mm"][0], column["size_mm"][1]),
-        T_model_column=None if column["T_model_column"] is None else np.array(column["T_model_column"]),
-        verdict=Verdict(column["verdict"]),
-        goes_on=Verdict(column["goes_on"]),
-        reason=next(iter(column["reasons"]), ""),
-        pairs=tuple(_pairs(pose, sleeves, rebars, trial.get("embedded_length_mm"))),
-        T_bars_sleeves=None if pose is None else np.linalg.inv(np.array(pose["T_sleeves_rebars"])),
-        turn_deg=float(trial.get("turn_deg") or 0.0),
-        window=trial.get("window"),
-        told=_told(trial.get("target")),
-        told_is_cut=_is_cut(trial.get("target")),
-        ground=ground,
-        ground_reason=why,
-        hung=_hung(column["hoisting"], sleeves, rebars),
+        id=column.id,
+        global_id=column.global_id,
+        storey=column.storey,
+        grid=column.grid,
+        size_mm=column.size_mm,
+        T_model_column=column.T_model_column,
+        verdict=column.verdict,
+        goes_on=column.goes_on,
+        reason=next(iter(column.reasons), ""),
+        pairs=() if pose is None else tuple(_pairs(pose, points, trial.embedded_length_mm)),
+        T_bars_sleeves=None if pose is None else np.asarray(np.linalg.inv(pose.T_sleeves_rebars), np.float64),
+        turn_deg=trial.turn_deg,
+        window=None if window is None else {name: getattr(window, name) for name in ("dx_mm", "dy_mm", "yaw_deg")},
+        told=None if target is None else (target.dx_mm, target.dy_mm, target.yaw_deg),
+        told_is_cut=target is not None and _is_cut(target),
+        ground=None if column.rebars is None else _ground(column.rebars),
+        hung=_hung(column.hoisting, points),
         radius_mm=_radius_mm(column),
         compass=compass,
     )
 
 
-def _points(group: _Json | None) -> dict[str, _Json]:
-    return {point["label"]: point for point in (group or {}).get("points", ())}
+class _Points(NamedTuple):
+    """Sleeves and rebars of a column by their labels."""
+
+    sleeves: Mapping[str, PointResult]
+    rebars: Mapping[str, PointResult]
+
+    @classmethod
+    def of(cls, column: ColumnReport) -> _Points:
+        return cls(*({point.label: point for point in column.points(kind)} for kind in Kind))
+
+    def pair(self, sleeve: str, rebar: str) -> tuple[PointResult | None, PointResult | None]:
+        return self.sleeves.get(sleeve), self.rebars.get(rebar)
 
 
-def _radius_mm(column: _Json) -> float | None:
-    for kind in ("rebars", "sleeves"):
-        places = [point["design_mm"][:2] for point in _points(column[kind]).values()]
+def _place(point: PointResult) -> Array:
+    """Where a point stands in the plan of the column frame, (2,) mm: as measured, else as designed."""
+    return np.array((point.aligned_mm or point.design_mm)[:2])
+
+
+def _radius_mm(column: ColumnReport) -> float | None:
+    for kind in (Kind.REBAR, Kind.SLEEVE):
+        places = [point.design_mm[:2] for point in column.points(kind)]
         if places and (square := float((np.array(places) ** 2).sum(axis=1).mean())) > 0.0:
             return math.sqrt(square)
     return None
 
 
-def _told(target: _Json | None) -> tuple[float, float, float] | None:
-    return None if target is None else (target["dx_mm"], target["dy_mm"], target["yaw_deg"])
+def _is_cut(target: AimedPose) -> bool:
+    told = target.dx_mm, target.dy_mm, target.yaw_deg
+    return not np.allclose(told, target.asked, rtol=0.0, atol=_AS_ASKED)
 
 
-def _is_cut(target: _Json | None) -> bool:
-    told = _told(target)
-    return target is not None and told is not None and not np.allclose(told, target["asked"], rtol=0.0, atol=_AS_ASKED)
+def _pairs(pose: TrialPose, points: _Points, length_mm: float | None) -> Iterator[MeasuredPair]:
+    for pair in pose.pairs:
+        sleeve, rebar = points.pair(pair.sleeve, pair.rebar)
+        if sleeve is not None:
+            gaps = tuple(pair_gaps(pair, [_lean(rebar), _lean(sleeve)], length_mm))
+            yield MeasuredPair(pair.sleeve, pair.rebar, _place(sleeve), np.array(pair.offset_mm), pair.u_mm, gaps)
 
 
-def _pairs(
-    pose: _Json | None, sleeves: dict[str, _Json], rebars: dict[str, _Json], length_mm: float | None
-) -> Iterator[MeasuredPair]:
-    for pair in (pose or {"pairs": ()})["pairs"]:
-        sleeve, rebar = sleeves.get(pair["sleeve"]), rebars.get(pair["rebar"])
-        place = None if sleeve is None else sleeve["aligned_mm"] or sleeve["design_mm"]
-        if place is not None:
-            gaps = tuple(pair_gaps(_best_pair(pair), [_lean(rebar), _lean(sleeve)], length_mm))
-            offset = np.array(pair["offset_mm"])
-            yield MeasuredPair(pair["sleeve"], pair["rebar"], np.array(place[:2]), offset, pair["u_mm"], gaps)
-
-
-def _best_pair(pair: _Json) -> BestPair:
-    """A pair as the room of the trial knows it; older reports have no room in theirs."""
-    known = {item.name for item in fields(BestPair)}
-    return BestPair(**{key: value for key, value in pair.items() if key in known})
-
-
-def _lean(point: _Json | None) -> Array | None:
+def _lean(point: PointResult | None) -> Array | None:
     """How far an axis moves in the plan, (2,), for each mm along the column."""
-    axis = None if point is None else point.get("axis")
+    axis = None if point is None else point.axis
     return None if axis is None else np.array(axis[:2]) / axis[2]
 
 
-def _ground(rebars: _Json | None) -> tuple[Ground | None, str]:
+def _ground(rebars: GroupReport) -> Ground | None:
     """The motion that takes the bars from where their own fit has them to where control points have them."""
-    absolute = (rebars or {}).get("absolute")
-    if not absolute or absolute.get("offset_mm") is None or absolute.get("turn_u_deg") is None:
-        return None, (absolute or {}).get("reason", "")
-    own = _points(rebars)
-    known = [point for point in absolute["points"] if own.get(point["label"], {}).get("aligned_mm") is not None]
-    if len(known) < 2:
-        return None, absolute.get("reason", "")
-    fitted = np.array([own[point["label"]]["aligned_mm"][:2] for point in known])
-    design = np.array([own[point["label"]]["design_mm"][:2] for point in known])
-    planar = rigid_motion(fitted, design + np.array([point["offset_mm"] for point in known]))
-    u_mm, u_turn = float(absolute["u_mm"] or 0.0), np.radians(absolute["turn_u_deg"])
-    return Ground(planar, np.diag(np.square([u_mm, u_mm, u_turn]))), ""
+    absolute = rebars.absolute
+    if absolute is None or absolute.offset_mm is None or absolute.turn_u_deg is None:
+        return None
+    own = {point.label: point for point in rebars.points}
+    fitted, placed = [], []
+    for point in absolute.points:
+        bar = own.get(point.label)
+        if bar is not None and bar.aligned_mm is not None and point.offset_mm is not None:
+            fitted.append(bar.aligned_mm[:2])
+            placed.append(np.array(bar.design_mm[:2]) + point.offset_mm)
+    if len(fitted) < 2:
+        return None
+    u_mm, u_turn = absolute.u_mm or 0.0, math.radians(absolute.turn_u_deg)
+    return Ground(rigid_motion(np.array(fitted), np.array(placed)), np.diag(np.square([u_mm, u_mm, u_turn])))
 
 
-def _hung(frames: list[_Json], sleeves: dict[str, _Json], rebars: dict[str, _Json]) -> Hung | None:
+def _hung(frames: Sequence[HoistingReport], points: _Points) -> Hung | None:
     """The last frame, where in it the column hangs so that it may be let down."""
-    if not frames or frames[-1]["verdict"] != Verdict.PASS.value:
+    if not frames or frames[-1].verdict is not Verdict.PASS:
         return None
     rows = []
-    for pair in frames[-1]["pairs"]:
-        sleeve, rebar = sleeves.get(pair["sleeve"]), rebars.get(pair["rebar"])
-        if sleeve and rebar and pair["offset_mm"] is not None and pair["u_mm"]:
-            place, bar = (np.array((p["aligned_mm"] or p["design_mm"])[:2]) for p in (sleeve, rebar))
-            rows.append((place, bar - np.array(pair["offset_mm"]), pair["u_mm"]))
+    for pair in frames[-1].pairs:
+        sleeve, rebar = points.pair(pair.sleeve, pair.rebar)
+        if sleeve is not None and rebar is not None and pair.offset_mm is not None and pair.u_mm:
+            rows.append((_place(sleeve), _place(rebar) - np.array(pair.offset_mm), pair.u_mm))
     if len(rows) < 2:
         return None
     places, over, u_mm = zip(*rows, strict=True)
-    return Hung(frames[-1]["source"], np.array(places), np.array(over), np.array(u_mm))
+    return Hung(frames[-1].source, np.array(places), np.array(over), np.array(u_mm))
 
 
 def rigid_motion(source: Array, target: Array, weights: Array | None = None) -> Array:
-    """Least squares motion in the plan, (3,) dx, dy mm and yaw radians, of points (n, 2) onto others (n, 2).
-
-    Complex numbers: yaw is the argument of Σ w·conj(a)·b of the centred points.
-    """
-    w = np.ones(len(source)) if weights is None else weights
-    a, b = (points[:, 0] + 1j * points[:, 1] for points in (source, target))
-    mean_a, mean_b = np.average(a, weights=w), np.average(b, weights=w)
-    turn = np.sum(w * np.conj(a - mean_a) * (b - mean_b))
-    unit = turn / abs(turn) if abs(turn) > 0.0 else 1.0
-    shift = mean_b - unit * mean_a
-    return np.array([shift.real, shift.imag, np.angle(unit)])
+    """Least squares motion in the plan, (3,) dx, dy mm and yaw radians, of points (n, 2) onto others (n, 2)."""
+    fit = fit_eopa_planar(source, target, weights)
+    if isinstance(fit, NoFit):  # points that all lie on one spot do not turn
+        return np.array([*np.average(target - source, axis=0, weights=weights), 0.0])
+    return np.array([*fit.t, fit.yaw])

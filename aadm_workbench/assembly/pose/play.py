@@ -17,7 +17,7 @@ from scipy.optimize import minimize
 from scipy.stats import norm
 
 from aadm_workbench.assembly.decision import PASS_PROBABILITY
-from aadm_workbench.model import Array, PairResult
+from aadm_workbench.model import Array, BestPair, PairResult
 
 _STEPS_BACK = 40
 """Halvings of the way back to the trial's pose where rounding left a limit by a hair: to a millionth of a millionth."""
@@ -60,7 +60,8 @@ def pair_gaps(pair: PairResult, leans: Sequence[Array | None], length_mm: float 
         yield Gap(offset, pair.limit_mm, u_mm, is_of_centres=True)
     if pair.clearance_mm is None:
         return
-    allowance_mm, u_room_mm = getattr(pair, "allowance_mm", None), getattr(pair, "u_room_mm", None) or u_mm
+    allowance_mm = pair.allowance_mm if isinstance(pair, BestPair) else None
+    u_room_mm = (pair.u_room_mm if isinstance(pair, BestPair) else None) or u_mm
     if allowance_mm is None or length_mm is None or any(lean is None for lean in leans):
         yield Gap(np.zeros(2), pair.clearance_mm, u_room_mm)
         return
