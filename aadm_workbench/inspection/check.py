@@ -347,20 +347,27 @@ def _report(
     groups = {kind.plural: measured[kind].report for kind in measured}
     asked = {name: report for name, report in groups.items() if name in checks}
     verdict, goes_on, reasons = sum_up(asked.get(Kind.SLEEVE.plural), asked.get(Kind.REBAR.plural), trial)
+    return replace(
+        report_on(design, verdict, goes_on, reasons),
+        sleeves=groups.get(Kind.SLEEVE.plural),
+        rebars=groups.get(Kind.REBAR.plural),
+        trial_assembly=trial,
+        rules=rules_of_the_erected_column(profile),
+    )
+
+
+def report_on(design: ColumnDesign, verdict: Verdict, goes_on: Verdict, reasons: tuple[str, ...]) -> ColumnReport:
+    """A report on a column that holds what its design says of it, and nothing measured."""
     return ColumnReport(
         id=design.id,
         verdict=verdict,
         goes_on=goes_on,
         reasons=reasons,
-        sleeves=groups.get(Kind.SLEEVE.plural),
-        rebars=groups.get(Kind.REBAR.plural),
-        trial_assembly=trial,
         global_id=design.global_id,
         piece_mark=design.piece_mark,
         storey=design.storey,
         grid=design.grid,
         size_mm=design.size_mm,
         T_model_column=design.T_model_column,
-        rules=rules_of_the_erected_column(profile),
         notes=design.warnings,
     )

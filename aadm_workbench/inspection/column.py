@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 
 from aadm_workbench.errors import AadmError, DesignError
-from aadm_workbench.inspection.check import ColumnScans, check_column
+from aadm_workbench.inspection.check import ColumnScans, check_column, report_on
 from aadm_workbench.inspection.stopwatch import Stopwatch
 from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.model import ColumnDesign, ColumnReport, Kind, Reason, Scan, Verdict
@@ -81,20 +81,9 @@ def lost(task: ColumnTask, reason: str) -> ColumnOutcome:
 
 
 def _bare_report(task: ColumnTask, verdict: Verdict, reason: str) -> ColumnReport:
-    report = ColumnReport(task.column.id, verdict, Verdict.NOT_ASSESSED, (reason,))
-    design = task.design
-    if design is None:
-        return report
-    return replace(
-        report,
-        global_id=design.global_id,
-        piece_mark=design.piece_mark,
-        storey=design.storey,
-        grid=design.grid,
-        size_mm=design.size_mm,
-        T_model_column=design.T_model_column,
-        notes=design.warnings,
-    )
+    if task.design is None:
+        return ColumnReport(task.column.id, verdict, Verdict.NOT_ASSESSED, (reason,))
+    return replace(report_on(task.design, verdict, Verdict.NOT_ASSESSED, (reason,)), id=task.column.id)
 
 
 def read_scans(task: ColumnTask, design: ColumnDesign) -> ColumnScans:
