@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from aadm_workbench.extract.method import extract
+from aadm_workbench.extract.sample import thinned
 from aadm_workbench.extract.section.outline import SIDES, section_edges
 from aadm_workbench.model import Array, Camera, Kind, Reason, Scan
 from aadm_workbench.scan.read import read_scan
@@ -27,6 +28,7 @@ from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_foot, random_
 _SCANS = Path(__file__).resolve().parents[1] / "tests" / "fringe_scans"
 _SIZES_MM = {"field": 600.0, "lab": 250.0}
 _COVERAGE = 1.96
+_SAMPLE = 90_000
 
 
 @dataclass
@@ -42,7 +44,7 @@ class Edges:
         rng = np.random.default_rng(0)
         sleeves = extract(scan, Kind.SLEEVE, diameter_mm, "refined", rng)
         outline = design / 2.0 * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-        found = section_edges(scan, sleeves, T_scan_column, outline, rng)
+        found = section_edges(scan, thinned(scan, _SAMPLE, rng), sleeves, T_scan_column, outline)
         for side in SIDES:
             edge = found[side]
             if isinstance(edge, Reason):

@@ -9,7 +9,7 @@ import numpy as np
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.matching.match import Match
 from aadm_workbench.assembly.section.inspect import inspect_section
-from aadm_workbench.extract.sample import thinned
+from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.extract.section.face_heights import FaceHeights, face_heights
 from aadm_workbench.extract.section.outline import section_edges
 from aadm_workbench.model import Array, ColumnDesign, Extraction, Profile, Scan
@@ -36,26 +36,26 @@ def section_of(
     T_column_scan = match.placements[0].T_design_scan
     middle, half = np.array(design.section_middle_mm), np.array(design.size_mm) / 2.0
     outline = middle + half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-    seen = section_edges(scan, extraction, np.asarray(np.linalg.inv(T_column_scan), np.float64), outline, rng)
-    heights = _heights(design, scan, extraction, T_column_scan, middle, half, rng)
+    sample = thinned(scan, _SAMPLE, rng)
+    T_scan_column = np.asarray(np.linalg.inv(T_column_scan), np.float64)
+    seen = section_edges(scan, sample, extraction, T_scan_column, outline)
+    heights = _heights(design, sample, extraction, T_column_scan, middle, half)
     return inspect_section(design, seen, heights, profile, fit_u_mm=_fit_u_mm(extraction), decision=decision)
 
 
 def _heights(
     design: ColumnDesign,
-    scan: Scan,
+    sample: Thinned,
     extraction: Extraction,
     T_column_scan: Array,
     middle: Array,
     half: Array,
-    rng: np.random.Generator,
 ) -> FaceHeights | None:
     assert extraction.plane is not None
     if extraction.plane.residual_mm > _ROUGH_FACE_MM:
         return None
     mouths = np.array([point.centre[:2] for point in design.sleeves])
     radius_mm = max(point.diameter_mm for point in design.sleeves) / 2.0
-    sample = thinned(scan, _SAMPLE, rng)
     return face_heights(sample, extraction.plane, T_column_scan, middle - half, middle + half, mouths, radius_mm)
 
 

@@ -47,7 +47,7 @@ class EdgeLine:
 
     ``normal`` (2,) points out of the face, ``along`` (2,) is to its left. ``covariance`` (2, 2) is of offset and turn;
     ``shared_u_mm`` is the part of the offset's that all edges of the face share with one sign, as a radius does.
-    ``seen`` is the share of the edge that was seen, ``scatter_mm`` that of its strips.
+    ``seen`` is the share of the edge that was seen.
     """
 
     normal: Array
@@ -58,7 +58,6 @@ class EdgeLine:
     covariance: Array
     shared_u_mm: float
     seen: float
-    scatter_mm: float
     chips: tuple[Chip, ...]
 
 
@@ -95,7 +94,6 @@ def edge_line(samples: FaceSamples, start: Array, end: Array, mouths: KnownMouth
         covariance,
         float(np.linalg.norm(spans_mm) / np.sqrt(12.0)),
         found.strips.seen,
-        found.fit.scatter,
         chips_of(found.strips, found.fit, line.middle_mm),
     )
 

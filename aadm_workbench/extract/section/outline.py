@@ -8,7 +8,7 @@ import numpy as np
 
 from aadm_workbench.extract.foot_face import FACE_BAND_MM
 from aadm_workbench.extract.plane import in_plane
-from aadm_workbench.extract.sample import thinned
+from aadm_workbench.extract.sample import Thinned
 from aadm_workbench.extract.section.edge_lines import EdgeLine, edge_line
 from aadm_workbench.extract.section.face_samples import face_samples, from_face, outline_on_face
 from aadm_workbench.extract.section.rims import KnownMouths
@@ -18,7 +18,6 @@ from aadm_workbench.model import Array, Extraction, Plane, Reason, Scan
 SIDES = ("-y", "+x", "+y", "-x")
 """Edges in order, counter-clockwise seen from above; the column's own directions."""
 
-_SAMPLE = 90_000  # as of the sleeves
 _BAND_NOISES = 4.0  # of the face's own scatter; a camera that scatters more finds the face in a thicker layer
 
 
@@ -41,12 +40,14 @@ class SeenEdge:
 
 
 def section_edges(
-    scan: Scan, extraction: Extraction, T_scan_column: Array, outline: Array, rng: np.random.Generator
+    scan: Scan, sample: Thinned, extraction: Extraction, T_scan_column: Array, outline: Array
 ) -> dict[str, SeenEdge | Reason]:
     """Edges of the face by their sides, or why one is not measured.
 
     Parameters
     ----------
+    sample
+        Of the scan, thinned.
     extraction
         The sleeves of this scan: its plane, and mouths whose edges show what the camera does to edges.
     outline
@@ -57,7 +58,7 @@ def section_edges(
         return dict.fromkeys(SIDES, Reason("extract.section_no_face"))
     band_mm = max(FACE_BAND_MM, _BAND_NOISES * face.residual_mm)
     corners = outline_on_face(outline, T_scan_column, face)
-    samples = face_samples(scan, thinned(scan, _SAMPLE, rng), face, band_mm, corners)
+    samples = face_samples(scan, sample, face, band_mm, corners)
     if samples is None:
         return dict.fromkeys(SIDES, Reason("extract.section_thin"))
     mouths = _mouths(extraction)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from aadm_workbench.extract.sample import thinned
 from aadm_workbench.extract.section.outline import SIDES, SeenEdge, section_edges
 from aadm_workbench.model import Array, Reason, Scan
 from tests.extract.section.ideal_face import IdealFace, T_scan_column, scanned
@@ -33,7 +34,8 @@ def distance_outwards(corners: Array, side: str) -> float:
 
 def edges_of(face: IdealFace, scan_and_points: tuple, T: Array | None = None) -> dict[str, SeenEdge | Reason]:
     scan, extraction = scan_and_points
-    return section_edges(scan, extraction, T_scan_column() if T is None else T, DESIGN, np.random.default_rng(0))
+    sample = thinned(scan, 90_000, np.random.default_rng(0))
+    return section_edges(scan, sample, extraction, T_scan_column() if T is None else T, DESIGN)
 
 
 def errors(face: IdealFace, edges: dict[str, SeenEdge | Reason]) -> dict[str, float]:
