@@ -44,7 +44,7 @@ def length(text: str) -> float:
 
 def memory_size(text: str) -> int:
     """A size of memory with its unit, in bytes."""
-    size = int(_quantity(text, _BYTES, "2GB or 600MB"))
+    size = int(_quantity(text, _BYTES, "limit; write 2GB or 600MB"))
     if size < LEAST_MEMORY_BYTES:
         raise argparse.ArgumentTypeError(f"{text!r} is too little memory to check anything; give 600MB or more")
     return size
@@ -52,20 +52,17 @@ def memory_size(text: str) -> int:
 
 def time_span(text: str) -> float:
     """A time with its unit, in seconds."""
-    return _quantity(text, _SECONDS, "90s, 15min or 1h")
-
-
-def _quantity(text: str, units: dict[str, float] | dict[str, int], example: str) -> float:
-    found = re.fullmatch(r"(\d+(?:\.\d+)?) ?([a-z]+)", text.strip().lower())
-    unit = units.get(found[2]) if found else None
-    if found is None or unit is None or float(found[1]) == 0.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is no limit; write {example}")
-    return float(found[1]) * unit
+    return _quantity(text, _SECONDS, "limit; write 90s, 15min or 1h")
 
 
 def duration(text: str) -> float:
     """A time, in seconds: 2, 2s, 500ms, 1min."""
-    found = re.fullmatch(r"(\d+(?:\.\d+)?)\s*(s|ms|min|)", text.strip())
-    if found is None or float(found[1]) == 0.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is no time; write 2s, 500ms or 1min")
-    return float(found[1]) * _UNITS_S[found[2]]
+    return _quantity(text, _UNITS_S, "time; write 2s, 500ms or 1min")
+
+
+def _quantity(text: str, units: dict[str, float] | dict[str, int], wanted: str) -> float:
+    found = re.fullmatch(r"(\d+(?:\.\d+)?)\s*([a-z]*)", text.strip().lower())
+    unit = units.get(found[2]) if found else None
+    if found is None or unit is None or float(found[1]) == 0.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is no {wanted}")
+    return float(found[1]) * unit

@@ -80,14 +80,14 @@ class ModbusLink:
 def registers_of(snapshot: Snapshot, heartbeat: int) -> list[int]:
     """The registers of a snapshot, in order, 16 bits each."""
     has_numbers = snapshot.quality in (Quality.GOOD, Quality.UNCERTAIN)
-    said = (
-        snapshot.ready,
-        snapshot.fresh,
-        snapshot.still,
-        snapshot.oriented,
-        has_numbers,
-        snapshot.quality is Quality.UNCERTAIN,
-    )
+    said = {
+        "ready": snapshot.ready,
+        "fresh": snapshot.fresh,
+        "still": snapshot.still,
+        "oriented": snapshot.oriented,
+        "numbers": has_numbers,
+        "uncertain": snapshot.quality is Quality.UNCERTAIN,
+    }
     age_s = None if snapshot.captured_s is None else max(0.0, snapshot.now_s - snapshot.captured_s)
     values = (
         snapshot.sequence,
@@ -104,7 +104,7 @@ def registers_of(snapshot: Snapshot, heartbeat: int) -> list[int]:
             )
         ),
     )
-    field = sum(1 << place for place, bit in enumerate(said) if bit)
+    field = sum(1 << place for place, name in enumerate(BITS) if said[name])
     return [field, heartbeat & 0xFFFF, *(half for value in values for half in _halves(value))]
 
 
