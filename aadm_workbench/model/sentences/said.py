@@ -13,4 +13,8 @@ SENTENCES: dict[str, Sentence] = {
     "said.of_file": Sentence("{file}: {why}", "{file}：{why}"),
     "said.sentences": Sentence("{parts: }", "{parts: }"),
     "said.with_notes": Sentence("{why}; {notes:;}", "{why}；{notes:;}"),
+    "said.section_edge": Sentence("edge {side}", "{side} 边"),
+    "said.section_flatness": Sentence("flatness of the face", "底面平整度"),
+    "said.section_pattern": Sentence("sleeves in the section, {axis}", "套筒组在截面内，{axis}"),
+    "said.section_side": Sentence("side of the section along {axis}", "截面边长，{axis} 向"),
 }

@@ -210,7 +210,7 @@ def top_side(card: ScanCard, part: CardPart) -> Phrase:
     if part.part is Kind.REBAR and card.compass is not None and card.compass.placed:
         ways = card.compass.parts(up)
         if len(ways) == 1:
-            return Phrase(f"{side.en}, {ways[0][1].en}", f"{side.zh},{ways[0][1].zh}")
+            return Phrase(f"{side.en}, {ways[0][1].en}", f"{side.zh}，{ways[0][1].zh}")
     return side
 
 

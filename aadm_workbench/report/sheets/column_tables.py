@@ -96,7 +96,7 @@ def _rules(column: ColumnReport) -> Iterator[Row]:
 
 def _joined(kind: Kind, what: str) -> Phrase:
     a, b = phrase(f"ui.{kind.plural}"), phrase(f"ui.{what}")
-    return Phrase(f"{a.en}: {b.en[0].lower()}{b.en[1:]}", f"{a.zh}:{b.zh}")
+    return Phrase(f"{a.en}: {b.en[0].lower()}{b.en[1:]}", f"{a.zh}：{b.zh}")
 
 
 def _group(report: JobReport, column: ColumnReport, kind: Kind, group: GroupReport) -> Iterator[Block]:
@@ -154,7 +154,7 @@ def _absolute(report: JobReport, column: ColumnReport) -> Iterator[Block]:
 def _hoisting(report: JobReport, column: ColumnReport) -> Iterator[Block]:
     for frame in column.hoisting:
         title = phrase("ui.hoisting")
-        said = Phrase(f"{title.en}: {frame.source}", f"{title.zh}:{frame.source}")
+        said = Phrase(f"{title.en}: {frame.source}", f"{title.zh}：{frame.source}")
         yield from _block(said, HOISTING, hoisting_rows(report, frame), _correction(frame), frame.verdict)
 
 
@@ -167,7 +167,7 @@ def _correction(frame: HoistingReport) -> Phrase:
         if move.left_mm is not None:
             figures += f" → {move.left_mm:.2f} mm"
         word = phrase("ui.correction")
-        parts.append(Phrase(f"{word.en}: {figures}", f"{word.zh}:{figures}"))
+        parts.append(Phrase(f"{word.en}: {figures}", f"{word.zh}：{figures}"))
     if frame.column_tilt_deg is not None:
         word, tilt = phrase("ui.column_tilt"), number_text(frame.column_tilt_deg, "deg")
         parts.append(Phrase(f"{word.en} {tilt}°", f"{word.zh} {tilt}°"))

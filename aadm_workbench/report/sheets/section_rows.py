@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from aadm_workbench.model import ColumnReport, JobReport, Verdict
+from aadm_workbench.model import ColumnReport, JobReport, Reason, Verdict
 from aadm_workbench.model.section import SectionLength, SectionReport
 from aadm_workbench.report.clauses import clause_of
 from aadm_workbench.report.sheets.numbers import number_text
@@ -27,23 +27,23 @@ def section_rows(report: JobReport, column: ColumnReport) -> Iterator[Row]:
     for edge in section.edges:
         off_mm = None if edge.measured_mm is None else edge.measured_mm - edge.design_mm
         yield (
-            f"{phrase('ui.edge').en} {edge.side}",
+            Reason("said.section_edge", side=edge.side),
             edge.design_mm,
             edge.measured_mm,
             off_mm,
             edge.u_mm,
             *(None, None),
             *("", ""),
-            Verdict.NOT_ASSESSED if edge.measured_mm is not None else Verdict.NOT_MEASURED,
+            None if edge.measured_mm is not None else Verdict.NOT_MEASURED,  # no rule limits an edge
             edge.reason,
         )
 
 
 def _length(report: JobReport, length: SectionLength) -> Row:
     lower, upper = length.limit_mm or (None, None)
-    name = phrase("ui.flatness").en if length.name == "flatness" else f"{phrase('ui.side').en} {length.name}"
+    flat = length.name == "flatness"
     return (
-        name,
+        Reason("said.section_flatness") if flat else Reason("said.section_side", axis=length.name),
         length.design_mm,
         length.measured_mm,
         length.deviation_mm,
@@ -62,7 +62,7 @@ def _pattern(report: JobReport, section: SectionReport) -> Iterator[Row]:
         off_mm = None if place.offset_mm is None else place.offset_mm[axis]
         limit_mm = place.limit_mm
         yield (
-            f"{phrase('ui.pattern').en} {name}",
+            Reason("said.section_pattern", axis=name),
             0.0,
             off_mm,
             off_mm,

@@ -92,7 +92,7 @@ def columns_table(report: JobReport, language: Language = "en") -> Table:
 
 def _of(word: str, of: str) -> Heading:
     name, what = phrase(f"ui.{word}"), phrase(f"ui.{of}")
-    return Heading(Phrase(f"{name.en}, {what.en}", f"{name.zh}({what.zh})"), "mm")
+    return Heading(Phrase(f"{name.en}, {what.en}", f"{name.zh}（{what.zh}）"), "mm")
 
 
 def _column_row(column: ColumnReport, language: Language) -> Row:

@@ -89,7 +89,7 @@ SPACING = (
 
 def _by(word: str, item: str, kind: CellKind = "mm") -> Heading:
     pose, name = phrase(f"ui.{word}"), phrase(f"ui.{item}")
-    return Heading(Phrase(f"{name.en} ({pose.en})", f"{name.zh}({pose.zh})"), kind)
+    return Heading(Phrase(f"{name.en} ({pose.en})", f"{name.zh}（{pose.zh}）"), kind)
 
 
 PAIRS = (
