@@ -89,9 +89,10 @@ def mouths_in(
     centre, other = settled_centres(rim, start, radius_mm, bins, zone_mm, innermost=True, others_mm=others_mm)
     close = rim.where(np.abs(rim.distance(centre) - radius_mm) < _WALL_BAND_MM + 1.0)
     shape = outlines(close, centre, bins, innermost=True)
-    inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(front & ~_ghosts(patches, front, high_mm)))
+    solid = front & ~_ghosts(patches, front, high_mm)
+    inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(solid))
     kept = ~other & (shape.coverage >= _COVERAGE_MIN) & ~_closed(inside, centre, radius_mm, pitch_mm)
-    kept &= ~_is_shallow(patches, near & ~front, shape, centre, radius_mm, pitch_mm)
+    kept &= ~_is_shallow(patches, solid, near & ~front, shape, centre, radius_mm, pitch_mm)
     hidden = _are_hidden(patches, high_mm, centre, radius_mm, pitch_mm)
     kept &= ~hidden & (not _is_floor(hidden, kept))
     bores = _bores(patches, centre, radius_mm, near)
@@ -184,14 +185,26 @@ def _filled_sectors(inside: PlanPoints, centre: Array, radius_mm: float, pitch_m
 
 
 def _is_shallow(
-    patches: Patches, behind: BoolArray, shape: Outlines, centre: Array, radius_mm: float, pitch_mm: float
+    patches: Patches,
+    solid: BoolArray,
+    behind: BoolArray,
+    shape: Outlines,
+    centre: Array,
+    radius_mm: float,
+    pitch_mm: float,
 ) -> BoolArray:
-    """Where (k,) a floor shows a few mm behind the face, and no plug has it: spalls and keys, which are no mouths."""
-    at = np.flatnonzero(behind & (patches.height > -_FLOOR_MM))
+    """Where (k,) a floor shows a few mm behind the face, and no plug has it: spalls and keys, which are no mouths.
+
+    What of the face (``solid``) lies beside a spall closes it as well.
+    """
+    floor_at = behind & (patches.height > -_FLOOR_MM)
+    at = np.flatnonzero(floor_at)
     if not len(at):
         return np.zeros(len(centre), bool)
     floor = PlanPoints.of(patches.x, patches.y, at)
-    floored = _filled_sectors(floor, centre, radius_mm, pitch_mm) > _SECTORS - _OPEN_SECTORS
+    both = PlanPoints.of(patches.x, patches.y, np.flatnonzero(floor_at | solid))
+    floored = _filled_sectors(both, centre, radius_mm, pitch_mm) > _SECTORS - _OPEN_SECTORS
+    floored &= _filled_sectors(floor, centre, radius_mm, pitch_mm) > 0
     if not floored.any():
         return floored
     depth, inner = -patches.height.ravel()[at], floor.distance(centre) < _INSIDE[1] * radius_mm
