@@ -28,7 +28,7 @@ from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_foot, random_
 _SCANS = Path(__file__).resolve().parents[1] / "tests" / "fringe_scans"
 _SIZES_MM = {"field": 600.0, "lab": 250.0}
 _COVERAGE = 1.96
-_SAMPLE = 90_000
+_SAMPLE = 30_000
 
 
 @dataclass
@@ -44,7 +44,7 @@ class Edges:
         rng = np.random.default_rng(0)
         sleeves = extract(scan, Kind.SLEEVE, diameter_mm, "refined", rng)
         outline = design / 2.0 * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-        found = section_edges(scan, thinned(scan, _SAMPLE, rng), sleeves, T_scan_column, outline)
+        found = section_edges(scan, thinned(scan, _SAMPLE, rng), sleeves, T_scan_column, outline, [diameter_mm])
         for side in SIDES:
             edge = found[side]
             if isinstance(edge, Reason):
@@ -84,8 +84,8 @@ def path_traced(folder: Path) -> Edges:
     scan = read_scan(folder / "foot.tiff", camera=Camera(**camera), depth_scale_mm=step_mm)
     rotation, eye = np.array(truth["R_foot"]), np.array(truth["eye_foot"])
     places, xy = np.array(truth["sleeves_scan"]), np.array(truth["sleeves"])
-    if np.abs((places @ rotation.T + eye)[:, :2] - xy).max() > 1.0:
-        rotation = rotation.T
+    # Of the two conventions that truths are written in, the one that brings the sleeves to their places.
+    rotation = min(rotation, rotation.T, key=lambda R: float(np.abs((places @ R.T + eye)[:, :2] - xy).max()))
     T_column_scan = np.eye(4)
     T_column_scan[:3, :3], T_column_scan[:3, 3] = rotation, eye
     sides = np.full(2, _SIZES_MM[truth["kind"]])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.extract.sample import Thinned
-from aadm_workbench.model import Array, Plane
+from aadm_workbench.model import Array, IntArray, Plane
 
 _CELLS = 12  # along the longer side: cells of 50 mm on a foot of 600 mm, as under a straightedge
 _FEWEST = 12  # points of a cell: its median is then known to a third of the camera's noise
@@ -41,27 +41,34 @@ def face_heights(
     xy = (points @ T_column_scan[:3, :3].T + T_column_scan[:3, 3])[:, :2]
     kept = ((xy > low + _EDGE_MM) & (xy < high - _EDGE_MM)).all(axis=1)
     for mouth in mouths:
-        kept &= np.hypot(*(xy - mouth).T) > radius_mm + _EDGE_MM
+        apart = xy - mouth
+        kept &= np.einsum("nk,nk->n", apart, apart) > (radius_mm + _EDGE_MM) ** 2
     xy, height = xy[kept], height[kept]
     cell_mm = float((high - low).max()) / _CELLS
     columns, rows = np.ceil((high - low) / cell_mm).astype(int)
     at = np.floor((xy - low) / cell_mm).astype(int)
-    number = at[:, 1] * columns + at[:, 0]
-    order = np.argsort(number, kind="stable")
-    bounds = np.searchsorted(number[order], np.arange(rows * columns + 1))
-    grid, scatter = np.full(rows * columns, np.nan), []
-    for cell in range(rows * columns):
-        own = height[order[bounds[cell] : bounds[cell + 1]]]
-        if len(own) >= _FEWEST:
-            grid[cell] = np.median(own)
-            scatter.append(1.4826 * float(np.median(np.abs(own - grid[cell]))) * 1.2533 / np.sqrt(len(own)))
+    grid, count = _medians(at[:, 1] * columns + at[:, 0], height, rows * columns)
     seen = np.isfinite(grid)
     if seen.sum() < rows * columns / 2:
         return None
+    noise_mm = 1.4826 * float(np.nanmedian(np.abs(height - grid[at[:, 1] * columns + at[:, 0]])))
+    cell_u_mm = 1.2533 * noise_mm / float(np.sqrt(np.median(count[seen])))
     grid -= _leaning(grid.reshape(rows, columns)).ravel()
     ends = np.quantile(grid[seen], [_OUTER_SHARE, 1.0 - _OUTER_SHARE])
-    u_mm = float(np.sqrt(2.0 * (np.median(scatter) ** 2 + _WARP_U_MM**2)))
+    u_mm = float(np.sqrt(2.0 * (cell_u_mm**2 + _WARP_U_MM**2)))
     return FaceHeights(cell_mm, low, grid.reshape(rows, columns), float(ends[1] - ends[0]), u_mm)
+
+
+def _medians(cell: IntArray, height: Array, cells: int) -> tuple[Array, IntArray]:
+    """Median height (cells,) of the points of each cell, NaN where they are too few, and how many they are."""
+    order = np.lexsort((height, cell))
+    count = np.bincount(cell, minlength=cells)
+    begin = np.cumsum(count) - count
+    enough = count >= _FEWEST
+    lower, upper = (begin + (count - 1) // 2)[enough], (begin + count // 2)[enough]
+    grid = np.full(cells, np.nan)
+    grid[enough] = (height[order[lower]] + height[order[upper]]) / 2.0
+    return grid, count
 
 
 def _leaning(grid: Array) -> Array:

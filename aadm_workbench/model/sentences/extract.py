@@ -113,6 +113,10 @@ SENTENCES: dict[str, Sentence] = {
         "what ends the face here runs askew to the section: something hides a part of it",
         "此处底面的边界与截面不平行：有物遮挡",
     ),
+    "extract.section_blurred": Sentence(
+        "heights before this edge are disturbed over more than three pixels: the camera is out of focus there",
+        "该边前三个像素以上的高度均受扰动：相机在此处失焦",
+    ),
     "extract.section_border": Sentence(
         "a cloud without its camera does not tell an edge of the foot from the border of the picture",
         "没有相机参数的点云无法区分柱底边缘与画面边界",

@@ -35,7 +35,7 @@ def distance_outwards(corners: Array, side: str) -> float:
 def edges_of(face: IdealFace, scan_and_points: tuple, T: Array | None = None) -> dict[str, SeenEdge | Reason]:
     scan, extraction = scan_and_points
     sample = thinned(scan, 90_000, np.random.default_rng(0))
-    return section_edges(scan, sample, extraction, T_scan_column() if T is None else T, DESIGN)
+    return section_edges(scan, sample, extraction, T_scan_column() if T is None else T, DESIGN, [36.0])
 
 
 def errors(face: IdealFace, edges: dict[str, SeenEdge | Reason]) -> dict[str, float]:
