@@ -41,7 +41,12 @@ def section_of(
     bores_mm = [point.diameter_mm for point in design.sleeves]
     seen = section_edges(scan, sample, extraction, T_scan_column, outline, bores_mm)
     heights = _heights(design, sample, extraction, T_column_scan, middle, half)
-    return inspect_section(design, seen, heights, profile, fit_u_mm=_fit_u_mm(extraction), decision=decision)
+    fit_u_mm = _fit_u_mm(extraction)
+    places = np.array([point.centre[:2] for point in design.sleeves])
+    spread_mm = float(np.sqrt(np.mean(np.sum((places - places.mean(axis=0)) ** 2, axis=1))))
+    return inspect_section(
+        design, seen, heights, profile, fit_u_mm=fit_u_mm, fit_u_turn=fit_u_mm / spread_mm, decision=decision
+    )
 
 
 def _heights(

@@ -34,6 +34,9 @@ _MOST_OFF_MM = 8.0  # from its place by design: sections and patterns keep to 5 
 _SETTLED_PITCHES = 1.0  # of a step of the line: places about it are then the same
 _BLIND_PITCHES = 1.0  # about an edge: places fill it where rows of pixels run across it at some angle
 _OWN_SHARE = 0.1  # of the overshoot: by so much it differs from edge to edge, for what is lit along it
+_LEVEL_PITCHES = 4.0  # before an edge: farther than any sharp camera's blur
+_BLOCKS, _BLOCK_PLACES = 10, 20  # along an edge: what bends more often is no face that was cast
+_CHIP_LOOK_MM = 30.0  # half of how deep a chip is followed: what is deeper is no chip
 _ABOUT_MOUTH_MM = 2.0  # rims that are worn, or chamfered
 _WIDE_MM = 5.0  # about the face: as far as edges bend that are 0.5 mm from the middle of a pixel, seen from 1.5 m
 # Of places along and across; scatter along an edge is averaged away in any case, and costs as much as it is asked.
@@ -117,7 +120,9 @@ def find_edge(
     return FoundEdge(line, strips, fit, overshoot, blind_mm, lost_mm, taken_mm)
 
 
-def edge_lines(samples: FaceSamples, found: Mapping[str, FoundEdge | Reason]) -> dict[str, EdgeLine | Reason]:
+def edge_lines(
+    samples: FaceSamples, found: Mapping[str, FoundEdge | Reason], mouths: KnownMouths
+) -> dict[str, EdgeLine | Reason]:
     """Edges of one face, from where its last returns lie: by what the camera does at edges, as all of them tell."""
     seen = [edge for edge in found.values() if isinstance(edge, FoundEdge)]
     mixed = pooled([edge.overshoot for edge in seen], samples.pitch_mm)
@@ -125,12 +130,14 @@ def edge_lines(samples: FaceSamples, found: Mapping[str, FoundEdge | Reason]) ->
     # Who loses whole rings at mouths loses them before an empty background, too, or none there: either is as likely.
     lost_mm = 0.0 if mixed is not None else float(np.median(lost)) if lost else samples.pitch_mm
     return {
-        side: _edge_line(samples, edge, mixed, lost_mm) if isinstance(edge, FoundEdge) else edge
+        side: _edge_line(samples, edge, mixed, lost_mm, mouths) if isinstance(edge, FoundEdge) else edge
         for side, edge in found.items()
     }
 
 
-def _edge_line(samples: FaceSamples, found: FoundEdge, mixed: Overshoot | None, lost_mm: float) -> EdgeLine:
+def _edge_line(
+    samples: FaceSamples, found: FoundEdge, mixed: Overshoot | None, lost_mm: float, mouths: KnownMouths
+) -> EdgeLine:
     line = found.line
     mixed = Overshoot(0.0, 0.0) if mixed is None else mixed
     covariance = found.fit.covariance.copy()
@@ -146,8 +153,26 @@ def _edge_line(samples: FaceSamples, found: FoundEdge, mixed: Overshoot | None, 
         covariance,
         float(np.linalg.norm(shared)),
         found.strips.seen,
-        chips_of(found.strips, found.fit, line.middle_mm),
+        tuple(
+            _deepened(samples, line, chip, mouths) if chip.depth_mm >= found.strips.reach_mm else chip
+            for chip in chips_of(found.strips, found.fit, line.middle_mm)
+        ),
     )
+
+
+def _deepened(samples: FaceSamples, line: Guess, chip: Chip, mouths: KnownMouths) -> Chip:
+    """A chip that is deeper than was looked: as deep as less than half of its middle third is face."""
+    half_mm = (chip.end_mm - chip.begin_mm) / 6.0 + samples.pitch_mm
+    inner = replace(
+        line,
+        middle_mm=(chip.begin_mm + chip.end_mm) / 2.0,
+        offset_mm=line.offset_mm + line.turn * ((chip.begin_mm + chip.end_mm) / 2.0 - line.middle_mm) - _CHIP_LOOK_MM,
+    )
+    _, d, height = _across(samples, inner, mouths, half_mm, _CHIP_LOOK_MM, (1, 1))
+    depth = np.clip(_CHIP_LOOK_MM - d, 0.0, 2.0 * _CHIP_LOOK_MM - 1.0).astype(int)  # bins of a millimetre
+    asked, found = np.bincount(depth), np.bincount(depth, np.abs(height) < _WIDE_MM)
+    face = np.flatnonzero(found > asked / 2.0)
+    return replace(chip, depth_mm=max(chip.depth_mm, float(face[0]))) if len(face) else chip
 
 
 def _ended(
@@ -161,6 +186,7 @@ def _ended(
     ended: tuple[Guess, Strips, StripLine, Array, Array] | Reason = OUT_OF_PICTURE
     for reach_mm, every in ((_FIRST_REACH_MM, _WIDE_EVERY), (fine_mm, _FINE_EVERY), (fine_mm, _FINE_EVERY)):
         s, d, height = _across(samples, line, mouths, half_mm, reach_mm, every)
+        d, height = _levelled(samples, line, s, d, height, band_mm)
         step = every[1] * samples.pitch_mm
         strips = ends_of_strips(s, d, np.abs(height) < band_mm, half_mm, reach_mm, (every[0] * samples.pitch_mm, step))
         if isinstance(strips, Reason):
@@ -203,6 +229,36 @@ def _across(
         if abs(float(centre @ line.normal) - line.offset_mm) < reach_mm + radius + _ABOUT_MOUTH_MM:
             wanted &= np.hypot(*(asked.xy - centre).T) > radius + _ABOUT_MOUTH_MM
     return s[wanted], d[wanted], asked.height[wanted]
+
+
+def _levelled(
+    samples: FaceSamples, line: Guess, s: Array, d: Array, height: Array, band_mm: float
+) -> tuple[Array, Array]:
+    """Places across (n,) and heights (n,), mm, of a face that bends, as if it lay in its plane along the edge.
+
+    A line of sight meets what lies over the plane before it meets the plane.
+    """
+    inner = (np.abs(height) < band_mm) & (d < -_LEVEL_PITCHES * samples.pitch_mm)
+    if samples.eye is None or not inner.any():
+        return d, height
+    block = ((s[inner] - s[inner].min()) / (np.ptp(s[inner]) + 1.0) * _BLOCKS).astype(int)
+    known = [chosen for chosen in (block == number for number in range(_BLOCKS)) if chosen.sum() >= _BLOCK_PLACES]
+    if not known:
+        return d, height
+    at = [float(s[inner][chosen].mean()) for chosen in known]
+    level = np.interp(s, at, [float(np.median(height[inner][chosen])) for chosen in known])
+    near = height[inner] - level[inner]
+    level += _rise(d[inner], near) * (d - float(np.median(d[inner])))
+    slope = samples.slope_at(np.outer(line.middle_mm + s, line.along) + line.offset_mm * line.normal) @ line.normal
+    return d - slope * level, height - level
+
+
+def _rise(d: Array, height: Array) -> float:
+    """How much a face rises outwards before an edge, mm per mm, by the medians of its two halves (n,) there."""
+    outer = d > np.median(d)
+    if outer.all() or not outer.any():
+        return 0.0
+    return float((np.median(height[outer]) - np.median(height[~outer])) / (d[outer].mean() - d[~outer].mean()))
 
 
 def _blind_mm(off: Array, pitch_mm: float) -> float:

@@ -12,6 +12,7 @@ from aadm_workbench.model import Array, IntArray, Plane
 _CELLS = 12  # along the longer side: cells of 50 mm on a foot of 600 mm, as under a straightedge
 _FEWEST = 12  # points of a cell: its median is then known to a third of the camera's noise
 _OUTER_SHARE = 0.02  # of cells left out at both ends: a splash of grout is no unevenness of the face
+_STRAY = 3.0  # of the scatter about a surface: what is farther off is a splash or a pit
 _EDGE_MM = 4.0  # from the section's edges and mouths: there cameras bend surfaces
 _BAND_MM = 8.0  # twice what a face may be uneven by; what is farther off is no face
 _WARP_U_MM = 0.06  # of the camera, between far parts of its picture: half of what makers state at a metre
@@ -21,7 +22,8 @@ _WARP_U_MM = 0.06  # of the camera, between far parts of its picture: half of wh
 class FaceHeights:
     """``heights_mm`` (rows from −y, columns from −x) over the plane, outwards, NaN where nothing was seen.
 
-    ``range_mm`` is between the highest and the lowest of them, without the outermost, ``u_mm`` its uncertainty.
+    ``range_mm`` is between the highest and the lowest of them, without the outermost, or, where that is more, of the
+    bow and the twist that all of them together have, out to the corners; ``u_mm`` its uncertainty.
     """
 
     cell_mm: float
@@ -55,8 +57,9 @@ def face_heights(
     cell_u_mm = 1.2533 * noise_mm / float(np.sqrt(np.median(count[seen])))
     grid -= _leaning(grid.reshape(rows, columns)).ravel()
     ends = np.quantile(grid[seen], [_OUTER_SHARE, 1.0 - _OUTER_SHARE])
+    range_mm = max(float(ends[1] - ends[0]), _bent_mm(grid.reshape(rows, columns), (high - low) / cell_mm))
     u_mm = float(np.sqrt(2.0 * (cell_u_mm**2 + _WARP_U_MM**2)))
-    return FaceHeights(cell_mm, low, grid.reshape(rows, columns), float(ends[1] - ends[0]), u_mm)
+    return FaceHeights(cell_mm, low, grid.reshape(rows, columns), range_mm, u_mm)
 
 
 def _medians(cell: IntArray, height: Array, cells: int) -> tuple[Array, IntArray]:
@@ -78,3 +81,24 @@ def _leaning(grid: Array) -> Array:
     seen = np.isfinite(grid.ravel())
     found = np.linalg.lstsq(terms[seen], grid.ravel()[seen], rcond=None)[0]
     return np.asarray((terms @ found).reshape(grid.shape))
+
+
+def _bent_mm(grid: Array, sides: Array) -> float:
+    """Range, mm, over a whole face of ``sides`` (2,) cells of the surface of second order that its cells lie on.
+
+    Cells end before the corners, where a face that is bowed or twisted is farthest off.
+    """
+    rows, columns = np.mgrid[: grid.shape[0], : grid.shape[1]] + 0.5
+    seen = np.isfinite(grid)
+    terms, heights = _second_order(columns[seen], rows[seen]), grid[seen]
+    kept = np.ones(len(heights), bool)
+    for _ in range(2):
+        found = np.linalg.lstsq(terms[kept], heights[kept], rcond=None)[0]
+        off = np.abs(heights - terms @ found)
+        kept = off < _STRAY * 1.4826 * np.median(off) + _WARP_U_MM
+    x, y = np.meshgrid(np.linspace(0.0, sides[0], _CELLS + 1), np.linspace(0.0, sides[1], _CELLS + 1))
+    return float(np.ptp(_second_order(x.ravel(), y.ravel()) @ found))
+
+
+def _second_order(x: Array, y: Array) -> Array:
+    return np.column_stack([np.ones_like(x), x, y, x * x, x * y, y * y])

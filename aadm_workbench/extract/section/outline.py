@@ -78,7 +78,7 @@ def section_edges(
         found[side] = find_edge(samples, start, end, mouths, band_mm)
     return {
         side: line if isinstance(line, Reason) else _in_column(line, side, face, T_scan_column)
-        for side, line in edge_lines(samples, found).items()
+        for side, line in edge_lines(samples, found, mouths).items()
     }
 
 
