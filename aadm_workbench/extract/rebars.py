@@ -44,9 +44,12 @@ _USUAL_SPOILT, _SPOILT_U_MM = 0.13, 1.5
 # u and u by 6 %)
 _BEYOND_TAIL_MM, _FLYING = 1.2, 0.05
 _FOREIGN = 0.3  # share of outline points that are ribs
-_SOFTNESS, _RIM_TAIL_PITCHES = 0.08, 1.2  # PENDING
+# of an edge, in pitches; over which outline points thin out inwards (a choice: ±30 % moves centres by up to 0.3 and 1.0
+# u, and u by 1 and 6 %)
+_SOFTNESS, _RIM_TAIL_PITCHES = 0.08, 1.2
 _SIDE_LAW = BracketLaw(0.08, 0.8)  # most of a side's points lie on ribs
-_INSIDE_MM, _FAR_MM = 0.3, 1.0  # PENDING2
+# outline points so far out, or in, are no part of a sound disc (a choice: ±30 % moves u of single tops by up to 46 %)
+_INSIDE_MM, _FAR_MM = 0.3, 1.0
 # leans of bars that were bent, too; cores of a group are alike; a side is not pushed; an edge and a side are one
 # radius
 _BAR_PRIORS = Priors(
