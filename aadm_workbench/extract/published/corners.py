@@ -34,7 +34,7 @@ _BAND_NOISES = 4.0  # as of the section's edges
 _CORNERS_MIN = 2  # a shift and a turn
 _LIKE_MM = 5.0  # sections are cast to it: sides that fit within it cannot be told apart
 _SAME_PLACE_MM = 1.0  # a pattern whose sleeves come to lie so near to others' places is the same after a turn
-_NO_MOUTHS = KnownMouths(np.zeros((0, 2)), np.zeros(0))
+_NO_MOUTHS = KnownMouths(np.zeros((0, 2)), np.zeros(0))  # the method looks for edges alone
 
 
 def extract_sleeves(

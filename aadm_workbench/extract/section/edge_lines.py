@@ -141,6 +141,7 @@ def _edge_line(
     line = found.line
     mixed = Overshoot(0.0, 0.0) if mixed is None else mixed
     covariance = found.fit.covariance.copy()
+    # What is as likely anywhere in a gap has a variance of its square over 12.
     covariance[0, 0] += (_OWN_SHARE * mixed.beyond_mm) ** 2 + found.blind_mm**2 / 12.0
     # Of what a look at cells makes wider, anything from nothing to all is as likely.
     shared = mixed.u_mm, lost_mm / 2.0, 2.0 * samples.wider_mm / np.sqrt(12.0)
@@ -162,7 +163,8 @@ def _edge_line(
 
 def _deepened(samples: FaceSamples, line: Guess, chip: Chip, mouths: KnownMouths) -> Chip:
     """A chip that is deeper than was looked: as deep as less than half of its middle third is face."""
-    half_mm = (chip.end_mm - chip.begin_mm) / 6.0 + samples.pitch_mm
+    third_mm = (chip.end_mm - chip.begin_mm) / 3.0
+    half_mm = third_mm / 2.0 + samples.pitch_mm
     inner = replace(
         line,
         middle_mm=(chip.begin_mm + chip.end_mm) / 2.0,

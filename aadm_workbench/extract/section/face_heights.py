@@ -8,6 +8,7 @@ import numpy as np
 
 from aadm_workbench.extract.sample import Thinned
 from aadm_workbench.model import Array, IntArray, Plane
+from aadm_workbench.model.scatter import OF_MEDIAN, TO_SIGMA
 
 _CELLS = 12  # along the longer side: cells of 50 mm on a foot of 600 mm, as under a straightedge
 _FEWEST = 12  # points of a cell: its median is then known to a third of the camera's noise
@@ -53,8 +54,8 @@ def face_heights(
     seen = np.isfinite(grid)
     if seen.sum() < rows * columns / 2:
         return None
-    noise_mm = 1.4826 * float(np.nanmedian(np.abs(height - grid[at[:, 1] * columns + at[:, 0]])))
-    cell_u_mm = 1.2533 * noise_mm / float(np.sqrt(np.median(count[seen])))
+    noise_mm = TO_SIGMA * float(np.nanmedian(np.abs(height - grid[at[:, 1] * columns + at[:, 0]])))
+    cell_u_mm = OF_MEDIAN * noise_mm / float(np.sqrt(np.median(count[seen])))
     grid -= _leaning(grid.reshape(rows, columns)).ravel()
     ends = np.quantile(grid[seen], [_OUTER_SHARE, 1.0 - _OUTER_SHARE])
     range_mm = max(float(ends[1] - ends[0]), _bent_mm(grid.reshape(rows, columns), (high - low) / cell_mm))
@@ -95,7 +96,7 @@ def _bent_mm(grid: Array, sides: Array) -> float:
     for _ in range(2):
         found = np.linalg.lstsq(terms[kept], heights[kept], rcond=None)[0]
         off = np.abs(heights - terms @ found)
-        kept = off < _STRAY * 1.4826 * np.median(off) + _WARP_U_MM
+        kept = off < _STRAY * TO_SIGMA * np.median(off) + _WARP_U_MM
     x, y = np.meshgrid(np.linspace(0.0, sides[0], _CELLS + 1), np.linspace(0.0, sides[1], _CELLS + 1))
     return float(np.ptp(_second_order(x.ravel(), y.ravel()) @ found))
 

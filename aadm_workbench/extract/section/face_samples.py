@@ -153,9 +153,10 @@ def _grid(area: Area, step_mm: float) -> Array:
     """Places (n, 2) mm in an area."""
     across = np.array([-area.along[1], area.along[0]])
     along_mm, across_mm = (step_mm * many for many in area.every)
+    # Half a step more than the reach: so that its end is among them.
     s, d = np.meshgrid(
         np.arange(-area.half_mm, area.half_mm + along_mm, along_mm),
-        np.arange(-area.reach_mm - across_mm, area.reach_mm + 1.5 * across_mm, across_mm),
+        np.arange(-area.reach_mm - across_mm, area.reach_mm + across_mm + across_mm / 2.0, across_mm),
     )
     return np.asarray(area.middle + np.outer(s.ravel(), area.along) + np.outer(d.ravel(), across))
 

@@ -18,6 +18,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from aadm_workbench.model import Array, Reason
+from aadm_workbench.model.scatter import TO_SIGMA
 
 _BEFORE_PITCHES, _BIN_PITCHES = 3.0, 0.25  # looked at before the end of an edge; sharp optics mix over one pixel
 _INNER_PITCHES = (4.0, 12.0)  # before an edge: farther than any sharp camera's blur
@@ -28,7 +29,6 @@ _BLUR_PITCHES = np.geomspace(0.15, 1.8, 12)  # standard deviation of what a pixe
 _LEAST_SHARE = 0.01  # less light is below what any camera keeps
 _LAW = 0.12  # of the logarithm of a scatter: relief and stains bend the law by so much on the scans it was tried on
 _ONE_ALONE_PITCHES = 0.25  # a single side may be one that stays bright: by half of a pixel at most, as likely less
-_TO_SIGMA = 1.4826  # of a median of absolute deviations, for the normal law
 
 
 @dataclass(frozen=True)
@@ -87,17 +87,17 @@ def pooled(found: Sequence[Overshoot | None], pitch_mm: float) -> Overshoot | No
     if len(own) < 3:
         apart = _ONE_ALONE_PITCHES * pitch_mm
     else:
-        apart = _TO_SIGMA * float(np.median(np.abs(beyond - middle))) / float(np.sqrt(len(own)))
+        apart = TO_SIGMA * float(np.median(np.abs(beyond - middle))) / float(np.sqrt(len(own)))
     return Overshoot(middle, float(np.hypot(u_mm, apart)))
 
 
 def _is_sound(over: Array, usual: float) -> bool:
     """Whether heights over the face's level neither scatter more than usual nor are bent."""
-    return _TO_SIGMA * float(np.median(np.abs(over))) < _DISTURBED * usual
+    return TO_SIGMA * float(np.median(np.abs(over))) < _DISTURBED * usual
 
 
 def _scatter(height: Array) -> float:
-    return _TO_SIGMA * float(np.median(np.abs(height - np.median(height))))
+    return TO_SIGMA * float(np.median(np.abs(height - np.median(height))))
 
 
 def _level(place: Array, height: Array) -> Array:

@@ -49,7 +49,7 @@ def lost_at_rim(samples: FaceSamples, mouths: KnownMouths, normal: Array, band_m
 
 def _rim_end(samples: FaceSamples, centre: Array, radius_mm: float, normal: Array, band_mm: float) -> float | None:
     """Distance from the centre of the last returns before a rim, in the sector that ends it towards ``normal``."""
-    reach_mm = min(_RIM_REACH_MM, 0.45 * radius_mm)
+    reach_mm = min(_RIM_REACH_MM, 0.45 * radius_mm)  # clear of the middle, which belongs to no side
     half_mm = (radius_mm + reach_mm) / 2.0
     across = np.array([-normal[1], normal[0]])
     asked = samples.ask(Area(centre - half_mm * normal, across, 2.0 * half_mm, half_mm))
