@@ -166,7 +166,7 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
     try:
         write_report(report, folder / "report.json")
         write_atomically(folder / "timing.json", encode(done.seconds))
-        _write_reports(folder, options)
+        _write_reports(job, folder, options)
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
         say(f"aadm: {told(error, options)}")
@@ -182,7 +182,7 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
     return code
 
 
-def _write_reports(folder: Path, options: argparse.Namespace) -> None:
+def _write_reports(job: Job, folder: Path, options: argparse.Namespace) -> None:
     """The other reports that were asked for, from what report.json holds."""
     formats = chosen_formats(options)
     if formats:
@@ -190,7 +190,8 @@ def _write_reports(folder: Path, options: argparse.Namespace) -> None:
 
         from ..report_files import write_reports
 
-        write_reports(read_report(folder / "report.json"), formats, folder, options.language)
+        model = None if job.model is None else job.folder / job.model.path
+        write_reports(read_report(folder / "report.json"), formats, folder, options.language, model=model)
 
 
 def _write_model(report: JobReport, job: Job, folder: Path, options: argparse.Namespace) -> int:

@@ -1,0 +1,71 @@
+"""The tower of a check: what ``aadm stack`` tells, and what the reports of a job with [stack] show of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from aadm_workbench.errors import AadmError
+
+if TYPE_CHECKING:
+    from aadm_workbench.model import JobReport, Profile, StackSettings
+    from aadm_workbench.report.tower import TowerShown
+    from aadm_workbench.stack.result import StackPlan
+
+PROFILE = "cn-gbt51231-2016"
+"""The profile with limits of erected members; the usual one of a check has none of them."""
+
+
+def planned(reports: Sequence[JobReport], settings: StackSettings, profile: Profile, model: Path | None) -> StackPlan:
+    """The plan of a tower from reports, and from the beams of a model where one is named.
+
+    Raises
+    ------
+    DesignError
+        Where the model cannot be read.
+    """
+    from aadm_workbench.inspection.as_designed import unforeseen_in
+    from aadm_workbench.stack.measured import measured_floor
+    from aadm_workbench.stack.plan import plan_stack
+
+    floors = [measured_floor(report) for report in reports]
+    floor = None
+    if model is not None:
+        from aadm_workbench.design.ifc.floor import read_floor
+
+        with unforeseen_in(str(model)):
+            floor = read_floor(model)
+    return plan_stack(floors, settings, profile, floor)
+
+
+def tower_of(report: JobReport, model: Path | None) -> TowerShown | None:
+    """What the reports of a check show of its tower; None where its job has no [stack].
+
+    A model that is no IFC file, or cannot be read, costs beams and heights alone, and that is said.
+
+    Raises
+    ------
+    JobError
+        Where somebody has changed the report's [stack] to what is none.
+    """
+    from aadm_workbench.assembly.tolerances import load_profile
+    from aadm_workbench.stack.result import NotFound
+    from aadm_workbench.stack.shown import tower_shown
+
+    from .job.stack import carried_settings
+
+    settings = carried_settings(report.job)
+    if settings is None:
+        return None
+    profile = load_profile(PROFILE)
+    named = model if model is not None and model.suffix.lower() == ".ifc" else None
+    try:
+        return tower_shown(planned([report], settings, profile, named))
+    except AadmError as error:
+        from aadm_workbench.report.words.reasons import in_both_languages
+
+        plan = planned([report], settings, profile, None)
+        unread = NotFound(str(named), in_both_languages(error.reason))
+        return tower_shown(replace(plan, not_found=(unread,)))
