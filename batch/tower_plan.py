@@ -11,6 +11,7 @@ from aadm_workbench.errors import AadmError
 
 if TYPE_CHECKING:
     from aadm_workbench.model import JobReport, Profile, StackSettings
+    from aadm_workbench.report.ifc.addition import Property
     from aadm_workbench.report.tower import TowerShown
     from aadm_workbench.stack.result import StackPlan
 
@@ -40,8 +41,8 @@ def planned(reports: Sequence[JobReport], settings: StackSettings, profile: Prof
     return plan_stack(floors, settings, profile, floor)
 
 
-def tower_of(report: JobReport, model: Path | None) -> TowerShown | None:
-    """What the reports of a check show of its tower; None where its job has no [stack].
+def plan_of(report: JobReport, model: Path | None) -> StackPlan | None:
+    """The plan of the tower of a check; None where its job has no [stack].
 
     A model that is no IFC file, or cannot be read, costs beams and heights alone, and that is said.
 
@@ -51,8 +52,8 @@ def tower_of(report: JobReport, model: Path | None) -> TowerShown | None:
         Where somebody has changed the report's [stack] to what is none.
     """
     from aadm_workbench.assembly.tolerances import load_profile
+    from aadm_workbench.report.words.reasons import in_both_languages
     from aadm_workbench.stack.result import NotFound
-    from aadm_workbench.stack.shown import tower_shown
 
     from .job.stack import carried_settings
 
@@ -62,10 +63,34 @@ def tower_of(report: JobReport, model: Path | None) -> TowerShown | None:
     profile = load_profile(PROFILE)
     named = model if model is not None and model.suffix.lower() == ".ifc" else None
     try:
-        return tower_shown(planned([report], settings, profile, named))
+        return planned([report], settings, profile, named)
     except AadmError as error:
-        from aadm_workbench.report.words.reasons import in_both_languages
-
-        plan = planned([report], settings, profile, None)
         unread = NotFound(str(named), in_both_languages(error.reason))
-        return tower_shown(replace(plan, not_found=(unread,)))
+        return replace(planned([report], settings, profile, None), not_found=(unread,))
+
+
+def tower_of(report: JobReport, model: Path | None) -> TowerShown | None:
+    """What the reports of a check show of its tower; None where its job has no [stack]; errors as :func:`plan_of`."""
+    from aadm_workbench.stack.shown import tower_shown
+
+    plan = plan_of(report, model)
+    return None if plan is None else tower_shown(plan)
+
+
+def setting_of(report: JobReport, model: Path | None) -> dict[str, list[Property]]:
+    """What the model is told of the tower; empty where the job has no [stack]; errors as :func:`plan_of`."""
+    from aadm_workbench.stack.setting import setting_properties
+
+    plan = plan_of(report, model)
+    return {} if plan is None else setting_properties(plan)
+
+
+def with_setting(report: JobReport, model: Path | None) -> JobReport:
+    """The report with the setting of each column, where the job has [stack]; errors as :func:`plan_of`."""
+    from aadm_workbench.stack.setting import setting_report
+
+    plan = plan_of(report, model)
+    if plan is None:
+        return report
+    found = {one.measured.id: setting_report(one) for one in plan.columns}
+    return replace(report, columns=tuple(replace(one, setting=found[one.id]) for one in report.columns))

@@ -82,3 +82,8 @@ class Job:
     capture: dict[str, str] = field(default_factory=dict)
     stack: StackSettings | None = None
     lines: dict[str, int] = field(default_factory=dict)
+
+    @property
+    def model_path(self) -> Path | None:
+        """Where its model lies; None where columns have designs of their own."""
+        return None if self.model is None else self.folder / self.model.path

@@ -1,8 +1,11 @@
-"""What no scan of bars and sleeves tells of a column that is set: how plumb, how level, how near to its aim."""
+"""A column that is set: what no scan of bars and sleeves tells of it, and where it comes to stand."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+
+from aadm_workbench.model.measured import Vector2, Vector3
+from aadm_workbench.model.verdicts import Verdict
 
 
 @dataclass(frozen=True)
@@ -41,3 +44,35 @@ class StackSettings:
         """The lines of their table in a job, which report.json carries among what it says of the job."""
         known = {item.name: getattr(self, item.name) for item in fields(self)}
         return "\n".join(f"{key} = {str(value).lower()}" for key, value in known.items() if value is not None)
+
+
+@dataclass(frozen=True, slots=True)
+class SettingReport:
+    """Where a set column comes to stand, and its top: mm and degrees, column frame; None where it is not predicted.
+
+    Parameters
+    ----------
+    against
+        What that is told against: ``control_points`` (the grid), ``storey_below`` (the grid, through the column below)
+        or ``bars`` (its own bars alone, nothing is said of the grid).
+    foot_mm, yaw_deg
+        Displacement of the column from its design place, dx and dy, and its turn.
+    top_mm, top_u_mm
+        Displacement of its top, dx and dy, and the standard uncertainty per axis.
+    top_limit_mm, top_verdict
+        What the length of ``top_mm`` was held against, never against bars alone, and how that was decided.
+    set_pose
+        The pose in its play whose top is nearest to the grid, dx, dy mm and yaw degrees, as a job has it; None without.
+    set_pose_top_mm
+        How far the top is off then.
+    """
+
+    against: str
+    foot_mm: Vector2 | None = None
+    yaw_deg: float | None = None
+    top_mm: Vector2 | None = None
+    top_u_mm: float | None = None
+    top_limit_mm: float | None = None
+    top_verdict: Verdict = Verdict.NOT_MEASURED
+    set_pose: Vector3 | None = None
+    set_pose_top_mm: float | None = None

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from aadm_workbench.model import SUMMED, Verdict
+from aadm_workbench.report.sheets.numbers import pose_text
 from aadm_workbench.report.tower import SettingOut, ToDo, TowerShown
 from aadm_workbench.report.words.labels import Phrase, phrase
 from aadm_workbench.stack.drawing import in_plan_axes, stack_drawings
@@ -34,16 +35,10 @@ def tower_shown(plan: StackPlan) -> TowerShown:
     )
 
 
-def aim_text(pose: tuple[float, float, float]) -> str:
-    """``[1.2, -0.4, 0.05]``, as a job has it."""
-    dx, dy, yaw_deg = (value + 0.0 for value in (round(pose[0], 2), round(pose[1], 2), round(pose[2], 3)))
-    return f"[{dx:.2f}, {dy:.2f}, {yaw_deg:.3f}]"
-
-
 def _to_do(plan: StackPlan) -> Iterator[ToDo]:
     for column in plan.columns:
         if column.advice is not None:
-            yield ToDo(column.measured.id, advice_phrase(column), f"set_pose = {aim_text(column.advice.set_pose)}")
+            yield ToDo(column.measured.id, advice_phrase(column), f"set_pose = {pose_text(column.advice.set_pose)}")
     yield from (ToDo(names, reason) for reason, names in by_reason(plan))
 
 

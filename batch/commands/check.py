@@ -157,11 +157,13 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
 
     from ..served_report import without_absolute_paths
     from ..shown.terminal import say, show_json
+    from ..tower_plan import with_setting
 
     if options.debug:
         for name, trace in done.traces.items():
             say(f"{name}: {trace}")
-    report = done.report if options.absolute_paths else without_absolute_paths(done.report, job)
+    report = with_setting(done.report, job.model_path)
+    report = report if options.absolute_paths else without_absolute_paths(report, job)
     code = exit_code_of(column.verdict for column in report.columns)
     try:
         write_report(report, folder / "report.json")
@@ -190,8 +192,8 @@ def _write_reports(job: Job, folder: Path, options: argparse.Namespace) -> None:
 
         from ..report_files import write_reports
 
-        model = None if job.model is None else job.folder / job.model.path
-        write_reports(read_report(folder / "report.json"), formats, folder, options.language, model=model)
+        report = read_report(folder / "report.json")
+        write_reports(report, formats, folder, options.language, model=job.model_path)
 
 
 def _write_model(report: JobReport, job: Job, folder: Path, options: argparse.Namespace) -> int:
