@@ -144,7 +144,7 @@ def let_down(
     turned = Rotation.from_euler("z", yaw) * body
     shift = bars.mean(axis=0) - body.apply([*(sleeves + told).mean(axis=0), 0.0])[:2]
     shift = shift + rng.normal(0.0, settings.fit_u_mm, 2)
-    top = shift + rng.normal(0.0, settings.plumb_u_mm, 2)
+    top = shift + rng.normal(0.0, settings.plumb_at(HEIGHT_MM), 2)
     angle = float(turned.as_rotvec()[2]) + rng.normal(0.0, settings.bars_u_mm / RADIUS_MM)
     return top + rng.normal(0.0, settings.bars_u_mm, 2), angle, top
 
