@@ -33,7 +33,9 @@ def _length(top: Top | None) -> str:
 
 
 def against(column: StackedColumn) -> Phrase:
-    """What the numbers of a column are told against."""
+    """What the numbers of a column are told against; a dash where there are none."""
+    if column.placed is None:
+        return Phrase("–", "–")
     if column.basis == "storey_below":
         return phrase("stack.storey_below", below=column.below)
     return phrase(f"stack.{column.basis}")
@@ -48,6 +50,8 @@ def headline(plan: StackPlan) -> tuple[Phrase, str]:
         return phrase("stack.headline_beyond", bad=bad, total=len(counted)), "bad"
     if not counted or all(column.placed is None for column in plan.columns):
         return phrase("stack.headline_none"), ""
+    if left == len(counted):
+        return phrase("stack.headline_unjudged", total=len(counted)), ""
     if left:
         return phrase("stack.headline_open", open=left, total=len(counted)), ""
     return phrase("stack.headline_good", total=len(counted)), "good"
