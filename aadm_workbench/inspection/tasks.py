@@ -28,7 +28,6 @@ from aadm_workbench.model import (
     MouldDrift,
     Profile,
     Scan,
-    StackSettings,
 )
 from aadm_workbench.scan.read import read_scan
 
@@ -267,7 +266,7 @@ def job_entry(plan: JobPlan) -> dict[str, str]:
         "method": settings.method,
         "decision": settings.decision,
         "seed": str(settings.seed),
-        **({} if plan.job.stack == StackSettings() else {"stack": plan.job.stack.text}),
+        **({} if plan.job.stack is None else {"stack": plan.job.stack.text}),
     }
 
 

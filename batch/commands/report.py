@@ -37,12 +37,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = (
         "aadm report REPORT.json [--out DIR] [--html] [--pdf] [--xlsx] [--csv] [--bcf] [--bcf-pairs]\n"
         "                   [--crew] [--scan-card] [--fcstd]\n"
-        "                   [--language en|zh] [--only ID ...] [--json] [--quiet]\n"
+        "                   [--language en|zh] [--model MODEL.ifc] [--only ID ...] [--json] [--quiet]\n"
         "       aadm report JOB.toml --scan-card [--out DIR] [--only ID ...]"
     )
     parser.add_argument("report", type=Path, metavar="REPORT.json", help="the report of a check, or a job (JOB.toml)")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder of the files (default: that of REPORT.json)")
     add_format_switches(parser)
+    parser.add_argument(
+        "--model", type=Path, metavar="MODEL.ifc", help="of a job with [stack]: heights and beams for the tower"
+    )
     parser.add_argument("--only", nargs="+", action="extend", default=[], metavar="ID", help="these columns only")
     add_switches(parser, prints_json="which files were written")
     parser.set_defaults(run=run)
@@ -64,7 +67,8 @@ def _reports(options: argparse.Namespace) -> dict[str, Path]:
     formats = chosen_formats(options) or ("html",)
     require_packages(formats)
     report = only_columns(read_report(options.report), options.only, options.report)
-    return write_reports(report, formats, _folder(options, options.report.parent), options.language)
+    folder = _folder(options, options.report.parent)
+    return write_reports(report, formats, folder, options.language, model=options.model)
 
 
 def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
