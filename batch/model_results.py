@@ -29,10 +29,10 @@ def ifc_model_of(job: Job) -> Path:
         Where the job has no model, or one that is no IFC file.
     """
     if job.model is None:
-        raise JobError(f"{job.source}: --write-ifc needs a [model], for results are written into the model's elements")
+        raise JobError.because("command.write_without_model", job=job.source)
     path = job.folder / job.model.path
     if path.suffix.lower() != ".ifc":
-        raise JobError(f"{job.source}: --write-ifc writes into IFC models (.ifc), but [model] path is {job.model.path}")
+        raise JobError.because("command.write_into_other", job=job.source, model=job.model.path)
     return path
 
 

@@ -108,7 +108,7 @@ def _asked(options: argparse.Namespace) -> Job:
 
     job = read_job(options.job)
     if options.events == "-" and options.json:
-        raise JobError("--events - and --json both want stdout; write the events into a file")
+        raise JobError.because("command.events_and_json")
     require_packages(chosen_formats(options))
     if options.write_ifc:
         from ..model_results import ifc_model_of

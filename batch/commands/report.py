@@ -79,10 +79,7 @@ def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
     from ..report_files import FORMATS
 
     if chosen_formats(options) != ("scan_card",):
-        raise JobError(
-            f"{options.report}: of a job only --scan-card can be made; check it first (aadm check {options.report}), "
-            "then name its report.json"
-        )
+        raise JobError.because("command.report_of_job", file=options.report, job=options.report)
     require_packages(("scan_card",))
     from aadm_workbench.report.pages.scan_card_page import write_scan_cards
 
@@ -105,7 +102,7 @@ def only_columns(report: JobReport, ids: list[str], source: Path) -> JobReport:
     known = [column.id for column in report.columns]
     for name in ids:
         if name not in known:
-            raise ReportError(f'{source} has no column "{name}" (--only); {did_you_mean(name, known)}')
+            raise ReportError.because("command.no_such_column", job=source, name=name, meant=did_you_mean(name, known))
     return replace(report, columns=tuple(column for column in report.columns if not ids or column.id in ids))
 
 
@@ -116,7 +113,7 @@ def _folder(options: argparse.Namespace, otherwise: Path) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise ReportError(f"{folder}: the folder for the reports cannot be made ({error.strerror})") from error
+        raise ReportError.because("command.no_report_folder", folder=folder, why=error.strerror) from error
     return folder
 
 

@@ -115,7 +115,7 @@ def _model(plan: StackPlan, reports: Sequence[JobReport], options: argparse.Name
     from ..model_results import write_results
 
     if options.model is None or len(reports) != 1:
-        raise ReportError("--write-ifc writes one report into its model: name one REPORT.json and --model")
+        raise ReportError.because("command.stack_write")
     folder: Path = options.reports[0].parent
     done = write_results(reports[0], folder, options.model, options.write_ifc, setting=setting_properties(plan))
     return done.out

@@ -44,8 +44,7 @@ def read_set_pose(column: JobTable) -> Vector3 | None:
     if not pose:
         return None
     if max(abs(value) for value in pose) > LARGEST_SET_POSE:
-        message = f"set_pose must lie within ±{LARGEST_SET_POSE:g} mm and degrees: no play is as large"
-        raise column.wrong("set_pose", message)
+        raise column.wrong("set_pose", "jobfile.set_pose", most=LARGEST_SET_POSE)
     dx, dy, yaw_deg = pose
     return dx, dy, yaw_deg
 
@@ -64,5 +63,5 @@ def carried_settings(job: Mapping[str, str]) -> StackSettings | None:
     try:
         values = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise JobError(f"{source}: is no TOML ({error}); repeat the check") from error
+        raise JobError.because("jobfile.report_no_toml", file=source, error=error) from error
     return read_stack(JobTable({"stack": values}, (), "the job", source, {}))
