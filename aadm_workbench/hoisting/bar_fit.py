@@ -16,6 +16,7 @@ from aadm_workbench.hoisting.frame import HoistingFrame, LocalAxes
 from aadm_workbench.hoisting.pattern_fit import (
     OWN,
     Believed,
+    Evidence,
     Pattern,
     State,
     System,
@@ -67,7 +68,7 @@ class BarFit:
     ``tops`` (k, 3) are centres of tops, NaN in height where no bar is seen; ``leans`` (k, 2) mm per mm upwards, with
     the joint ``covariance`` (2k, 2k) of the plan positions of the tops. ``seen`` (k,) tells which have evidence of
     their own, ``counts`` (k,) how many points that is. ``pose`` (3,) lays ``places`` (k, 2) on them,
-    its turn with the standard uncertainty ``turn_u``, rad.
+    its turn with the standard uncertainty ``turn_u``, rad. ``evidence`` is what the seen ones show by themselves.
     """
 
     tops: Array
@@ -80,6 +81,7 @@ class BarFit:
     places: Array
     radius_mm: float
     noise_mm: float
+    evidence: Evidence
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,6 +145,7 @@ def fit_bars(
         places=pattern.places,
         radius_mm=float(state.pooled[0]),
         noise_mm=law.width_mm,
+        evidence=_own_system(terms, believed, state).evidence(state, seen, _FLOOR_MM),
     )
 
 
@@ -160,9 +163,15 @@ def _settled(sides: list[_Side | None], state: State, pattern: Pattern, believed
 
 
 def _system(terms: Terms, pattern: Pattern, believed: Believed, state: State) -> System:
+    system = _own_system(terms, believed, state)
+    system.add_pattern(pattern, state)
+    return system
+
+
+def _own_system(terms: Terms, believed: Believed, state: State) -> System:
+    """What each bar shows by itself, without the pattern."""
     system = System(len(state.own), 1)
     system.add(terms)
-    system.add_pattern(pattern, state)
     system.add_beliefs(believed, state)
     return system
 

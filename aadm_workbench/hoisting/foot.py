@@ -19,6 +19,7 @@ from aadm_workbench.hoisting.multipath_shift import EdgeRays, Push, find_push
 from aadm_workbench.hoisting.pattern_fit import (
     OWN,
     Believed,
+    Evidence,
     Pattern,
     State,
     System,
@@ -63,7 +64,7 @@ class FootFit:
     ``centres`` (k, 2) with their joint ``covariance`` (2k, 2k); ``seen`` (k,) tells which have evidence of their own,
     ``shown`` (k,) about which anything returned at all;
     ``pose`` (3,) lays the pattern on them. ``push`` is that of the walls; ``wall_count`` (k,) their points, and
-    ``open_share`` (k,) how much of each mouth lets rays through.
+    ``open_share`` (k,) how much of each mouth lets rays through; ``evidence`` is what the seen ones show by themselves.
     """
 
     centres: Array
@@ -75,6 +76,7 @@ class FootFit:
     push: Push
     wall_count: IntArray
     open_share: Array
+    evidence: Evidence
 
 
 def fit_foot(
@@ -121,16 +123,19 @@ def fit_foot(
     covariance = _system(views, walls, state, pattern, believed)[0].covariance()[0]
     counts = np.array([len(wall) for wall in walls])
     own_mm = np.sqrt(np.diag(covariance).reshape(-1, 2).max(axis=1))
+    seen = (counts >= _WALL_FEWEST) & (own_mm < _SEEN_MM)
+    alone, _ = _own_system(views, walls, state, believed)
     return FootFit(
         centres=state.centres,
         covariance=covariance + _FLOOR_MM**2 * np.eye(len(covariance)),
-        seen=(counts >= _WALL_FEWEST) & (own_mm < _SEEN_MM),
+        seen=seen,
         shown=_shown(views),
         pose=state.pose,
         radius_mm=float(state.pooled[_WALL]),
         push=push,
         wall_count=counts,
         open_share=np.array([float(sector.mean()) for sector in sectors]),
+        evidence=alone.evidence(state, seen, _FLOOR_MM),
     )
 
 
@@ -201,6 +206,15 @@ def _system(
     views: list[MouthView | None], walls: list[IntArray], state: State, pattern: Pattern, believed: Believed
 ) -> tuple[System, float]:
     """Normal equations of walls, pattern and beliefs, and how far wall points scatter, mm."""
+    system, sigma_mm = _own_system(views, walls, state, believed)
+    system.add_pattern(pattern, state)
+    return system, sigma_mm
+
+
+def _own_system(
+    views: list[MouthView | None], walls: list[IntArray], state: State, believed: Believed
+) -> tuple[System, float]:
+    """The same without the pattern: what each sleeve shows by itself."""
     system = System(len(views), len(state.pooled))
     sigma_mm = 0.1
     present = [(k, views[k], wall) for k, wall in enumerate(walls) if len(wall)]
@@ -213,7 +227,6 @@ def _system(
         own_mm = _own_spreads(residual, owner, np.array([0.0 if v is None else v.range_mm for v in views]), sigma_mm)
         weight = tukey(residual / own_mm) / (_WALL_CORRELATION * own_mm) ** 2
         system.add(Terms(own, pooled, weight * residual, weight, owner))
-    system.add_pattern(pattern, state)
     system.add_beliefs(believed, state)
     return system, sigma_mm
 

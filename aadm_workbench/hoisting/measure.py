@@ -23,7 +23,8 @@ from aadm_workbench.hoisting.match import Laid, Matched, NoMatch, corner_name, m
 from aadm_workbench.hoisting.moved import moved_since, still_known, with_scans_named
 from aadm_workbench.hoisting.pairs import HungFit, report_pairs, unmeasured
 from aadm_workbench.hoisting.pattern_fit import Pattern
-from aadm_workbench.hoisting.sense import why_half, why_not_bars, why_not_foot
+from aadm_workbench.hoisting.sense import shown_sleeves, why_half, why_not_bars, why_not_foot
+from aadm_workbench.hoisting.sighting import Sighting, with_sighting
 from aadm_workbench.hoisting.turn_findings import held_while_ambiguous, with_turn_finding
 from aadm_workbench.hoisting.unseen import measured_labels
 from aadm_workbench.model import (
@@ -148,14 +149,18 @@ def _measured(
         hung = _bars(frame, face, foot, bars, design, matched, rebars_before, bar_mm, settings)
     before = *measured_labels(sleeves_before, design.sleeves), *measured_labels(rebars_before, design.rebars)
     hung = replace(hung, before=before)
-    half = why_half(frame, face, foot)
+    shown = shown_sleeves(frame, face, foot)
+    half = why_half(shown)
     unlike = why_not_foot(face, foot, sleeve_mm) or why_not_bars(frame, hung, bars, matched, bar_mm)
     if unlike:
         return unmeasured(scan, design, METHOD, half or unlike)
     measured = report_pairs(scan, frame, design, hung, matched.orientation, settings.profile, settings.decision, half)
     report = with_scans_named(measured.report, (*moved, *bent), before)
     report = replace(report, near=None if near is None else corner_name(near))
-    return replace(measured, report=held_while_ambiguous(with_turn_finding(report, near, matched.off_declared)))
+    measured = replace(measured, report=held_while_ambiguous(with_turn_finding(report, near, matched.off_declared)))
+    sleeves = _pattern(design.sleeves, sleeves_before, settings.scatter_mm)
+    rebars = _pattern(design.rebars, rebars_before, settings.scatter_mm)
+    return with_sighting(measured, Sighting(scan, frame, hung, sleeves, rebars, shown, near, matched.orientation))
 
 
 def _labels(points: Sequence[AssemblyPoint]) -> list[str]:

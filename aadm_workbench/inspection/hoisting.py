@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -10,6 +11,7 @@ import numpy as np
 from aadm_workbench.errors import AadmError
 from aadm_workbench.hoisting.aim import aimed
 from aadm_workbench.hoisting.contradiction import contradiction_of
+from aadm_workbench.hoisting.joint import measure_jointly
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
 from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.inspection.stopwatch import Stopwatch
@@ -53,8 +55,11 @@ class Before:
 
 def measure_frames(
     task: ColumnTask, design: ColumnDesign, report: ColumnReport, watch: Stopwatch
-) -> tuple[HoistingReport, ...]:
-    """Measure the hoisting frames that a job names for a column; a broken one costs itself alone."""
+) -> tuple[tuple[HoistingReport, ...], HoistingReport | None]:
+    """Measure the hoisting frames that a job names for a column; a broken one costs itself alone.
+
+    Beside the frames stands what they tell together, where two and more do.
+    """
     column, before = task.column, Before.of(report)
     corners = column.hoisting_near or (column.near,) * len(column.hoisting)
     measured: list[HoistingMeasurement | HoistingReport] = []
@@ -68,7 +73,11 @@ def measure_frames(
             continue
         with watch.stage("hoisting"):
             measured.append(measure_frame(task, design, scan, near, before))
-    return _held_against_each_other(measured, design)
+    frames = [frame for frame in measured if isinstance(frame, HoistingMeasurement)]
+    reports = _held_against_each_other(measured, design)
+    with watch.stage("hoisting"):
+        joint = None if _contradict(reports) else join_frames(task, design, frames, before)
+    return reports, None if joint is None else joint.report
 
 
 def measure_frame(
@@ -96,6 +105,18 @@ def _measured(
         rebars_before=before.rebars,
         settings=HoistingSettings(settings.profile, settings.decision, seed=settings.seed),
     )
+
+
+def join_frames(
+    task: ColumnTask, design: ColumnDesign, frames: Sequence[HoistingMeasurement], before: Before
+) -> HoistingMeasurement | None:
+    """What frames of a column tell together, in the bars' frame of the last one; None where they tell no more."""
+    joint = measure_jointly(frames, design, task.settings.profile, task.settings.decision)
+    return None if joint is None else replace(joint, report=aimed(joint.report, before.target))
+
+
+def _contradict(reports: Sequence[HoistingReport]) -> bool:
+    return any(finding.holds_back for report in reports for finding in report.findings)
 
 
 def unread(name: str, reason: str, method: str) -> HoistingReport:

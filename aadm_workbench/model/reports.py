@@ -23,7 +23,8 @@ class ColumnReport:
     """Everything that report.json holds about one column; ``repair`` where its trial did not pass.
 
     ``findings`` are what contradicts the design, what was declared, or the camera. ``section`` is that of the foot;
-    None where the design does not say where its section lies, or nothing says which edge is which.
+    None where the design does not say where its section lies, or nothing says which edge is which. ``hoisting_joint``
+    is what two and more frames of the hanging column tell together.
     """
 
     id: str
@@ -45,6 +46,7 @@ class ColumnReport:
     repair: RepairReport | None = None
     findings: tuple[Finding, ...] = ()
     section: SectionReport | None = None
+    hoisting_joint: HoistingReport | None = None
 
     def group(self, kind: Kind) -> GroupReport | None:
         """Its sleeves or its rebars."""
@@ -59,6 +61,11 @@ class ColumnReport:
         """Its sleeves or its rebars, one by one; empty without them."""
         group = self.group(kind)
         return () if group is None else group.points
+
+    @property
+    def hoisting_frames(self) -> tuple[HoistingReport, ...]:
+        """Its frames, and last what they tell together where they do."""
+        return self.hoisting if self.hoisting_joint is None else (*self.hoisting, self.hoisting_joint)
 
     @property
     def parts(self) -> tuple[ColumnReport | GroupReport | TrialReport, ...]:
