@@ -20,7 +20,9 @@ class Sighting:
     """All that was fitted in one frame.
 
     ``scan`` and ``frame`` are without points; ``sleeves`` and ``rebars`` the patterns that were believed, in the order
-    of the design; ``shown`` (k,) about which sleeves the picture holds anything; ``near`` the corner that was declared.
+    of the design; ``shown`` (k,) about which sleeves the picture holds anything; ``near`` the corner that was declared,
+    ``off_declared`` as in :class:`.match.Matched`. ``tracked`` counts the frames since all was searched, ``shape`` are
+    the rows and columns of the picture.
     """
 
     scan: Scan
@@ -31,6 +33,9 @@ class Sighting:
     shown: BoolArray
     near: tuple[int, int] | None
     orientation: str
+    off_declared: float = 0.0
+    tracked: int = 0
+    shape: tuple[int, int] = (0, 0)
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

@@ -13,6 +13,7 @@ from aadm_workbench.hoisting.aim import aimed
 from aadm_workbench.hoisting.contradiction import contradiction_of
 from aadm_workbench.hoisting.joint import measure_jointly
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
+from aadm_workbench.hoisting.sighting import SightedMeasurement
 from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.inspection.stopwatch import Stopwatch
 from aadm_workbench.inspection.tasks import ColumnTask
@@ -81,15 +82,28 @@ def measure_frames(
 
 
 def measure_frame(
-    task: ColumnTask, design: ColumnDesign, scan: Scan, near: tuple[int, int] | None, before: Before
+    task: ColumnTask,
+    design: ColumnDesign,
+    scan: Scan,
+    near: tuple[int, int] | None,
+    before: Before,
+    after: HoistingMeasurement | None = None,
 ) -> HoistingMeasurement:
-    """Measure one frame by the settings of its column's task; its correction leads to where the column is to be set."""
-    measured = _measured(task, design, scan, near, before)
+    """Measure one frame by the settings of its column's task; its correction leads to where the column is to be set.
+
+    It begins where the frame ``after`` which it follows ended, if it does follow it.
+    """
+    measured = _measured(task, design, scan, near, before, after)
     return replace(measured, report=aimed(measured.report, before.target))
 
 
 def _measured(
-    task: ColumnTask, design: ColumnDesign, scan: Scan, near: tuple[int, int] | None, before: Before
+    task: ColumnTask,
+    design: ColumnDesign,
+    scan: Scan,
+    near: tuple[int, int] | None,
+    before: Before,
+    after: HoistingMeasurement | None,
 ) -> HoistingMeasurement:
     settings = task.settings
     if settings.method != "refined":
@@ -104,6 +118,7 @@ def _measured(
         sleeves_before=before.sleeves,
         rebars_before=before.rebars,
         settings=HoistingSettings(settings.profile, settings.decision, seed=settings.seed),
+        after=after.sighting if isinstance(after, SightedMeasurement) else None,
     )
 
 

@@ -19,7 +19,7 @@ from aadm_workbench.hoisting.motion import Look, Motion, Running, combined, look
 from aadm_workbench.inspection.column import inspect_column
 from aadm_workbench.inspection.hoisting import Before, measure_frame, unread
 from aadm_workbench.inspection.tasks import ColumnTask
-from aadm_workbench.model import HoistingMeasurement, Verdict
+from aadm_workbench.model import HoistingMeasurement, Scan, Verdict
 from aadm_workbench.model.reason import reason_of, renamed
 from aadm_workbench.report.json import encode
 
@@ -82,6 +82,7 @@ class Watcher:
         self._places = np.array([bar.centre[:2] for bar in self.design.rebars])
         rules = rules_for(task.settings.profile, "sleeve_rebar_distance")
         self._limit_mm = rules[0].upper if rules else None
+        self._newest: dict[tuple[int, int] | None, HoistingMeasurement] = {}
         self._before_hoisting = self._before()
         self._corners = Corners(task, self.design, self._before_hoisting)
         self._first_tries: dict[str, float] = {}
@@ -134,7 +135,7 @@ class Watcher:
         began, name = perf_counter(), self._folder.name_of(path)
         try:
             scan = self.task.read(name, path=path)
-            measurement = measure_frame(self.task, self.design, scan, self._near(path), self._before_hoisting)
+            measurement = self._measured(scan, self._near(path))
         except (ScanError, OSError) as error:
             if self._may_be_unfinished(path):
                 return
@@ -148,6 +149,13 @@ class Watcher:
         captured_s = self._folder.captured_s(path)
         self._folder.done(path)
         self._keep(measurement, self._near(path), captured_s, perf_counter() - began)
+
+    def _measured(self, scan: Scan, near: tuple[int, int] | None) -> HoistingMeasurement:
+        """The frame by itself; it begins where the last one of its corner ended."""
+        after = self._newest.get(near)
+        measurement = measure_frame(self.task, self.design, scan, near, self._before_hoisting, after)
+        self._newest[near] = measurement
+        return measurement
 
     def _near(self, path: Path) -> tuple[int, int] | None:
         """The corner that a frame was taken from: its subfolder's, else the command's, else the job's."""
