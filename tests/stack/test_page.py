@@ -87,7 +87,7 @@ def test_never_off_grid_without_control_points(untied: StackPlan, language: Any)
 
 
 def test_without_a_model_beams_are_said_to_be_unknown(untied: StackPlan) -> None:
-    assert "no model was named" in stack_page(untied)
+    assert "no IFC model was named" in stack_page(untied)
 
 
 def test_names_are_escaped_and_nothing_runs(plan: StackPlan) -> None:
@@ -134,3 +134,11 @@ def test_a_browser_shows_one_language_at_a_time(plan: StackPlan, tmp_path: Path)
         assert "Set it" not in shown
         assert "供上一层放线使用" in shown
         assert wrong == []
+
+
+def test_nothing_judged_is_no_good_news(untied: StackPlan) -> None:
+    """Where nothing could be held against a limit, nobody is told that all keep theirs."""
+    page = stack_page(untied)
+    assert "could be held against its limit yet" in page
+    assert "Nothing is beyond a limit" not in page
+    assert "which says nothing of the grid" in page

@@ -102,7 +102,7 @@ def test_another_makers_client_sees_values_quality_time_out_and_can_write_nothin
             assert sequence["value"] == 7
             await reader.until("Heartbeat", lambda found: found["value"] > beat["value"])
             assert await reader.asked("write", "Ready") == "BAD_USER_ACCESS_DENIED"
-            async with Client(f"opc.tcp://127.0.0.1:{port}/aadm") as client:
+            async with Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=60) as client:
                 await _refused(client)
             assert (await reader.read("Ready"))[0]["value"] is True
 
@@ -158,7 +158,7 @@ def test_ready_is_withdrawn_before_values_change(tmp_path: Path) -> None:
     async def run() -> None:
         async with (
             linked(path, OpcUaLink("127.0.0.1", port, None)),
-            Client(f"opc.tcp://127.0.0.1:{port}/aadm") as client,
+            Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=60) as client,
         ):
             space = await client.get_namespace_index(NAMESPACE)
             nodes = [client.get_node(f"ns={space};s=Hoisting.{name}") for name in ("Ready", "Dx_mm")]
@@ -192,7 +192,7 @@ def certificate(folder: Path, uri: str = READER, days: int = 30) -> tuple[Path, 
 
 async def ready_of(port: int, own: tuple[Path, Path] | None, server: Path, says: bytes | None = b"own") -> Any:
     """What a client with a certificate reads; ``says``: the certificate that it names when it opens its session."""
-    client = Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=10)
+    client = Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=60)
     client.application_uri = READER
     if own is not None:
         await client.set_security(
