@@ -14,10 +14,14 @@ def advice_phrase(column: StackedColumn) -> Phrase:
     assert column.advice is not None
     dx, dy, yaw_deg = column.advice.from_trial
     turn = phrase("stack.advice_turn", turn=f"{yaw_deg:+.2f}") if abs(yaw_deg) >= _LEAST_TURN_DEG else Phrase("", "")
+    # It goes on its bars, but something else forbids hoisting: whoever reads this line alone must not lift it.
+    first = Phrase("", "") if column.measured.verdict is Verdict.PASS else phrase("stack.once_released")
     return Phrase(
         *(
-            sentence.format(way=way, turn=text, before=_length(column.top), after=_length(column.advice.top))
-            for sentence, way, text in zip(phrase("stack.advice_line"), _way(column, dx, dy), turn, strict=True)
+            lead + sentence.format(way=way, turn=text, before=_length(column.top), after=_length(column.advice.top))
+            for lead, sentence, way, text in zip(
+                first, phrase("stack.advice_line"), _way(column, dx, dy), turn, strict=True
+            )
         )
     )
 

@@ -7,7 +7,7 @@ the mouths, whose bores are known; whether it drops them before an empty backgro
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,7 +27,7 @@ from aadm_workbench.extract.section.strips import (
 from aadm_workbench.model import Array, Reason
 
 _FIRST_REACH_MM = 30.0  # sections are cast to within 5 mm, and patterns stand within 10 mm of their place in them
-_REACH_MM, _REACH_PITCHES = 6.0, 8.0  # to both sides of an edge that is known by and by
+_REACH_MM, _REACH_PITCHES = 4.0, 8.0  # to both sides of an edge that is known by and by; deeper chips are followed
 _CORNER_MM = 3.0  # of the neighbouring edge: nothing is asked so near to it
 _MOST_ASKEW_MM = 8.0  # from end to end: sections are cast to 5 mm, and what hides a part of one runs as it likes
 _MOST_OFF_MM = 8.0  # from its place by design: sections and patterns keep to 5 mm each
@@ -36,6 +36,8 @@ _BLIND_PITCHES = 1.0  # about an edge: places fill it where rows of pixels run a
 _OWN_SHARE = 0.1  # of the overshoot: by so much it differs from edge to edge, for what is lit along it
 _LEVEL_PITCHES = 4.0  # before an edge: farther than any sharp camera's blur
 _BLOCKS, _BLOCK_PLACES = 10, 20  # along an edge: what bends more often is no face that was cast
+_LEVEL_PLACES = 1200  # of which each block has a hundred, and a median a tenth of the noise
+_AT_END_MM = 1.5  # before the next edge: a strip there may be cut by it, and shallower chips are none
 _CHIP_LOOK_MM = 30.0  # half of how deep a chip is followed: what is deeper is no chip
 _ABOUT_MOUTH_MM = 2.0  # rims that are worn, or chamfered
 _WIDE_MM = 5.0  # about the face: as far as edges bend that are 0.5 mm from the middle of a pixel, seen from 1.5 m
@@ -111,8 +113,10 @@ def find_edge(
         return ended
     line, strips, fit, off, height = ended
     overshoot = overshoot_of(off, height, band_mm, samples.pitch_mm)
-    why = overshoot if isinstance(overshoot, Reason) else _doubt(line, guess, samples, length_mm)
-    if why or isinstance(overshoot, Reason):
+    if isinstance(overshoot, Reason):
+        return overshoot
+    why = _doubt(line, guess, samples, length_mm)
+    if why:
         return why
     lost_mm = lost_at_rim(samples, mouths, normal, band_mm) if overshoot is None else None
     taken_mm = taken_in(samples, along * line.middle_mm + normal * line.offset_mm, normal, band_mm)
@@ -129,15 +133,24 @@ def edge_lines(
     lost = [edge.lost_mm for edge in seen if edge.lost_mm is not None]
     # Who loses whole rings at mouths loses them before an empty background, too, or none there: either is as likely.
     lost_mm = 0.0 if mixed is not None else float(np.median(lost)) if lost else samples.pitch_mm
-    return {
-        side: _edge_line(samples, edge, mixed, lost_mm, mouths) if isinstance(edge, FoundEdge) else edge
-        for side, edge in found.items()
-    }
+    lines: dict[str, EdgeLine | Reason] = {}
+    for side, edge in found.items():
+        if isinstance(edge, Reason):
+            lines[side] = edge
+            continue
+        line = _edge_line(samples, edge, mixed, lost_mm)
+        chips = [
+            _deepened(samples, edge.line, chip, mouths) if chip.depth_mm >= edge.strips.reach_mm else chip
+            for chip in chips_of(edge.strips, edge.fit, edge.line.middle_mm)
+        ]
+        others = [other.line for other in seen if other is not edge]
+        trimmed = (_trimmed(chip, edge.line, others) for chip in chips)
+        lines[side] = replace(line, chips=tuple(chip for chip in trimmed if chip is not None))
+    return lines
 
 
-def _edge_line(
-    samples: FaceSamples, found: FoundEdge, mixed: Overshoot | None, lost_mm: float, mouths: KnownMouths
-) -> EdgeLine:
+def _edge_line(samples: FaceSamples, found: FoundEdge, mixed: Overshoot | None, lost_mm: float) -> EdgeLine:
+    """Without its chips."""
     line = found.line
     mixed = Overshoot(0.0, 0.0) if mixed is None else mixed
     covariance = found.fit.covariance.copy()
@@ -154,11 +167,21 @@ def _edge_line(
         covariance,
         float(np.linalg.norm(shared)),
         found.strips.seen,
-        tuple(
-            _deepened(samples, line, chip, mouths) if chip.depth_mm >= found.strips.reach_mm else chip
-            for chip in chips_of(found.strips, found.fit, line.middle_mm)
-        ),
+        (),
     )
+
+
+def _trimmed(chip: Chip, line: Guess, others: Sequence[Guess]) -> Chip | None:
+    """The part of a chip that lies within the other edges; None where none does: there the face itself has ended."""
+    run = np.linspace(chip.begin_mm, chip.end_mm, 2 * int(chip.end_mm - chip.begin_mm) + 2)
+    places = np.outer(run, line.along) + np.outer(line.offset_mm + line.turn * (run - line.middle_mm), line.normal)
+    inside = np.ones(len(run), bool)
+    for other in others:
+        end = other.offset_mm + other.turn * (places @ other.along - other.middle_mm)
+        inside &= places @ other.normal < end - _AT_END_MM
+    if not inside.any():
+        return None
+    return replace(chip, begin_mm=float(run[inside][0]), end_mm=float(run[inside][-1]))
 
 
 def _deepened(samples: FaceSamples, line: Guess, chip: Chip, mouths: KnownMouths) -> Chip:
@@ -188,7 +211,8 @@ def _ended(
     ended: tuple[Guess, Strips, StripLine, Array, Array] | Reason = OUT_OF_PICTURE
     for reach_mm, every in ((_FIRST_REACH_MM, _WIDE_EVERY), (fine_mm, _FINE_EVERY), (fine_mm, _FINE_EVERY)):
         s, d, height = _across(samples, line, mouths, half_mm, reach_mm, every)
-        d, height = _levelled(samples, line, s, d, height, band_mm)
+        if every == _FINE_EVERY:
+            d, height = _levelled(samples, line, s, d, height, band_mm)
         step = every[1] * samples.pitch_mm
         strips = ends_of_strips(s, d, np.abs(height) < band_mm, half_mm, reach_mm, (every[0] * samples.pitch_mm, step))
         if isinstance(strips, Reason):
@@ -240,15 +264,14 @@ def _levelled(
 
     A line of sight meets what lies over the plane before it meets the plane.
     """
-    inner = (np.abs(height) < band_mm) & (d < -_LEVEL_PITCHES * samples.pitch_mm)
-    if samples.eye is None or not inner.any():
+    inner = np.flatnonzero((np.abs(height) < band_mm) & (d < -_LEVEL_PITCHES * samples.pitch_mm))
+    inner = inner[:: len(inner) // _LEVEL_PLACES + 1]
+    if samples.eye is None or len(inner) < _BLOCK_PLACES:
         return d, height
-    block = ((s[inner] - s[inner].min()) / (np.ptp(s[inner]) + 1.0) * _BLOCKS).astype(int)
-    known = [chosen for chosen in (block == number for number in range(_BLOCKS)) if chosen.sum() >= _BLOCK_PLACES]
-    if not known:
-        return d, height
-    at = [float(s[inner][chosen].mean()) for chosen in known]
-    level = np.interp(s, at, [float(np.median(height[inner][chosen])) for chosen in known])
+    # Blocks of as many places each, from end to end.
+    blocks = np.array_split(inner[np.argsort(s[inner], kind="stable")], min(_BLOCKS, len(inner) // _BLOCK_PLACES))
+    at = [float(s[block].mean()) for block in blocks]
+    level = np.interp(s, at, [float(np.median(height[block])) for block in blocks])
     near = height[inner] - level[inner]
     level += _rise(d[inner], near) * (d - float(np.median(d[inner])))
     slope = samples.slope_at(np.outer(line.middle_mm + s, line.along) + line.offset_mm * line.normal) @ line.normal
