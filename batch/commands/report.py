@@ -142,9 +142,10 @@ def job_cards(job: Job, only: Sequence[str] = ()) -> list[ScanCard]:
     from aadm_workbench.report.pages.scan_card import CardDesign, design_cards
 
     designs = []
-    for task in plan_job(job, only=only).tasks:
+    plan = plan_job(job, only=only)
+    for task in plan.tasks:
         if task.design is None:
             raise DesignError(task.no_design)
         column = task.column
         designs.append(CardDesign(column.id, task.design, column.sleeves_up_deg, column.rebars_up_deg))
-    return design_cards(designs, job.camera)
+    return design_cards(designs, job.camera, () if plan.model is None else plan.model.grid)

@@ -6,6 +6,7 @@ import uuid
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from aadm_workbench.assembly.following import blame_of, name_of
 from aadm_workbench.model import ColumnReport, JobReport, Kind, PairResult, PointResult, Verdict, worst
 
 _TOPICS = uuid.UUID("b2b1b1de-53d5-5f0b-8a5e-0c7c6b3f9a41")
@@ -54,10 +55,15 @@ class Finding:
 
     @property
     def numbers(self) -> tuple[int, ...]:
-        """Numbers of the pairs that the topic selects: its own, or all that are not a pass."""
+        """Numbers of the pairs that the topic selects: its own, or all that are not a pass by themselves."""
         if self.number is not None:
             return (self.number,)
-        return tuple(k for k in pair_numbers(self.column) if _pair_verdict(self.column, k) not in _SETTLED)
+        follows = {*blame_of(self.column).follows}
+        return tuple(
+            number
+            for number in pair_numbers(self.column)
+            if any(one.verdict not in _SETTLED and name_of(one) not in follows for one in _judged(self.column, number))
+        )
 
 
 def findings(report: JobReport, per: str) -> Iterator[Finding]:

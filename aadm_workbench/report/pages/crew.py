@@ -23,7 +23,7 @@ from aadm_workbench.model import (
     RepairStep,
     codes_of,
 )
-from aadm_workbench.report.directions import SMALLEST_MM, Compass, compass_of
+from aadm_workbench.report.directions import SMALLEST_MM, Compass, compass_of, grid_of
 from aadm_workbench.report.hoist import Hoist, hoist_of
 from aadm_workbench.report.words.labels import Phrase, phrase
 from aadm_workbench.report.words.reasons import in_both_languages, recognised
@@ -69,7 +69,7 @@ def crew_advice(report: JobReport, column: ColumnReport) -> CrewAdvice:
     Where a frame was taken while the column hung over its bars, the last one says where to move it; before that the
     check says whether it may be hoisted, and what has to be done first.
     """
-    hoist, compass = hoist_of(column), compass_of(report.columns, column)
+    hoist, compass = hoist_of(column), compass_of(grid_of(report), column)
     for frame in reversed(column.hoisting):
         if frame.correction is not None and column.verdict != "fail" and column.goes_on != "fail":
             return _hanging(column, frame, frame.correction, hoist, compass)
@@ -82,6 +82,21 @@ def crew_advice(report: JobReport, column: ColumnReport) -> CrewAdvice:
     headline = phrase("crew.stop" if failed else "crew.wait")
     shifts = tuple(_bends(repair)) if failed and repair is not None else ()
     return CrewAdvice(light, headline, tuple(_first(column, repair, compass)), shifts, 0.0, hoist, compass)
+
+
+def in_steps(advice: CrewAdvice) -> Phrase:
+    """The steps of an advice in one line, numbered where they are several."""
+    release = phrase("crew.after_release")
+    told = [
+        Phrase(f"{step.text.en} ({release.en})", f"{step.text.zh}（{release.zh}）") if step.release else step.text
+        for step in advice.steps
+    ]
+    if len(told) == 1:
+        return told[0]
+    return Phrase(
+        " ".join(f"{number}. {text.en}" for number, text in enumerate(told, start=1)),
+        " ".join(f"{number}. {text.zh}" for number, text in enumerate(told, start=1)),
+    )
 
 
 def _hanging(
@@ -129,7 +144,7 @@ def _beside_camera(seen: CameraMove | None) -> Phrase:
     ]
     if not ways:
         return Phrase("", "")
-    told = _with_way("crew.from_camera", Phrase(", ".join(way.en for way in ways), ",".join(way.zh for way in ways)))
+    told = _with_way("crew.from_camera", Phrase(", ".join(way.en for way in ways), "，".join(way.zh for way in ways)))
     return Phrase(f" {told.en}", told.zh)
 
 

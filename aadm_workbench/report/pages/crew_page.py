@@ -10,7 +10,8 @@ from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.pages.crew import CrewAdvice, Step, crew_advice
 from aadm_workbench.report.pages.crew_sketch import crew_sketch, sleeves_from_below
-from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, lines_of, pages, reportlab, write, write_lines
+from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, pages, write, write_lines
+from aadm_workbench.report.pages.pdf_text import lines_of, reportlab
 from aadm_workbench.report.words.labels import COLOUR, FAINT, HEAD, INK, WARN, Language, phrase
 
 _LIGHT = {"green": COLOUR["pass"], "amber": "#e0a100", "red": COLOUR["fail"]}

@@ -8,7 +8,8 @@ from typing import Any
 
 from aadm_workbench.model import Kind
 from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow, rectangle
-from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, lines_of, pages, write, write_lines
+from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, pages, write, write_lines
+from aadm_workbench.report.pages.pdf_text import lines_of
 from aadm_workbench.report.pages.scan_card import (
     CardPart,
     ScanCard,
