@@ -88,7 +88,7 @@ def measured(path: Path, name: str, folder: Path) -> dict[str, float]:
     read_mb = _peak_mb()
     written = write_reports(report, (name,), folder)
     seconds, took = _cpu_s() - before, time.perf_counter() - wall
-    size = sum(file.stat().st_size for file in written.values())
+    size = sum(file.stat().st_size for file in written.files.values())
     return {"cpu_s": seconds, "wall_s": took, "read_mb": read_mb, "peak_mb": _peak_mb(), "mb": size / 1e6}
 
 

@@ -25,8 +25,11 @@ class Titled:
     speaks: bool = True
 
 
-def foot_sketches(column: ColumnReport, marked: Collection[str] = ()) -> Iterator[Titled]:
-    """Sleeves, rebars and trial assembly seen from above, as far as there are such; ``marked`` labels are ringed."""
+def foot_sketches(column: ColumnReport, marked: Collection[str] = (), *, from_below: bool = False) -> Iterator[Titled]:
+    """Sleeves, rebars and trial assembly seen from above, or from below, as far as there are such.
+
+    ``marked`` labels are ringed.
+    """
     blame = blame_of(column)
     shown = [
         (f"ui.sketch_{kind.plural}", group_marks(group, blame.follows), typical_diameter_mm(column, kind))
@@ -35,7 +38,7 @@ def foot_sketches(column: ColumnReport, marked: Collection[str] = ()) -> Iterato
     shown.append(("ui.sketch_pairs", pair_marks(column, blame.follows), typical_diameter_mm(column, Kind.SLEEVE)))
     for title, marks, diameter_mm in shown:
         if marks:
-            foot = foot_sketch(marks, column.size_mm, diameter_mm, marked)
+            foot = foot_sketch(marks, column.size_mm, diameter_mm, marked, from_below=from_below)
             because = blame.culprits if any(mark.follows for mark in marks) else ()
             speaks = any(mark.verdict not in ("pass", "not_assessed") and not mark.follows for mark in marks)
             yield Titled(title, _caption(foot, because), foot, speaks)

@@ -50,7 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         writes="the reports",
         prints_json="report.json",
         more="[--resume] [--events FILE] [--write-ifc] [--html] [--pdf] [--xlsx] [--csv] [--bcf] [--bcf-pairs] "
-        "[--crew] [--scan-card] [--language en|zh] [--absolute-paths]",
+        "[--crew] [--scan-card] [--bcf-version 2.1|3.0] [--language en|zh] [--absolute-paths]",
     )
     parser.add_argument(
         "--resume",
@@ -166,7 +166,8 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
     try:
         write_report(report, folder / "report.json")
         write_atomically(folder / "timing.json", encode(done.seconds))
-        _write_reports(folder, options)
+        if not _write_reports(folder, options):
+            code = INTERNAL
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
         say(f"aadm: {told(error, options)}")
@@ -182,15 +183,18 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
     return code
 
 
-def _write_reports(folder: Path, options: argparse.Namespace) -> None:
-    """The other reports that were asked for, from what report.json holds."""
+def _write_reports(folder: Path, options: argparse.Namespace) -> bool:
+    """The other reports that were asked for, from what report.json holds; whether all were written."""
     formats = chosen_formats(options)
-    if formats:
-        from aadm_workbench.report.read import read_report
+    if not formats:
+        return True
+    from aadm_workbench.report.read import read_report
 
-        from ..report_files import write_reports
+    from ..report_files import HowReports, write_reports
 
-        write_reports(read_report(folder / "report.json"), formats, folder, options.language)
+    written = write_reports(read_report(folder / "report.json"), formats, folder, HowReports.asked(options))
+    written.say(options)
+    return not written.failed
 
 
 def _write_model(report: JobReport, job: Job, folder: Path, options: argparse.Namespace) -> int:

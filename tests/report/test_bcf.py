@@ -274,15 +274,15 @@ def test_a_file_that_is_no_bcf_is_refused(report: dict[str, Any], tmp_path: Path
     broken, newer = tmp_path / "broken.bcf", tmp_path / "newer.bcf"
     broken.write_bytes(b"PK but no archive")
     with zipfile.ZipFile(newer, "w") as archive:
-        archive.writestr("bcf.version", '<Version VersionId="3.0"/>')
+        archive.writestr("bcf.version", '<Version VersionId="4.0"/>')
     with pytest.raises(ReportError, match="cannot be read as a BCF file"):
         write_bcf(typed(report), tmp_path / "a.bcf", existing=broken)
-    with pytest.raises(ReportError, match=r"is of BCF version 3\.0"):
+    with pytest.raises(ReportError, match=r"is of BCF version 4\.0"):
         write_bcf(typed(report), tmp_path / "a.bcf", existing=newer)
     with zipfile.ZipFile(newer, "w") as archive:
         archive.writestr("bcf.version", '<Version VersionId="2.0"><DetailedVersion>2.0 RC</DetailedVersion></Version>')
         archive.writestr("5a0f/markup.bcf", "<Markup/>")
-    with pytest.raises(ReportError, match=r"is of BCF version 2\.0.*save it as BCF 2\.1"):
+    with pytest.raises(ReportError, match=r"is of BCF version 2\.0.*save it as one of these"):
         write_bcf(typed(report), tmp_path / "a.bcf", existing=newer)
     assert not (tmp_path / "a.bcf").exists()
 

@@ -68,7 +68,7 @@ def test_columns_beside_their_axes(floor: dict[str, Any]) -> None:
         if column["grid"] is not None:
             vector = (2.0, -3.0)
             assert compass_of(grid_of(typed(moved)), of_column(column)).in_words(vector) == compass_of(
-                typed(floor).columns, of_column(other)
+                grid_of(typed(floor)), of_column(other)
             ).in_words(vector)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from aadm_workbench.assembly.following import name_of
 from aadm_workbench.model import ColumnReport, GroupReport, Kind
@@ -79,9 +79,14 @@ def pair_marks(column: ColumnReport, follows: Collection[str] = ()) -> list[Mark
 
 
 def foot_sketch(
-    marks: Sequence[Mark], size_mm: Sequence[float] | None, diameter_mm: float, marked: Collection[str] = ()
+    marks: Sequence[Mark],
+    size_mm: Sequence[float] | None,
+    diameter_mm: float,
+    marked: Collection[str] = (),
+    *,
+    from_below: bool = False,
 ) -> FootSketch:
-    """Outline, points, rings of the limit and arrows, seen from above with +y at the top.
+    """Outline, points, rings of the limit and arrows with +y at the top, seen from above, or from below: mirrored.
 
     Parameters
     ----------
@@ -92,6 +97,8 @@ def foot_sketch(
     marked
         Labels of the points that get a ring more.
     """
+    if from_below:
+        marks = [_mirrored(mark) for mark in marks]
     reach = _reach(marks, size_mm)
     scale = (SIDE - 2.0 * _MARGIN) / (2.0 * reach)
     limit_mm = next((mark.limit_mm for mark in marks if mark.limit_mm), None)
@@ -101,7 +108,7 @@ def foot_sketch(
     if size_mm is not None:
         x, y = size_mm[0] / 2.0 * scale, size_mm[1] / 2.0 * scale
         shapes.append(rectangle((SIDE / 2 - x, SIDE / 2 - y), (SIDE / 2 + x, SIDE / 2 + y), "outline"))
-    shapes += _axes()
+    shapes += _axes(from_below=from_below)
     radius = max(2.2, diameter_mm / 2.0 * scale)
     places = {
         mark.label: (SIDE / 2 + mark.design_mm[0] * scale, SIDE / 2 + mark.design_mm[1] * scale) for mark in marks
@@ -187,11 +194,19 @@ def _length(vector: Point) -> float:
     return float((vector[0] ** 2 + vector[1] ** 2) ** 0.5)
 
 
-def _axes() -> Iterator[Shape]:
-    """Where x and y point, in the lower left corner."""
-    for end, name in (((16.0, 3.0), "x"), ((3.0, 16.0), "y")):
-        yield arrow((3.0, 3.0), end, "guide", 3.0)
-        yield Label((end[0] + 3.5, end[1]) if name == "x" else (end[0], end[1] + 4.0), name, 7.0, "text-faint")
+def _mirrored(mark: Mark) -> Mark:
+    offset = mark.offset_mm
+    mirrored = None if offset is None else (-offset[0], offset[1])
+    return replace(mark, design_mm=(-mark.design_mm[0], mark.design_mm[1]), offset_mm=mirrored)
+
+
+def _axes(*, from_below: bool) -> Iterator[Shape]:
+    """Where x and y point, in a lower corner."""
+    corner, across = (SIDE - 3.0, -1.0) if from_below else (3.0, 1.0)
+    yield arrow((corner, 3.0), (corner + 13.0 * across, 3.0), "guide", 3.0)
+    yield Label((corner + 16.5 * across, 3.0), "x", 7.0, "text-faint")
+    yield arrow((corner, 3.0), (corner, 16.0), "guide", 3.0)
+    yield Label((corner, 20.0), "y", 7.0, "text-faint")
 
 
 def _mark(mark: Mark, at: Point, scale: float, factor: int, radius: float, ring: float) -> Iterator[Shape]:
