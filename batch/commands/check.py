@@ -162,9 +162,10 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
         for name, trace in done.traces.items():
             say(f"{name}: {trace}")
     report = done.report if options.absolute_paths else without_absolute_paths(done.report, job)
-    code = exit_code_of(column.verdict for column in report.columns)
+    code, written = exit_code_of(column.verdict for column in report.columns), False
     try:
         write_report(report, folder / "report.json")
+        written = True
         write_atomically(folder / "timing.json", encode(done.seconds))
         if not _write_reports(folder, options):
             code = INTERNAL
@@ -177,7 +178,7 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
     elif not options.quiet and options.events != "-":
         from ..shown.verdict_table import show_verdicts
 
-        show_verdicts(report, f"Report: {folder / 'report.json'}")
+        show_verdicts(report, folder / "report.json" if written else None, options.language or "en")
     if options.write_ifc and code != INTERNAL:
         return _write_model(report, job, folder, options) or code
     return code

@@ -138,7 +138,7 @@ def write_lines(
     """
     lines = lines_of(text, size, width)
     if most is not None and len(lines) > most:
-        lines = [*lines[: most - 1], f"{lines[most - 1].rstrip()[:-1]}…"]
+        lines = (*lines[: most - 1], f"{lines[most - 1].rstrip()[:-1]}…")
     y = at[1]
     for line in lines:
         write(canvas, (at[0], y), line, size, colour=colour, bold=bold)

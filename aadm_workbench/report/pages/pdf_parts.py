@@ -87,7 +87,7 @@ def paragraph(
     """
     keep = keep or outline is not None
     text = shortened(text, *(_LONGEST_KEPT if keep else _LONGEST_PARAGRAPH))
-    lines = tuple(lines_of(text, size, width - indent))
+    lines = lines_of(text, size, width - indent)
     return Paragraph(lines, size, colour, bold, indent, after, outline, bookmark, link, keep, text)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
@@ -36,7 +36,19 @@ class TableCell:
     fill: str = ""
 
 
-TableRow: TypeAlias = tuple[TableCell, ...]
+@dataclass(frozen=True)
+class TableRow:
+    """Cells beside each other, and the lines of the highest."""
+
+    cells: tuple[TableCell, ...]
+    lines: int
+
+    @property
+    def height(self) -> float:
+        """With the room above and below its texts, pt."""
+        return self.lines * _LEADING + _ABOVE + _BELOW
+
+
 _Text: TypeAlias = tuple[float, float, str]
 """Where a text stands, and the text."""
 
@@ -55,13 +67,13 @@ class Table:
     @property
     def height(self) -> float:
         """Of heading and rows, pt."""
-        return _row_height(self.head) + sum(map(_row_height, self.rows))
+        return self.head.height + sum(row.height for row in self.rows)
 
     def split(self, room: float) -> tuple[Block, Block] | None:
         """Between two rows."""
-        fit, used = 0, _row_height(self.head)
+        fit, used = 0, self.head.height
         for row in self.rows:
-            used += _row_height(row)
+            used += row.height
             if used > room:
                 break
             fit += 1
@@ -72,21 +84,21 @@ class Table:
 
     def shrunk(self, height: float) -> Block:
         """As many rows as fit: where the first one fills a page, its cells lose lines."""
-        fit, used = 0, _row_height(self.head)
+        fit, used = 0, self.head.height
         for row in self.rows:
-            used += _row_height(row)
+            used += row.height
             fit += used <= height
         return replace(self, rows=self.rows[: max(1, fit)])
 
     def draw(self, canvas: Any, x: float, top: float) -> None:
         """Fills and lines first, then texts, those of a colour together."""
         width = sum(self.widths)
-        y = top - _row_height(self.head)
+        y = top - self.head.height
         area(canvas, (x, y), width, top - y, HEAD)
         texts: dict[str, list[_Text]] = {}
         self._texts(texts, self.head, x, top, lift=True)
         for number, row in enumerate(self.rows, start=self.first):
-            below = y - _row_height(row)
+            below = y - row.height
             if number % 2:
                 area(canvas, (x, below), width, y - below, _STRIPE)
             self._fills(canvas, row, x, below, y - below)
@@ -100,7 +112,7 @@ class Table:
             letters.done()
 
     def _fills(self, canvas: Any, row: TableRow, x: float, below: float, height: float) -> None:
-        for cell, width in zip(row, self.widths, strict=True):
+        for cell, width in zip(row.cells, self.widths, strict=True):
             if cell.fill:
                 area(canvas, (x, below), width, height, cell.fill)
             x += width
@@ -115,9 +127,8 @@ class Table:
         lift: bool = False,
     ) -> None:
         """Where each line of a row stands; headings stand on the foot of their row."""
-        high = max(len(cell.lines) for cell in row)
-        for cell, width, right in zip(row, self.widths, self.flush_right, strict=True):
-            down = (high - len(cell.lines)) * _LEADING if lift else 0.0
+        for cell, width, right in zip(row.cells, self.widths, self.flush_right, strict=True):
+            down = (row.lines - len(cell.lines)) * _LEADING if lift else 0.0
             y = top - _ABOVE - SIZE - down
             for line in cell.lines:
                 left = x + width - _PADDING - width_of(line, SIZE) if right else x + _PADDING
@@ -126,25 +137,26 @@ class Table:
             x += width
 
 
-def _row_height(row: TableRow) -> float:
-    return max(len(cell.lines) for cell in row) * _LEADING + _ABOVE + _BELOW
-
-
 def table(headings: Sequence[Heading], rows: Sequence[Row], width: float, language: Language) -> Table:
     """A table of a report, at most ``width`` pt wide."""
     names = [heading.in_full().in_language(language) for heading in headings]
     texts = [[_text(cell, heading, language) for cell, heading in zip(row, headings, strict=True)] for row in rows]
     widths = _widths(names, texts, headings, width)
     flush_right = tuple(is_number(heading.kind) for heading in headings)
-    head = tuple(TableCell(_wrapped(name, room), "#ffffff") for name, room in zip(names, widths, strict=True))
-    cells = tuple(
-        tuple(
+    head = _row(TableCell(_wrapped(name, room), "#ffffff") for name, room in zip(names, widths, strict=True))
+    body = tuple(
+        _row(
             TableCell(_wrapped(text, room), *_look(cell, heading))
             for text, room, cell, heading in zip(said, widths, row, headings, strict=True)
         )
         for said, row in zip(texts, rows, strict=True)
     )
-    return Table(head, cells, tuple(widths), flush_right)
+    return Table(head, body, tuple(widths), flush_right)
+
+
+def _row(cells: Iterable[TableCell]) -> TableRow:
+    kept = tuple(cells)
+    return TableRow(kept, max(len(cell.lines) for cell in kept))
 
 
 def _look(cell: Cell, heading: Heading) -> tuple[str, str]:
@@ -160,7 +172,7 @@ def _look(cell: Cell, heading: Heading) -> tuple[str, str]:
 def _wrapped(text: str, room: float) -> tuple[str, ...]:
     if _width(text) <= room - 2.0 * _PADDING:
         return (printable(text),)
-    return tuple(lines_of(text, SIZE, room - 2.0 * _PADDING))
+    return lines_of(text, SIZE, round(room - 2.0 * _PADDING, 1))
 
 
 def _width(text: str) -> float:

@@ -75,7 +75,8 @@ def shortened(text: str, most: int, most_lines: int) -> str:
     return text if len(kept) == len(text) <= most else f"{kept[: most - 1]}…"
 
 
-def lines_of(text: str, size: float, width: float) -> list[str]:
+@lru_cache(_KEPT_TEXTS)
+def lines_of(text: str, size: float, width: float) -> tuple[str, ...]:
     """A text broken into lines of a width, pt: between words, between Chinese characters, in words too long."""
     lines: list[str] = []
     for paragraph in printable(text).split("\n"):
@@ -90,7 +91,7 @@ def lines_of(text: str, size: float, width: float) -> list[str]:
             piece = piece if line else piece.lstrip()
             line, used = line + piece, used + (wide if piece else 0.0)
         lines.append(line.rstrip())
-    return lines
+    return tuple(lines)
 
 
 def _break(line: str, piece: str) -> int:

@@ -57,7 +57,7 @@ def paletted_png(pixels: NDArray[np.uint8]) -> bytes:
     rows = np.pad(number[code], ((0, 0), (1, 0)))
     high, wide = code.shape
     head = struct.pack(">IIBBBBB", wide, high, 8, 3, 0, 0, 0)
-    parts = ((b"IHDR", head), (b"PLTE", palette.tobytes()), (b"IDAT", zlib.compress(rows.tobytes(), 9)), (b"IEND", b""))
+    parts = ((b"IHDR", head), (b"PLTE", palette.tobytes()), (b"IDAT", zlib.compress(rows.tobytes(), 6)), (b"IEND", b""))
     return b"\x89PNG\r\n\x1a\n" + b"".join(_chunk(name, held) for name, held in parts)
 
 
