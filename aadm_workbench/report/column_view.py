@@ -10,6 +10,7 @@ from aadm_workbench.model import ColumnReport, Kind, TrialReport
 from aadm_workbench.report.drawing.foot import FootSketch, foot_sketch, group_marks, pair_marks
 from aadm_workbench.report.drawing.sketch import Circle, Label, Polyline, Shape, Sketch, rectangle
 from aadm_workbench.report.words.labels import Phrase, phrase
+from aadm_workbench.report.words.reasons import in_both_languages
 
 DRAWN_DIAMETER_MM = {Kind.SLEEVE: 36.0, Kind.REBAR: 20.0}
 """Drawn where no diameter was measured."""
@@ -83,6 +84,29 @@ def declared_up(column: ColumnReport) -> str | None:
         return None
     ups = list(dict.fromkeys(said.values()))
     return f"up = {ups[0]}" if len(ups) == 1 else ", ".join(f"{name}_up = {up}" for name, up in said.items())
+
+
+_NO_CLAUSE = "no clause"
+
+
+def advice_notes(column: ColumnReport) -> list[Phrase]:
+    """What stands behind an advice: how far bars are bent and who says so, and what their names hang on."""
+    repair = column.repair
+    if repair is None:
+        return []
+    notes = [in_both_languages(note) for note in repair.notes]
+    if repair.adjustment_limit_mm:
+        clause = in_both_languages(repair.clause)
+        values = {"mm": f"{repair.adjustment_limit_mm:g}"}
+        if repair.clause.startswith(_NO_CLAUSE):
+            notes.append(phrase("repair.reach_unverified", **values))
+        else:
+            said = phrase("repair.reach")
+            notes.append(Phrase(said.en.format(clause=clause.en, **values), said.zh.format(clause=clause.zh, **values)))
+    up = declared_up(column)
+    if up is not None and repair.steps:
+        notes.append(phrase("repair.symmetric", up=up))
+    return notes
 
 
 def trial_facts(trial: TrialReport) -> list[tuple[str, str]]:

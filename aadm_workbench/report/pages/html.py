@@ -18,11 +18,12 @@ from typing import Any, NamedTuple
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import SUMMED, JobReport, MouldDrift, Verdict
-from aadm_workbench.report.column_view import column_facts, trial_facts, window_text
+from aadm_workbench.report.column_view import advice_notes, column_facts, trial_facts, window_text
 from aadm_workbench.report.drawing.mould import mould_sketch
 from aadm_workbench.report.drawing.plan import Plan, floor_plans
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.hoist import headline
+from aadm_workbench.report.pages.crew import crew_advice, in_steps
 from aadm_workbench.report.pages.fonts import embedded_font_css
 from aadm_workbench.report.pages.html_column import column_entry, view_of
 from aadm_workbench.report.pages.html_table import TableWriter
@@ -143,6 +144,8 @@ def _context(report: JobReport, language: Language) -> dict[str, Any]:
         "dictionary": lambda: _raw(json_in_html(_dictionary(sentences))),
         "verdict_words": verdict_words,
         "column_facts": column_facts,
+        "advice_notes": advice_notes,
+        "steps": lambda column: in_steps(crew_advice(report, column)),
         "trial_facts": trial_facts,
         "window_text": window_text,
         "view_note": lambda factor: phrase("ui.view_3d_note", factor=factor),

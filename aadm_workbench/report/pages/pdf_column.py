@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aadm_workbench.model import ColumnReport, JobReport
-from aadm_workbench.report.column_view import column_facts, foot_sketches, trial_facts, window_sketch, window_text
+from aadm_workbench.report.column_view import (
+    advice_notes,
+    column_facts,
+    foot_sketches,
+    trial_facts,
+    window_sketch,
+    window_text,
+)
 from aadm_workbench.report.findings import Finding
 from aadm_workbench.report.pages.pdf_flow import Block
 from aadm_workbench.report.pages.pdf_parts import Beside, Drawing, band, paragraph
@@ -53,8 +60,8 @@ def _repair(column: ColumnReport, width: float, language: Language) -> Iterator[
     yield paragraph(in_both_languages(repair.advice).in_language(language), width, 9.5, bold=True, indent=8.0)
     if repair.subject_to not in repair.advice:
         yield paragraph(phrase("ui.release").in_language(language), width, 8.5, indent=8.0)
-    for note in repair.notes:
-        yield paragraph(in_both_languages(note).in_language(language), width, 8.5, indent=8.0)
+    for note in advice_notes(column):
+        yield paragraph(note.in_language(language), width, 8.5, indent=8.0)
 
 
 def _sketches(column: ColumnReport, width: float, language: Language, share: float) -> Iterator[Block]:

@@ -20,6 +20,7 @@ from aadm_workbench.report.words.labels import HEAD, SIGN, Language, phrase, ver
 
 _FORMATS: dict[CellKind, str] = {
     "mm": "0.00",
+    "mm_signed": "+0.00;-0.00;0.00",
     "mm_fine": "0.000",
     "deg": "0.00",
     "share": "0.0%",
