@@ -171,7 +171,7 @@ def _views(found: list[Finding]) -> dict[str, dict[str, Any]]:
 def _plans(report: JobReport, found: list[Finding]) -> list[tuple[Plan, str]]:
     """Each plan, and as SVG."""
     anchors = {finding.column.id: finding.anchor for finding in found}
-    plans = floor_plans(report.columns, anchors)
+    plans = floor_plans(report.columns, anchors, report.grid)
     return [(plan, _raw(svg_of(plan.sketch, label="plan", css_class="plan"))) for plan in plans]
 
 

@@ -32,6 +32,7 @@ WIDTH = A4[0] - 2.0 * _MARGIN
 """Between the margins."""
 _HEIGHT = A4[1] - 30.0 * MM  # 14 mm above; 16 below, with the foot
 _FULL_ENOUGH = 0.15  # of a last page: seven lines of a table and its heading are no remnant
+_MOST_TILES = 140  # fourteen rows of ten fill a page
 _SMALLER = (1.0, 0.85, 0.7)  # sketches, where that saves a remnant: their smallest letters stay 4 points high
 
 
@@ -147,7 +148,7 @@ def _others(found: list[Finding], state: str, language: Language) -> Iterator[Bl
 
 def _plans(report: JobReport, found: list[Finding], language: Language) -> Iterator[Block]:
     anchors = {finding.column.id: finding.anchor for finding in found}
-    for plan in floor_plans(report.columns, anchors):
+    for plan in floor_plans(report.columns, anchors, report.grid, _MOST_TILES):
         name = phrase("ui.floor_plan").in_language(language)
         yield paragraph(f"{name} {plan.storey}".strip(), WIDTH, 12.0, bold=True, keep=True)
         yield Drawing(plan.sketch, WIDTH)
