@@ -8,6 +8,8 @@ import sys
 
 import numpy as np
 
+POSES = ("least_squares", "minimax", "best")
+
 
 def laid(moving, fixed):
     """Least squares in the plane, in complex numbers: points brought onto others by a turn and a shift."""
@@ -22,20 +24,17 @@ def group(points, spacing):
     measured, design = (np.array([p[name][:2] for p in seen]) for name in ("aligned_mm", "design_mm"))
     yield "position", abs(abs(laid(measured, design)) - [p["deviation_mm"] for p in seen])
     at = {p["label"]: (np.array(p["aligned_mm"][:2]), np.array(p["design_mm"][:2])) for p in seen}
-    for s in spacing:
-        if s["deviation_mm"] is not None:
-            (a, da), (b, db) = (at[label] for label in s["between"])
-            yield "spacing", abs(np.linalg.norm(a - b) - np.linalg.norm(da - db) - s["deviation_mm"])
+    for s in (one for one in spacing if one["deviation_mm"] is not None):
+        (a, da), (b, db) = (at[label] for label in s["between"])
+        yield "spacing", abs(np.linalg.norm(a - b) - np.linalg.norm(da - db) - s["deviation_mm"])
 
 
-def trial(column, poses):
+def trial(column, poses, length):
     """Distances of every pose, those of least squares anew, and the room over the ribs at mouth and top of the bar."""
+    first = poses[0]["pairs"]
     points = {p["label"]: p for kind in ("sleeves", "rebars") for p in column[kind]["points"] if p["aligned_mm"]}
-    xy = [
-        np.array([points[pair[part]]["aligned_mm"][:2] for pair in poses[0]["pairs"]]) for part in ("rebar", "sleeve")
-    ]
-    yield "least squares", abs(abs(laid(*xy)) - [pair["distance_mm"] for pair in poses[0]["pairs"]])
-    length = column["trial_assembly"]["embedded_length_mm"]
+    xy = [np.array([points[pair[part]]["aligned_mm"][:2] for pair in first]) for part in ("rebar", "sleeve")]
+    yield "least squares", abs(abs(laid(*xy)) - [pair["distance_mm"] for pair in first])
     for pose in filter(None, poses):
         T = np.array(pose["T_sleeves_rebars"])
         for pair in pose["pairs"]:
@@ -52,9 +51,8 @@ known = {}
 for column in json.loads(sys.stdin.buffer.read())["columns"]:
     groups = filter(None, (column["sleeves"], column["rebars"]))
     found = [one for each in groups for one in group(each["points"], each["spacing"])]
-    tried = column["trial_assembly"] or {}
-    if tried.get("least_squares"):
-        found += trial(column, [tried.get(name) for name in ("least_squares", "minimax", "best")])
+    if (tried := column["trial_assembly"]) and tried["least_squares"]:
+        found += trial(column, [tried.get(name) for name in POSES], tried["embedded_length_mm"])
     for name, differences in found:
         known.setdefault(name, []).extend(np.atleast_1d(differences))
 for name, values in known.items():
