@@ -32,6 +32,9 @@ FORMATS = {
 }
 """By the name of their switch: file, and what it is."""
 
+_WITH_TOWER = ("html", "pdf")
+"""Formats that show the tower of a job with [stack]."""
+
 _PACKAGES = {
     "html": ("jinja2", "fonttools"),
     "pdf": ("reportlab",),
@@ -85,15 +88,19 @@ def require_packages(formats: Sequence[str]) -> None:
 
 @dataclass(frozen=True)
 class HowReports:
-    """In which language reports are made, and of which version a BCF file; None for what each has by itself."""
+    """In which language reports are made, and of which version a BCF file; None for what each has by itself.
+
+    ``model`` is where beams and heights of the tower are taken from, of a job with [stack].
+    """
 
     language: Language | None = None
     bcf_version: Version | None = None
+    model: Path | None = None
 
     @classmethod
-    def asked(cls, options: argparse.Namespace) -> HowReports:
+    def asked(cls, options: argparse.Namespace, model: Path | None) -> HowReports:
         """As the switches say."""
-        return cls(options.language, options.bcf_version)
+        return cls(options.language, options.bcf_version, model)
 
 
 @dataclass(frozen=True)
@@ -130,17 +137,25 @@ def write_reports(report: JobReport, formats: Sequence[str], folder: Path, how: 
     return Written(files, failed)
 
 
-def _write(name: str, report: JobReport, path: Path, how: HowReports) -> None:
-    """One report; the packages of a format are imported only where it is asked for."""
-    language = how.language
+def _write_with_tower(name: str, report: JobReport, path: Path, language: Language, model: Path | None) -> None:
+    from .tower_plan import tower_of
+
+    tower = tower_of(report, model)
     if name == "html":
         from aadm_workbench.report.pages.html import write_html
 
-        write_html(report, path, language or "en")
-    elif name == "pdf":
+        write_html(report, path, language, tower=tower)
+    else:
         from aadm_workbench.report.pages.pdf import write_pdf
 
-        write_pdf(report, path, language or "en")
+        write_pdf(report, path, language, tower=tower)
+
+
+def _write(name: str, report: JobReport, path: Path, how: HowReports) -> None:
+    """One report; the packages of a format are imported only where it is asked for."""
+    language = how.language
+    if name in _WITH_TOWER:
+        _write_with_tower(name, report, path, language or "en", how.model)
     elif name == "xlsx":
         from aadm_workbench.report.sheets.xlsx import write_xlsx
 

@@ -81,7 +81,9 @@ def told_once(column: ColumnReport) -> ColumnReport:
     """The column, whose reasons say of what is blamed what it is, and name in one sentence what follows from it."""
     blame = blame_of(column)
     follows, groups = {*blame.follows}, column.groups.values()
-    judged = [*column.pairs, *(one for group in groups for one in (*group.points, *group.spacing))]
+    judged: list[PointResult | SpacingResult | PairResult] = [*column.pairs]
+    for group in groups:
+        judged += [*group.points, *group.spacing]
     merged = {one.reason for one in judged if one.reason and name_of(one) in follows} & {*column.reasons}
     if not merged:
         return column

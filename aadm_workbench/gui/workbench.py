@@ -39,7 +39,9 @@ class AADMWorkbench(FreeCADGui.Workbench):
         from aadm_workbench.gui.chosen import chosen_columns
 
         if chosen_columns():
-            self.appendContextMenu("AADM", ["AADM_ImportScan", "AADM_CheckColumn", "AADM_WriteResults"])
+            self.appendContextMenu(
+                "AADM", ["AADM_ImportScan", "AADM_CaptureScan", "AADM_CheckColumn", "AADM_WriteResults"]
+            )
 
     def GetClassName(self) -> str:
         """Name of FreeCAD's own class behind a workbench that is written in Python."""

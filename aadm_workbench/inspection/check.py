@@ -34,7 +34,7 @@ from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.tolerances import rules_of_the_erected_column, sum_up
 from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.errors import JobError
-from aadm_workbench.extract.method import extract_sizes
+from aadm_workbench.extract.method import Known, extract_sizes
 from aadm_workbench.model import (
     AssemblyPoint,
     ColumnDesign,
@@ -182,7 +182,7 @@ def _wanted(design: ColumnDesign, scans: ColumnScans, settings: CheckSettings) -
         return tuple(possible)
     lacking = [check for check in settings.checks if check not in possible]
     if lacking:
-        raise JobError(f"column {design.id}: the job asks for {', '.join(lacking)}, but names no scan for it")
+        raise JobError.because("command.asks_without_scan", column=design.id, parts=", ".join(lacking))
     return settings.checks
 
 
@@ -191,8 +191,9 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
     views, points, up_deg = scans.of(kind), design.points(kind), scans.up_deg(kind)
     scan, diameter_mm = views[0], float(np.median(_diameters_mm(points)))
     rng = np.random.default_rng([settings.seed, list(Kind).index(kind)])
+    known = Known(design, up_deg)
     with stage("extract"):
-        seen = [extract_sizes(view, kind, _diameters_mm(points), settings.method, rng) for view in views]
+        seen = [extract_sizes(view, kind, _diameters_mm(points), settings.method, rng, known=known) for view in views]
         control = _control(design, scans, kind, seen[0])
         ups = [up_deg] * len(views)
         if up_deg is None and control:

@@ -13,6 +13,7 @@ from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, PairResult, PointResult, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile
 from aadm_workbench.model.section import SectionReport
+from aadm_workbench.model.stack import SettingReport
 from aadm_workbench.model.verdicts import SUMMED, Kind, Verdict
 
 LONGEST_ID = 1024
@@ -24,7 +25,9 @@ class ColumnReport:
     """Everything that report.json holds about one column; ``repair`` where its trial did not pass.
 
     ``findings`` are what contradicts the design, what was declared, or the camera. ``section`` is that of the foot;
-    None where the design does not say where its section lies, or nothing says which edge is which.
+    None where the design does not say where its section lies, or nothing says which edge is which. ``setting`` is where
+    the column comes to stand, where the job asks for that ([stack]). ``hoisting_joint`` is what two and more frames of
+    the hanging column tell together.
     """
 
     id: str
@@ -46,6 +49,8 @@ class ColumnReport:
     repair: RepairReport | None = None
     findings: tuple[Finding, ...] = ()
     section: SectionReport | None = None
+    setting: SettingReport | None = None
+    hoisting_joint: HoistingReport | None = None
 
     def group(self, kind: Kind) -> GroupReport | None:
         """Its sleeves or its rebars."""
@@ -60,6 +65,11 @@ class ColumnReport:
         """Its sleeves or its rebars, one by one; empty without them."""
         group = self.group(kind)
         return () if group is None else group.points
+
+    @property
+    def hoisting_frames(self) -> tuple[HoistingReport, ...]:
+        """Its frames, and last what they tell together where they do."""
+        return self.hoisting if self.hoisting_joint is None else (*self.hoisting, self.hoisting_joint)
 
     @property
     def parts(self) -> tuple[ColumnReport | GroupReport | TrialReport, ...]:

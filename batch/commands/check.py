@@ -108,7 +108,7 @@ def _asked(options: argparse.Namespace) -> Job:
 
     job = read_job(options.job)
     if options.events == "-" and options.json:
-        raise JobError("--events - and --json both want stdout; write the events into a file")
+        raise JobError.because("command.events_and_json")
     require_packages(chosen_formats(options))
     if options.write_ifc:
         from ..model_results import ifc_model_of
@@ -157,17 +157,19 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
 
     from ..served_report import without_absolute_paths
     from ..shown.terminal import say, show_json
+    from ..tower_plan import with_setting
 
     if options.debug:
         for name, trace in done.traces.items():
             say(f"{name}: {trace}")
-    report = done.report if options.absolute_paths else without_absolute_paths(done.report, job)
+    report = with_setting(done.report, job.model_path)
+    report = report if options.absolute_paths else without_absolute_paths(report, job)
     code, written = exit_code_of(column.verdict for column in report.columns), False
     try:
         write_report(report, folder / "report.json")
         written = True
         write_atomically(folder / "timing.json", encode(done.seconds))
-        if not _write_reports(folder, options):
+        if not _write_reports(job, folder, options):
             code = INTERNAL
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
@@ -184,7 +186,7 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
     return code
 
 
-def _write_reports(folder: Path, options: argparse.Namespace) -> bool:
+def _write_reports(job: Job, folder: Path, options: argparse.Namespace) -> bool:
     """The other reports that were asked for, from what report.json holds; whether all were written."""
     formats = chosen_formats(options)
     if not formats:
@@ -193,7 +195,8 @@ def _write_reports(folder: Path, options: argparse.Namespace) -> bool:
 
     from ..report_files import HowReports, write_reports
 
-    written = write_reports(read_report(folder / "report.json"), formats, folder, HowReports.asked(options))
+    how = HowReports.asked(options, job.model_path)
+    written = write_reports(read_report(folder / "report.json"), formats, folder, how)
     written.say(options)
     return not written.failed
 

@@ -27,7 +27,10 @@ example:
   aadm simulate pair --setting field --out rings --filter rings=1 --filter median=3
 
   a roughened foot with plugged sleeves, and a job with half of the camera's focal length:
-  aadm simulate pair --setting lab --out site --site rough --site plugs --slip focal-half"""
+  aadm simulate pair --setting lab --out site --site rough --site plugs --slip focal-half
+
+  a section that is too wide, with the sleeves beside their place in it and chipped corners:
+  aadm simulate pair --setting lab --out section --site off-size --site pattern-beside --site broken-corners"""
 _CAMERA = (
     "ray: rays and a law of noise (default); pixel: the same with pixels that have a size; fringe: fringe projection, "
     "path-traced, minutes per scan"
@@ -38,7 +41,8 @@ _FILTER = (
 )
 _SITE = (
     "what the site did, again for each: rough, keyed (feet), spalls, taped-spalls, proud-rings, plugs, burrs, caps, "
-    "kinks, leans, two-heights"
+    "kinks, leans, two-heights; of the foot's own section off-size, askew, pattern-beside, bowed, warped, "
+    "broken-corners, broken-edges"
 )
 _SLIP = (
     "what goes wrong between camera and job, again for each: focal-half, focal-double, focal-2-percent, "
@@ -119,7 +123,7 @@ def _simulate_pair(options: argparse.Namespace) -> int:
     if options.camera == "fringe":
         _require_renderer()
     elif filters.edge_mask:
-        raise AadmError("--filter edge-mask wants the brightness of the scan: use --camera fringe")
+        raise AadmError.because("command.edge_mask_camera")
     _prepare(options)
     words = "" if options.camera == "ray" else f" --camera {options.camera}"
     for switch in ("filter", "site", "slip"):
@@ -168,11 +172,11 @@ def _prepare(options: argparse.Namespace) -> None:
     from aadm_workbench.errors import AadmError
 
     if options.seed < 0:
-        raise AadmError(f"--seed must not be below zero, it is {options.seed}")
+        raise AadmError.because("command.seed_below_zero", seed=options.seed)
     try:
         options.out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise AadmError(f"{options.out}: the folder cannot be made ({error.strerror})") from error
+        raise AadmError.because("command.no_folder", folder=options.out, why=error.strerror) from error
 
 
 def _require_virtual_camera() -> None:

@@ -18,7 +18,7 @@ from aadm_workbench.model import Array, GridAxis, Reason
 FARTHEST_MM = 1500.0
 """Columns stand off their grid lines by part of their own width; one further off belongs to no crossing."""
 
-_FAMILIES: tuple[Literal["u"], Literal["v"], Literal["w"]] = ("u", "v", "w")
+_FAMILIES: tuple[Literal["u", "v", "w"], ...] = ("u", "v", "w")
 _PARALLEL_SINE = 0.05  # 3 degrees: axes that meet more flatly cross nowhere near
 
 

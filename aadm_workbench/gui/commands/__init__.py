@@ -8,6 +8,7 @@ COMMANDS = MappingProxyType(
     {
         "AADM_SampleDesign": ("sample_design", "SampleDesign"),
         "AADM_ImportScan": ("import_scan", "ImportScan"),
+        "AADM_CaptureScan": ("capture_scan", "CaptureScan"),
         "AADM_CheckColumn": ("check_column", "CheckColumn"),
         "AADM_RunJob": ("run_job", "RunJob"),
         "AADM_Hoisting": ("hoisting", "Hoisting"),
@@ -24,6 +25,7 @@ COMMANDS = MappingProxyType(
 TOOLBAR = (
     "AADM_SampleDesign",
     "AADM_ImportScan",
+    "AADM_CaptureScan",
     "AADM_CheckColumn",
     "AADM_RunJob",
     "AADM_Hoisting",

@@ -145,7 +145,7 @@ def _comment(
 ) -> None:
     """One more comment, unless the last one of ours says the same, in whichever language."""
     own = _own_comments(root, form)
-    if own and own[-1].findtext("Comment") in map(xml_text, said):
+    if own and (own[-1].findtext("Comment") or "") in map(xml_text, said):
         return
     text = said[words.LANGUAGES.index(language)]
     comment = form.new_comment(root, _new_guid(root, finding, f"comment {date} {text}", form))

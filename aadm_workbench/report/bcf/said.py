@@ -65,6 +65,8 @@ def description_of(finding: Finding, report: JobReport, language: Language) -> s
     said.append(_joined(phrase("ui.profile"), Phrase(title, title)))
     for kind, group in column.groups.items():
         said.append(_joined(phrase(f"ui.{kind.plural}"), Phrase(group.source, group.source)))
+    also = [in_both_languages(one.text) for one in column.findings if not one.holds_back]
+    said += [_joined(phrase("bcf.also"), text) for text in also]
     return "\n".join(text.in_language(language) for text in said)
 
 

@@ -28,9 +28,10 @@ from aadm_workbench.report.pages.fonts import embedded_font_css
 from aadm_workbench.report.pages.html_column import column_entry, view_of
 from aadm_workbench.report.pages.html_table import TableWriter
 from aadm_workbench.report.pages.svg import svg_of, svg_styles
-from aadm_workbench.report.sheets.numbers import number_text
+from aadm_workbench.report.sheets.numbers import number_text, signed
 from aadm_workbench.report.sheets.sheets import MOULD, mould_rows, profile_table
 from aadm_workbench.report.sheets.tables import Heading, Row, narrowed
+from aadm_workbench.report.tower import TowerShown
 from aadm_workbench.report.words.labels import Language, Phrase, all_words, phrase, resource_folder, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
@@ -41,8 +42,10 @@ _PIECES = 5000  # of the template in one part: some hundred kilobytes, and the w
 _VERDICTS = tuple(verdict.value for verdict in (*SUMMED, Verdict.NOT_ASSESSED))
 
 
-def write_html(report: JobReport, path: Path, language: Language = "en") -> None:
+def write_html(report: JobReport, path: Path, language: Language = "en", *, tower: TowerShown | None = None) -> None:
     """Write report.html, whole or not at all; ``language`` is the one that it opens in.
+
+    ``tower`` is what set columns do to the storey above, where somebody has worked it out.
 
     Raises
     ------
@@ -51,32 +54,31 @@ def write_html(report: JobReport, path: Path, language: Language = "en") -> None
     AadmError
         Where the file cannot be written.
     """
-    write_atomically(path, _parts(report, language))
+    write_atomically(path, _parts(report, language, tower))
 
 
-def html_text(report: JobReport, language: Language = "en") -> str:
+def html_text(report: JobReport, language: Language = "en", *, tower: TowerShown | None = None) -> str:
     """The document; the same report gives the same text."""
-    return b"".join(_parts(report, language)).decode()
+    return b"".join(_parts(report, language, tower)).decode()
 
 
-def _parts(report: JobReport, language: Language) -> list[bytes]:
+def _parts(report: JobReport, language: Language, tower: TowerShown | None) -> list[bytes]:
     """The document in UTF-8, in parts.
 
     Font and policy hang on all that follows: which signs occur, and the hash of the style. They are put into the head
     at the end, where no text of others stands before them.
     """
     script = (resource_folder() / "report.js").read_text(encoding="utf-8")
-    context = _context(report, language) | {
-        "script": _raw(script),
-        **{name: _raw(mark) for name, mark in _LATER.items()},
-    }
+    context = _context(report, language) | _tower(tower) | {"script": _raw(script)}
+    context |= {name: _raw(mark) for name, mark in _LATER.items()}
     stream = _environment().get_template("report.html.j2").stream(**context)
     stream.enable_buffering(_PIECES)
     parts, signs = [], set[str]()
     for part in stream:
         signs.update(part)
         parts.append(part.encode("utf-8", errors="replace"))
-    style = (resource_folder() / "report.css").read_text(encoding="utf-8") + svg_styles()
+    sheets = ("report.css",) if tower is None else ("report.css", "tower.css")
+    style = "".join((resource_folder() / name).read_text(encoding="utf-8") for name in sheets) + svg_styles()
     style = embedded_font_css("".join(signs)) + style
     for name, text in (("policy", _policy(script, style)), ("style", style)):
         parts[0] = parts[0].replace(_LATER[name].encode(), text.encode(), 1)
@@ -173,6 +175,13 @@ def _plans(report: JobReport, found: list[Finding]) -> list[tuple[Plan, str]]:
     anchors = {finding.column.id: finding.anchor for finding in found}
     plans = floor_plans(report.columns, anchors, report.grid)
     return [(plan, _raw(svg_of(plan.sketch, label="plan", css_class="plan"))) for plan in plans]
+
+
+def _tower(tower: TowerShown | None) -> dict[str, Any]:
+    """What the template needs of the tower, where there is one."""
+    drawn = () if tower is None else tower.plans
+    plans = [(plan, _raw(svg_of(plan.sketch, label="plan", css_class="plan"))) for plan in drawn]
+    return {"tower": tower, "tower_plans": plans, "word": phrase, "signed": signed}
 
 
 class _Mould(NamedTuple):

@@ -7,6 +7,7 @@ that a thousand of them take no more memory than one.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -22,8 +23,10 @@ from aadm_workbench.report.pages.pdf_column import column_parts
 from aadm_workbench.report.pages.pdf_flow import Block, Page, height_of, paginate
 from aadm_workbench.report.pages.pdf_parts import Drawing, fields, paragraph
 from aadm_workbench.report.pages.pdf_tables import table
+from aadm_workbench.report.pages.pdf_tower import setting_out_blocks, tower_blocks
 from aadm_workbench.report.sheets.sheets import MOULD, mould_rows, profile_table
 from aadm_workbench.report.sheets.tables import narrowed
+from aadm_workbench.report.tower import TowerShown
 from aadm_workbench.report.words.labels import COLOUR, FAINT, MOVE, Language, Phrase, all_words, phrase, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
@@ -36,8 +39,8 @@ _MOST_TILES = 140  # fourteen rows of ten fill a page
 _SMALLER = (1.0, 0.85, 0.7)  # sketches, where that saves a remnant: their smallest letters stay 4 points high
 
 
-def write_pdf(report: JobReport, path: Path, language: Language = "en") -> None:
-    """Write report.pdf, whole or not at all; the same report gives the same bytes.
+def write_pdf(report: JobReport, path: Path, language: Language = "en", *, tower: TowerShown | None = None) -> None:
+    """Write report.pdf, whole or not at all; the same report gives the same bytes. ``tower`` as in report.html.
 
     Raises
     ------
@@ -52,8 +55,11 @@ def write_pdf(report: JobReport, path: Path, language: Language = "en") -> None:
     with pages(path, title, "report.pdf", author) as canvas:
         book = _Book(canvas, title)
         book.add(lambda share: list(_front(report, found, title, language)))
+        if tower is not None:
+            book.add(lambda share: list(tower_blocks(tower, WIDTH, language, share)))
+            book.add(lambda share: list(setting_out_blocks(tower, WIDTH, language)))
         for finding in found:
-            book.add(lambda share, one=finding: list(_of_column(report, one, language, share)))
+            book.add(partial(_of_column, report, finding, language))
         book.add(lambda share: list(_back(report, language)))
 
 
@@ -66,7 +72,7 @@ class _Book:
 
     def add(self, blocks_of: Callable[[float], list[Block]]) -> None:
         """A chapter, from the head of a page on; with smaller sketches where its last page is but a remnant."""
-        for page in _without_remnant(blocks_of):
+        for page in _without_remnant(blocks_of) if blocks_of(1.0) else ():
             self._number += 1
             for placed in page:
                 placed.block.draw(self._canvas, _MARGIN, A4[1] - 14.0 * MM - placed.below)
@@ -154,11 +160,10 @@ def _plans(report: JobReport, found: list[Finding], language: Language) -> Itera
         yield Drawing(plan.sketch, WIDTH)
 
 
-def _of_column(report: JobReport, finding: Finding, language: Language, share: float) -> Iterator[Block]:
-    yield from column_parts(report, finding, WIDTH, language, share)
-    for note in column_notes(finding.column):
-        said = in_both_languages(note).in_language(language)
-        yield paragraph(f"· {said}", WIDTH, 7.5, colour=FAINT, after=1.0)
+def _of_column(report: JobReport, finding: Finding, language: Language, share: float) -> list[Block]:
+    notes = (in_both_languages(note).in_language(language) for note in column_notes(finding.column))
+    said = [paragraph(f"· {note}", WIDTH, 7.5, colour=FAINT, after=1.0) for note in notes]
+    return [*column_parts(report, finding, WIDTH, language, share), *said]
 
 
 def _back(report: JobReport, language: Language) -> Iterator[Block]:

@@ -34,7 +34,7 @@ def reportlab(module: str, needed_for: str = "a PDF report") -> Any:
     """
     try:
         # Streams of text as ASCII are a quarter longer, and take a third of the time.
-        import_module("reportlab.rl_config").useA85 = 0
+        setattr(import_module("reportlab.rl_config"), "useA85", 0)  # noqa: B010 - the module declares it elsewhere
         return import_module(f"reportlab.{module}")
     except ImportError as error:
         raise MissingDependencyError("reportlab", needed_for) from error
