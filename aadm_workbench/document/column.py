@@ -35,6 +35,13 @@ PROPERTIES = (
         QT_TRANSLATE_NOOP("App::Property", "What jobs and reports call it"),
     ),
     Property(
+        "App::PropertyString",
+        "MadeAs",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "Name of this object when it was made: a copy has another"),
+        mode=HIDDEN,
+    ),
+    Property(
         "App::PropertyLinkGlobal",
         "Model",
         _IDENTITY,
@@ -142,7 +149,11 @@ class Column(Stateless):
 
     def onDocumentRestored(self, obj: Any) -> None:
         """Bring a column of an earlier version up to date, and give it its view."""
-        bring_up_to_date(obj, PROPERTIES)
+        from aadm_workbench.document.belongings import own_up, watch_belongings
+
+        if bring_up_to_date(obj, PROPERTIES):
+            own_up(obj)
+        watch_belongings()
         show_restored(obj, "column_view", "ColumnView")
 
     def execute(self, obj: Any) -> None:
@@ -160,9 +171,13 @@ def make_column(document: Any, design: ColumnDesign, model: Any = None) -> Any:
     model
         The object of the model that it is, if it is in the document.
     """
+    from aadm_workbench.document.belongings import watch_belongings
+
+    watch_belongings()
     column = document.addObject("App::GeometryPython", "AADM_Column")
     column.Proxy = Column()
     apply_properties(column, PROPERTIES)
+    column.MadeAs = column.Name
     column.Schema = SCHEMA
     column.ColumnId = design.id
     column.Label = f"AADM {design.id}"
