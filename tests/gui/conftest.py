@@ -14,7 +14,15 @@ from tests.conftest import ROOT, FreeCADRunner, find_freecad
 from tests.freecad_environment import with_environment
 from tests.gui.model_text import MODEL
 
-_BODIES = ("bare_body.py", "session_body.py", "floor_body.py", "private_body.py")
+_BODIES = (
+    "bare_body.py",
+    "session_body.py",
+    "floor_body.py",
+    "private_body.py",
+    "legible_body.py",
+    "looks_body.py",
+    "end_body.py",
+)
 
 
 @pytest.fixture(scope="session")

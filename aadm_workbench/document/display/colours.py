@@ -37,6 +37,14 @@ def of_verdict(verdict: str) -> Rgb:
     return VERDICTS.get(verdict, VERDICTS["not_assessed"])
 
 
+def text_on(colour: Rgb) -> Rgb:
+    """Black or white: whichever stands out more from a colour (WCAG 2.2, relative luminance)."""
+    value = np.array(colour)
+    linear = np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
+    luminance = float(linear @ [0.2126, 0.7152, 0.0722])
+    return (0.0, 0.0, 0.0) if (luminance + 0.05) / 0.05 >= 1.05 / (luminance + 0.05) else (1.0, 1.0, 1.0)
+
+
 def of_distances(distances_mm: Array, reach_mm: float) -> Array:
     """Colours (n, 3) of signed distances (n,) mm; grey beyond ``reach_mm``."""
     place = (np.clip(distances_mm / reach_mm, -1.0, 1.0) + 1.0) / 2.0 * (len(_SCALE) - 1)

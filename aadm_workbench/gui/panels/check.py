@@ -12,7 +12,7 @@ from PySide import QtCore, QtGui
 
 from aadm_workbench.document.checking import check_work, keep
 from aadm_workbench.document.column import DECISIONS, METHODS
-from aadm_workbench.document.display.colours import of_verdict
+from aadm_workbench.document.display.colours import of_verdict, text_on
 from aadm_workbench.document.display.marks import pitch_of
 from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.display.result_rows import DISTANCE, Row
@@ -113,13 +113,14 @@ class CheckPanel(WorkingPanel):
             part.setVisible(result is not None)
         if result is None:
             self.verdict.setText(translate("AADM_Check", "Not checked yet"))
+            self.verdict.setStyleSheet("")
             self.reasons.setText("")
             return
-        colour = QtGui.QColor.fromRgbF(*of_verdict(result.Verdict)).name()
         said = translate("AADM_Check", "{verdict} · goes on: {goes_on}").format(
             verdict=in_words(result.Verdict).upper(), goes_on=in_words(result.GoesOn)
         )
-        self.verdict.setText(f'<span style="font-size: large; font-weight: bold; color: {colour}">{said}</span>')
+        self.verdict.setText(said)
+        self.verdict.setStyleSheet(_chip(result.Verdict))
         found = found_of(result)
         advice = (found.get("repair") or {}).get("advice")
         notes = [f"→ {in_language(advice)}"] if advice else []
@@ -166,6 +167,12 @@ def open_panel(column: Any) -> CheckPanel:
     panel = CheckPanel(column)
     show_panel(panel)
     return panel
+
+
+def _chip(verdict: str) -> str:
+    """A style that stands out on light and on dark alike: the verdict's colour lies behind the text."""
+    behind, text = (QtGui.QColor.fromRgbF(*rgb).name() for rgb in (of_verdict(verdict), text_on(of_verdict(verdict))))
+    return f"background: {behind}; color: {text}; font-weight: bold; padding: 4px; border-radius: 3px"
 
 
 def _profiles() -> tuple[str, ...]:

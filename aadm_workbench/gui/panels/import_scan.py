@@ -57,6 +57,9 @@ class ImportPanel(WorkingPanel):
         self.depth_scale = QtGui.QDoubleSpinBox(decimals=5, maximum=1000.0, singleStep=0.01)
         self.depth_scale.setSpecialValueText(translate("AADM_Import", "not given"))
         self.depth_scale.setSuffix(" mm")
+        self.depth_scale.setToolTip(
+            translate("AADM_Import", "Millimetres in one step of a 16-bit depth map, where its camera's file has none")
+        )
         self._lay_out()
         self.file.changed.connect(self._file_chosen)
         self._file_chosen(self.file.text())
@@ -70,7 +73,7 @@ class ImportPanel(WorkingPanel):
             (translate("AADM_Import", "Its unit"), self.units),
             (translate("AADM_Import", "Up in the picture"), self.up),
             (translate("AADM_Import", "Camera"), self.camera),
-            (translate("AADM_Import", "Step of a 16-bit depth map"), self.depth_scale),
+            (translate("AADM_Import", "Depth step"), self.depth_scale),
         ):
             form.addRow(text, widget)
         self.layout.addLayout(form)
