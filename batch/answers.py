@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.errors import DesignError
-from aadm_workbench.private.answers import FoundColumns, ReadScan
+from aadm_workbench.private.answers import FoundColumns, ReadCamera, ReadScan
 
 _SHOWN = 6  # reasons in a message; more say no more
 _DIGITS = 4  # of a point that is drawn, mm
@@ -118,5 +118,25 @@ def scan(question: Mapping[str, Any]) -> ReadScan:
     }
 
 
-ANSWERS: dict[str, Callable[[Mapping[str, Any]], FoundColumns | ReadScan]] = {"columns": columns, "scan": scan}
+def camera(question: Mapping[str, Any]) -> ReadCamera:
+    """A camera for all scans of a job.
+
+    Parameters
+    ----------
+    question
+        ``file`` with its intrinsics.
+
+    Raises
+    ------
+    CameraError
+        Where there are none in it.
+    """
+    from aadm_workbench.scan.camera import read_camera, read_depth_scale_mm
+
+    file = Path(question["file"])
+    return {"camera": asdict(read_camera(file)), "depth_scale_mm": read_depth_scale_mm(file)}
+
+
+Answer = FoundColumns | ReadScan | ReadCamera
+ANSWERS: dict[str, Callable[[Mapping[str, Any]], Answer]] = {"columns": columns, "scan": scan, "camera": camera}
 """By what is asked."""

@@ -95,7 +95,21 @@ PROPERTIES = (
         mode=HIDDEN,
     ),
     Property(
+        "App::PropertyString",
+        "SampledSha256",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "Hash of the design points as they were sampled"),
+        mode=HIDDEN,
+    ),
+    Property(
         "App::PropertyString", "Design", _IDENTITY, QT_TRANSLATE_NOOP("App::Property", "Design points"), mode=HIDDEN
+    ),
+    Property(
+        "App::PropertyString",
+        "JobFile",
+        _CHECK,
+        QT_TRANSLATE_NOOP("App::Property", "Job file that it was last checked by, together with others"),
+        mode=HIDDEN,
     ),
     Property("App::PropertyLinkList", "Scans", _CHECK, QT_TRANSLATE_NOOP("App::Property", "Its scans")),
     Property("App::PropertyLink", "Result", _CHECK, QT_TRANSLATE_NOOP("App::Property", "Its last result")),

@@ -9,6 +9,7 @@ from typing import Any
 
 from aadm_workbench.design.design_text import read_design
 from aadm_workbench.document.column import columns_in, make_column, set_design
+from aadm_workbench.document.job.table import sha256_of
 from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.report.annotate import objects_by_global_id
 from aadm_workbench.document.sample.columns import sampled_shapes
@@ -68,6 +69,7 @@ def _taken(document: Any, design: ColumnDesign, model: Any, origin: tuple[str, s
     else:
         set_design(column, design)
     column.ModelFile, column.ModelSha256 = origin
+    column.SampledSha256 = sha256_of(column.Design)
     return column
 
 

@@ -49,3 +49,10 @@ class ReadScan(TypedDict):
     camera: Mapping[str, float] | None
     depth_scale_mm: float | None
     notes: list[str]
+
+
+class ReadCamera(TypedDict):
+    """A file of intrinsics: those of the camera, and millimetres in a step of its depth maps where it says so."""
+
+    camera: Mapping[str, float]
+    depth_scale_mm: float | None

@@ -8,7 +8,7 @@ from tests.conftest import FreeCADRunner
 
 pytestmark = pytest.mark.freecad
 
-SCRIPT = '''
+SCRIPT = """
 import json
 from pathlib import Path
 import FreeCAD
@@ -67,7 +67,7 @@ document.undo()
 result["all_back"] = names()
 document.redo()
 result["all_deleted_again"] = names()
-'''
+"""
 
 
 @pytest.fixture(scope="module")

@@ -7,6 +7,7 @@ It finds what the earlier parts of the session have defined; the sample floor is
 from aadm_workbench.gui.commands.about import AboutWindow
 from aadm_workbench.gui.hoisting.window import HoistingWindow
 from aadm_workbench.gui.panels.check import open_panel as open_check
+from aadm_workbench.gui.panels.check_all import open_panel as open_check_all
 from aadm_workbench.gui.panels.design import open_panel as open_design
 from aadm_workbench.gui.panels.environment import EnvironmentWindow
 from aadm_workbench.gui.panels.import_scan import open_panel as open_import
@@ -14,12 +15,14 @@ from aadm_workbench.gui.panels.job import open_panel as open_job
 from aadm_workbench.gui.panels.report import open_panel as open_report_panel
 from aadm_workbench.gui.panels.write import open_panel as open_write
 
-looked_at = FreeCAD.ActiveDocument
+looked_at = tried
+FreeCAD.setActiveDocument(tried.Name)
 failing = next(one for one in api.columns_in(looked_at) if one.ColumnId == "C-307")
 PANELS = {
     "design": lambda: open_design(failing),
     "import": lambda: open_import(looked_at, [Path(SAMPLES) / "floor" / "scans" / "C-307-foot.tiff"], failing),
     "check": lambda: open_check(failing),
+    "check_all": lambda: open_check_all(looked_at),
     "job": lambda: open_job(str(Path(SAMPLES) / "floor" / "job.toml")),
     "report": lambda: open_report_panel(api.report_of(looked_at), looked_at),
     "write": lambda: open_write(looked_at),

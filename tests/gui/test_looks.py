@@ -8,7 +8,7 @@ import pytest
 
 pytestmark = pytest.mark.freecad
 
-PANELS = ("design", "import", "check", "job", "report", "write", "about", "install", "hoisting")
+PANELS = ("design", "import", "check", "check_all", "job", "report", "write", "about", "install", "hoisting")
 
 
 @pytest.mark.parametrize("look", ["-".join(words) for words in product(PANELS, ("light", "dark"), ("en", "zh"))])

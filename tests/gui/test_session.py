@@ -17,6 +17,7 @@ pytestmark = pytest.mark.freecad
 
 COMMANDS = [
     "AADM_About",
+    "AADM_CheckAll",
     "AADM_CheckColumn",
     "AADM_Hoisting",
     "AADM_ImportScan",
@@ -65,8 +66,8 @@ def test_every_command_says_what_it_needs(session: dict[str, Any], when: str) ->
         assert len(sentences[0]) > 20
 
 
-def test_commands_are_grey_without_a_document(session: dict[str, Any]) -> None:
-    assert session["active_without_document"] == []
+def test_without_a_document_one_command_leads_to_one(session: dict[str, Any]) -> None:
+    assert session["active_without_document"] == ["AADM_SampleDesign"]
     assert session["objects_after_nonsense"] == []
 
 

@@ -35,7 +35,7 @@ class SamplingPanel(WorkingPanel):
         super().__init__(translate("AADM_SampleDesign", "Sample design"), document)
         self.document, self.objects = document, objects
         self.file = file or native_file_of(document)
-        self.after: Callable[[list[Any]], None] = _open_design
+        self.after: After = _open_design
         self.layout.addWidget(QtGui.QLabel(self.file.name if self.file is not None else document.Label))
         self.add_start(translate("AADM_SampleDesign", "Sample"))
         self.layout.addStretch(1)
@@ -80,17 +80,35 @@ def sample(document: Any, objects: Sequence[Any] | None = None, file: Path | Non
     return panel
 
 
-def of_ifc_file(document: Any) -> tuple[str, Callable[[], None]]:
-    """The offer to take the columns of an IFC file, which FreeCAD need not be able to open."""
-    return translate("AADM_SampleDesign", "IFC file…"), lambda: _choose(document)
+Offer = tuple[str, Callable[[], object]]
+After = Callable[[list[Any]], object]
 
 
-def _choose(document: Any) -> None:
+def of_ifc_file(document: Any, after: After | None = None) -> Offer:
+    """The offer to take the columns of an IFC file, which FreeCAD need not be able to open; ``after`` gets them.
+
+    Where there is no document, one is made for them.
+    """
+    return translate("AADM_SampleDesign", "IFC file…"), lambda: _choose(document, after)
+
+
+def ways_to_columns() -> tuple[Offer, ...]:
+    """What leads from a document without columns, or from none, to one with some."""
+    document = FreeCAD.ActiveDocument
+    from_file = of_ifc_file(document)
+    if document is None or not document.Objects:
+        return (from_file,)
+    return ((translate("AADM_SampleDesign", "Sample design"), lambda: sample(document)), from_file)
+
+
+def _choose(document: Any, after: After | None) -> None:
     title = translate("AADM_SampleDesign", "Take the columns of an IFC file")
     chosen, _ = QtGui.QFileDialog.getOpenFileName(FreeCADGui.getMainWindow(), title, "", "IFC (*.ifc *.ifczip)")
     if chosen:
         with sentences(title):
-            sample(document, None, Path(chosen))
+            panel = sample(document or FreeCAD.newDocument(Path(chosen).stem), None, Path(chosen))
+            if after is not None:
+                panel.after = after
 
 
 def _of_selected(columns: list[str], objects: Sequence[Any]) -> list[str]:
