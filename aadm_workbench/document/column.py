@@ -96,6 +96,13 @@ PROPERTIES = (
     ),
     Property(
         "App::PropertyString",
+        "Body",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "Body of the column, as its model draws it: thin, in the column frame"),
+        mode=HIDDEN,
+    ),
+    Property(
+        "App::PropertyString",
         "SampledSha256",
         _IDENTITY,
         QT_TRANSLATE_NOOP("App::Property", "Hash of the design points as they were sampled"),

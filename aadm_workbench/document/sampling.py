@@ -53,7 +53,13 @@ def take_columns(
     origin = (str(file.resolve()) if file is not None else document.FileName, answer["sha256"])
     models = list(objects or [None] * len(answer["columns"]))
     designs = [read_design(text, answer["source"]) for text in answer["columns"]]
-    return [_taken(document, design, model, origin) for design, model in zip(designs, models, strict=True)]
+    columns = [_taken(document, design, model, origin) for design, model in zip(designs, models, strict=True)]
+    by_id = dict(zip((design.id for design in designs), answer["bodies"], strict=False))
+    for column, design in zip(columns, designs, strict=True):
+        # Where the document shows the body itself there is nothing to add.
+        faces = by_id.get(design.id, []) if column.Model is None else []
+        column.Body = json.dumps(faces, separators=(",", ":")) if faces else ""
+    return columns
 
 
 def _asked(question: Mapping[str, Any]) -> Work:

@@ -51,6 +51,12 @@ class AskedScan:
         return Work(("ask", "question.json", "answer.json"), {"question.json": json.dumps(question)}, "answer.json")
 
 
+def asked_again(cloud: Any, most_points: int) -> AskedScan:
+    """A scan of a document as it was asked for, to be read now."""
+    camera = Camera(**json.loads(cloud.Camera)) if cloud.Camera else None
+    return AskedScan(cloud.Kind, Path(cloud.File), cloud.Units, camera, cloud.DepthScale or None, most_points)
+
+
 def unread(camera: Mapping[str, float] | None, depth_scale_mm: float | None) -> ReadScan:
     """A scan that nobody has looked into yet: the check reads it, the view shows nothing of it."""
     straight = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]

@@ -27,13 +27,18 @@ class Shapes(TypedDict):
 
 
 class FoundColumns(TypedDict):
-    """Columns of a model, each as the text of :mod:`aadm_workbench.design.design_text`."""
+    """Columns of a model, each as the text of :mod:`aadm_workbench.design.design_text`.
+
+    ``bodies`` are polygons [[x, y, z], ...] mm around each column's concrete, in its column frame; none where they are
+    not known, or where the document shows the body itself.
+    """
 
     source: str
     sha256: str
     schema: str
     warnings: list[str]
     columns: list[str]
+    bodies: list[list[list[list[float]]]]
 
 
 class ReadScan(TypedDict):

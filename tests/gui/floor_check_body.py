@@ -54,6 +54,20 @@ result["two"] = {one.ColumnId: [one.Result.Verdict, [Path(cloud.File).name for c
                  for one in api.columns_in(document) if one.Result}  # fmt: skip
 result["two_undo"] = list(document.UndoNames)
 result["two_seen_mm"] = camera_of(active_view()).height_mm
+Gui.Selection.clearSelection()
+checked = api.columns_in(document)[0]
+Gui.Selection.addSelection(checked)
+Gui.runCommand("AADM_CheckColumn")
+result["scans_to_show"] = not panel(CheckPanel).show_scans.isHidden()
+panel(CheckPanel).read_scans()
+spin(lambda: all(cloud.PointCount for cloud in checked.Scans) and not _RUNNING, 60)
+result["shown_scans"] = [[cloud.PointCount > 1_000_000, len(cloud.Distances) == len(cloud.Points) > 0, cloud.Aligned]
+                         for cloud in checked.Scans]  # fmt: skip
+result["bodies"] = [len(json.loads(one.Body)) for one in api.columns_in(document)]
+Gui.Selection.clearSelection()
+Gui.runCommand("AADM_CheckAll")
+checking_all = panel(CheckAllPanel)
+checking_all.table.switch_on([name in {"C-301", "C-306"} for name in FLOOR_IDS])
 checking_all.start()
 spin(lambda: bool(_RUNNING), 30)
 checking_all.cancel()

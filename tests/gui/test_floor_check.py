@@ -52,6 +52,15 @@ def test_error_in_one_column_stops_no_other(session: dict[str, Any]) -> None:
     assert 4_000.0 < session["two_seen_mm"] < 20_000.0, "the view goes to the two columns, which stand 6 m apart"
 
 
+def test_scans_of_many_are_shown_where_somebody_looks_into_them(session: dict[str, Any]) -> None:
+    assert session["scans_to_show"]
+    assert session["shown_scans"] == [[True, True, True]] * 2
+
+
+def test_bodies_of_an_ifc_file_are_kept_for_the_eye(session: dict[str, Any]) -> None:
+    assert session["bodies"] == [6] * 8, "the sides of a square prism"
+
+
 def test_check_of_many_can_be_cancelled(session: dict[str, Any]) -> None:
     assert session["said_by_cancelled_all"] == [[], "cancelled"]
     assert "have scans" not in session["said_without_wanted"][0]

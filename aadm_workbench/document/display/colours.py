@@ -25,6 +25,8 @@ VERDICTS: Mapping[str, Rgb] = MappingProxyType(
     }
 )
 DESIGN: Rgb = (0.0, 0.45, 0.70)  # blue of the same palette: no verdict
+BAR: Rgb = (0.76, 0.49, 0.07)  # as in the icons
+GHOST: Rgb = (0.70, 0.70, 0.68)  # concrete, in front of white and of dark alike
 FAR: Rgb = (0.62, 0.62, 0.62)
 """Points further from the design than the scale reaches."""
 

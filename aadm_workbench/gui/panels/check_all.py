@@ -197,7 +197,7 @@ class CheckAllPanel(WorkingPanel):
         tell(said.format(count=len(shown), summary=summary, file=file))
         self.step.setText(said.format(count=len(shown), summary=summary, file=file))
         self.refresh()
-        look_at(columns)
+        look_at([column.Result for column in shown])
         if self.after is not None:
             self.after(columns)
 

@@ -17,10 +17,11 @@ from aadm_workbench.document.report.annotate import global_ids_of
 from aadm_workbench.document.sampling import columns_work, file_work, take_columns
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError, NoEnvironmentError
-from aadm_workbench.gui.chosen import select
+from aadm_workbench.gui.chosen import look_at, select
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, close_panel, show_panel
 from aadm_workbench.gui.sentences import sentences, show_error
 from aadm_workbench.gui.settings import decision, method, tolerances
+from aadm_workbench.gui.view_camera import active_view
 from aadm_workbench.private.answers import FoundColumns
 
 translate = FreeCAD.Qt.translate
@@ -36,6 +37,7 @@ class SamplingPanel(WorkingPanel):
         self.document, self.objects = document, objects
         self.file = file or native_file_of(document)
         self.after: After = _open_design
+        self.is_alone = not document.Objects
         self.layout.addWidget(QtGui.QLabel(self.file.name if self.file is not None else document.Label))
         self.add_start(translate("AADM_SampleDesign", "Sample"))
         self.layout.addStretch(1)
@@ -51,7 +53,9 @@ class SamplingPanel(WorkingPanel):
     def _take(self, answer: FoundColumns) -> None:
         objects = None if self.file is not None else self.objects
         if self.file is not None and self.objects:
-            answer = {**answer, "columns": _of_selected(answer["columns"], self.objects)}
+            kept = _of_selected(answer["columns"], self.objects)
+            bodies = dict(zip(answer["columns"], answer["bodies"], strict=False))
+            answer = {**answer, "columns": kept, "bodies": [bodies.get(text, []) for text in kept]}
         with undo_step(self.document, translate("AADM_SampleDesign", "Sample design")):
             columns = take_columns(self.document, answer, objects=objects, file=self.file)
             for column in columns:
@@ -61,8 +65,10 @@ class SamplingPanel(WorkingPanel):
         tell(translate("AADM_SampleDesign", "{count} columns were sampled").format(count=len(columns)))
         close_panel(self)
         select(columns[:1])
-        if self.file is not None:
-            FreeCADGui.SendMsgToActiveView("ViewFit")
+        view = active_view()
+        if view is not None and self.is_alone:
+            view.viewIsometric()  # seen from above, columns are squares
+        look_at(columns)
         self.after(columns)
 
     def show_error(self, error: BaseException) -> None:

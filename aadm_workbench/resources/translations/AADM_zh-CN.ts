@@ -214,12 +214,20 @@
    <translation>只看不合格项</translation>
   </message>
   <message>
+   <source>Reads the points of its scans into the view</source>
+   <translation>将扫描的点读入视图</translation>
+  </message>
+  <message>
    <source>Scans</source>
    <translation>扫描</translation>
   </message>
   <message>
    <source>Settings of the check</source>
    <translation>检测设置</translation>
+  </message>
+  <message>
+   <source>Show its scans</source>
+   <translation>显示扫描</translation>
   </message>
   <message>
    <source>Tolerances</source>
@@ -1094,6 +1102,10 @@
    <translation>箭头长度是偏差的倍数；0：自动选择</translation>
   </message>
   <message>
+   <source>Body of the column, as its model draws it: thin, in the column frame</source>
+   <translation>模型中的柱体（简化），柱坐标系</translation>
+  </message>
+  <message>
    <source>Column frame in the frame of the model's object</source>
    <translation>柱坐标系在模型对象坐标系中的位置</translation>
   </message>
@@ -1216,6 +1228,10 @@
   <message>
    <source>Show deviation arrows</source>
    <translation>显示偏差箭头</translation>
+  </message>
+  <message>
+   <source>Show the body of the column as its model draws it</source>
+   <translation>显示模型中的柱体</translation>
   </message>
   <message>
    <source>Side of the column at the top of pictures of its rebars: +x, -x, +y, -y</source>
