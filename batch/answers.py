@@ -92,7 +92,7 @@ def _check_one(model: Any, label: str) -> None:
         raise DesignError(f"{label} has no grouting sleeves in its foot face. {said}".strip())
     if len(model.columns) > 1:
         called = ", ".join(column.id for column in model.columns[:_SHOWN])
-        raise DesignError(f"{label} holds {len(model.columns)} columns: {called}. Select one of them.")
+        raise DesignError.because("command.several_columns", model=label, count=len(model.columns), called=called)
 
 
 def scan(question: Mapping[str, Any]) -> ReadScan:

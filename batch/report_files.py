@@ -24,6 +24,9 @@ FORMATS = {
 }
 """By the name of their switch: file, and what it is."""
 
+_WITH_TOWER = ("html", "pdf")
+"""Formats that show the tower of a job with [stack]."""
+
 _PACKAGES = {
     "html": ("jinja2", "fonttools"),
     "pdf": ("reportlab",),
@@ -70,9 +73,16 @@ def require_packages(formats: Sequence[str]) -> None:
 
 
 def write_reports(
-    report: JobReport, formats: Sequence[str], folder: Path, language: Literal["en", "zh"] | None = None
+    report: JobReport,
+    formats: Sequence[str],
+    folder: Path,
+    language: Literal["en", "zh"] | None = None,
+    *,
+    model: Path | None = None,
 ) -> dict[str, Path]:
     """Write reports into a folder; the files by the names of their formats.
+
+    ``model`` is where beams and heights of the tower are taken from, of a job with [stack].
 
     Raises
     ------
@@ -83,21 +93,32 @@ def write_reports(
     """
     files = {name: folder / FORMATS[name][0] for name in formats}
     for name, path in files.items():
-        _write(name, report, path, language)
+        if name in _WITH_TOWER:
+            _write_with_tower(name, report, path, language or "en", model)
+        else:
+            _write(name, report, path, language)
     return files
+
+
+def _write_with_tower(
+    name: str, report: JobReport, path: Path, language: Literal["en", "zh"], model: Path | None
+) -> None:
+    from .tower_plan import tower_of
+
+    tower = tower_of(report, model)
+    if name == "html":
+        from aadm_workbench.report.pages.html import write_html
+
+        write_html(report, path, language, tower=tower)
+    else:
+        from aadm_workbench.report.pages.pdf import write_pdf
+
+        write_pdf(report, path, language, tower=tower)
 
 
 def _write(name: str, report: JobReport, path: Path, language: Literal["en", "zh"] | None) -> None:
     """One report; the packages of a format are imported only where it is asked for."""
-    if name == "html":
-        from aadm_workbench.report.pages.html import write_html
-
-        write_html(report, path, language or "en")
-    elif name == "pdf":
-        from aadm_workbench.report.pages.pdf import write_pdf
-
-        write_pdf(report, path, language or "en")
-    elif name == "xlsx":
+    if name == "xlsx":
         from aadm_workbench.report.sheets.xlsx import write_xlsx
 
         write_xlsx(report, path, language or "en")

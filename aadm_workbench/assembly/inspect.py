@@ -188,7 +188,7 @@ def _fit(design: Sequence[AssemblyPoint], match: Match, verdicts: Sequence[Verdi
 def direction_name(angle: float) -> str:
     """A direction of the column frame, radians from +x, as jobs declare it: ``+y``, or degrees."""
     degrees = math.degrees(angle) % 360.0
-    named = {0: "+x", 90: "+y", 180: "-x", 270: "-y"}
+    named = {0: "+x", 90: "+y", 180: "-x", 270: "-y"}  # degrees
     return named.get(round(degrees), f"{degrees:.0f}°") if abs(degrees - round(degrees)) < 1e-6 else f"{degrees:.1f}°"
 
 

@@ -26,6 +26,7 @@ from aadm_workbench.hoisting.pattern_fit import (
     wall_terms,
 )
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
+from aadm_workbench.model.scatter import TO_SIGMA
 
 # of a bar below its top: the shortest of the settings stick out by 120, and no floor is to be taken in
 _LENGTH_MM = 110.0
@@ -251,5 +252,5 @@ def _terms(sides: list[_Side | None], state: State, band_mm: float, law: Bracket
     pull = -law.slope(-residual) * trust / _CORRELATION**2
     bend = np.abs(pull) / np.maximum(np.abs(residual), law.softness_mm)
     inwards = residual[(residual < 0) & (residual > -_INWARDS_MM)]
-    width_mm = 1.4826 * float(np.median(np.abs(inwards))) if len(inwards) > 20 else 0.15
+    width_mm = TO_SIGMA * float(np.median(np.abs(inwards))) if len(inwards) > 20 else 0.15
     return Terms(own, pooled, pull, bend, owner), counts, width_mm

@@ -180,7 +180,7 @@ def _wanted(design: ColumnDesign, scans: ColumnScans, settings: CheckSettings) -
         return tuple(possible)
     lacking = [check for check in settings.checks if check not in possible]
     if lacking:
-        raise JobError(f"column {design.id}: the job asks for {', '.join(lacking)}, but names no scan for it")
+        raise JobError.because("command.asks_without_scan", column=design.id, parts=", ".join(lacking))
     return settings.checks
 
 

@@ -28,7 +28,6 @@ from aadm_workbench.model import (
     MouldDrift,
     Profile,
     Scan,
-    StackSettings,
 )
 from aadm_workbench.scan.read import read_scan
 
@@ -134,7 +133,7 @@ def chosen_columns(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
     ids = [column.id for column in job.columns]
     for name in only:
         if name not in ids:
-            raise JobError(f'{job.source} has no column "{name}" (--only); {did_you_mean(name, ids)}')
+            raise JobError.because("command.no_such_column", job=job.source, name=name, meant=did_you_mean(name, ids))
     return tuple(column for column in job.columns if not only or column.id in only)
 
 
@@ -172,9 +171,15 @@ def _check_named_once(job: Job, model: ModelDesign) -> None:
             continue
         other = first.setdefault(id(design), column.id)
         if other != column.id:
-            raise JobError(
-                f'{job.source}, line {job.lines.get(column.id, 1)}: "{column.id}" and "{other}" (line '
-                f"{job.lines.get(other, 1)}) are one column of {model.source} ({design.id}); name it once"
+            raise JobError.because(
+                "command.named_twice",
+                job=job.source,
+                line=job.lines.get(column.id, 1),
+                id=column.id,
+                other=other,
+                other_line=job.lines.get(other, 1),
+                model=model.source,
+                column=design.id,
             )
 
 
@@ -261,7 +266,7 @@ def job_entry(plan: JobPlan) -> dict[str, str]:
         "method": settings.method,
         "decision": settings.decision,
         "seed": str(settings.seed),
-        **({} if plan.job.stack == StackSettings() else {"stack": plan.job.stack.text}),
+        **({} if plan.job.stack is None else {"stack": plan.job.stack.text}),
     }
 
 

@@ -96,6 +96,7 @@ from aadm_workbench.model.shipment import (
     ShipmentReport,
 )
 from aadm_workbench.model.stack import (
+    SettingReport,
     StackSettings,
 )
 from aadm_workbench.model.verdicts import (
@@ -161,6 +162,7 @@ __all__ = [
     "Rule",
     "RuleResult",
     "Scan",
+    "SettingReport",
     "ShipmentGroup",
     "ShipmentProblem",
     "ShipmentReport",

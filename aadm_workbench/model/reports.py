@@ -12,6 +12,7 @@ from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, PairResult, PointResult, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile
 from aadm_workbench.model.section import SectionReport
+from aadm_workbench.model.stack import SettingReport
 from aadm_workbench.model.verdicts import SUMMED, Kind, Verdict
 
 LONGEST_ID = 1024
@@ -23,7 +24,8 @@ class ColumnReport:
     """Everything that report.json holds about one column; ``repair`` where its trial did not pass.
 
     ``findings`` are what contradicts the design, what was declared, or the camera. ``section`` is that of the foot;
-    None where the design does not say where its section lies, or nothing says which edge is which.
+    None where the design does not say where its section lies, or nothing says which edge is which. ``setting`` is where
+    the column comes to stand, where the job asks for that ([stack]).
     """
 
     id: str
@@ -45,6 +47,7 @@ class ColumnReport:
     repair: RepairReport | None = None
     findings: tuple[Finding, ...] = ()
     section: SectionReport | None = None
+    setting: SettingReport | None = None
 
     def group(self, kind: Kind) -> GroupReport | None:
         """Its sleeves or its rebars."""

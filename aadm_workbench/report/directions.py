@@ -72,7 +72,7 @@ class Compass:
         parts = self.parts(vector_mm)
         return Phrase(
             " and ".join(f"{length:.1f} mm {way.en}" for length, way in parts),
-            ",".join(f"{way.zh} {length:.1f} mm" for length, way in parts),
+            "，".join(f"{way.zh} {length:.1f} mm" for length, way in parts),
         )
 
 

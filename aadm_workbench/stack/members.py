@@ -133,6 +133,8 @@ class MembersOn:
     def _judged(self, quantity: str, *terms: tuple[Carried, Array]) -> Judged:
         """The sum of row · ξ over some ends, against its limit where all of them are known against the grid."""
         missing = next((end.missing for end, _ in terms if end.missing is not None), None)
+        if missing is None and len({end.relative for end, _ in terms}) > 1:
+            missing = phrase("stack.unlike_bases")
         if missing is not None:
             return unjudged(missing)
         value, variance = 0.0, 0.0
@@ -140,7 +142,7 @@ class MembersOn:
             assert end.placed is not None
             value += float(row @ end.placed.values)
             variance += standard(end.placed.covariance, row) ** 2
-        if any(end.relative for end, _ in terms):
+        if terms[0][0].relative:
             return unjudged(phrase("stack.relative"), value, math.sqrt(variance))
         # However the beam is laid, no end loses more than the whole span.
         limited_as = "bearing_length" if quantity == "span" else quantity

@@ -32,6 +32,13 @@ def _length(top: Top | None) -> str:
     return "?" if top is None or top.judged.value is None else f"{top.judged.value:.1f}"
 
 
+def against(column: StackedColumn) -> Phrase:
+    """What the numbers of a column are told against."""
+    if column.basis == "storey_below":
+        return phrase("stack.storey_below", below=column.below)
+    return phrase(f"stack.{column.basis}")
+
+
 def headline(plan: StackPlan) -> tuple[Phrase, str]:
     """What comes of it in one line, and whether that is ``good``, ``bad`` or neither."""
     counted = [verdict for verdict in plan.verdicts if verdict is not Verdict.NOT_ASSESSED]
@@ -47,10 +54,15 @@ def headline(plan: StackPlan) -> tuple[Phrase, str]:
 
 
 def by_reason(plan: StackPlan) -> list[tuple[Phrase, str]]:
-    """Each reason once, with the columns that it holds for."""
+    """What is said of columns themselves, each reason once, with the columns that it holds for."""
     found: dict[Phrase, list[str]] = {}
     for column in plan.columns:
-        of_top = None if column.top is None else column.top.judged.reason
-        for reason in (*column.reasons, *([of_top] if of_top is not None and column.basis != "bars" else [])):
+        for reason in column.reasons:
             found.setdefault(reason, []).append(column.measured.id)
     return [(reason, ", ".join(names)) for reason, names in found.items()]
+
+
+def limit_reasons(plan: StackPlan) -> list[tuple[str, Phrase]]:
+    """Of columns whose top does not keep its limit for certain: why."""
+    judged = [(column.measured.id, column.top.judged) for column in plan.columns if column.top is not None]
+    return [(name, one.reason) for name, one in judged if one.reason is not None and one.limit is not None]

@@ -38,6 +38,6 @@ def run(options: argparse.Namespace) -> int:
         question = json.loads(options.question.read_text(encoding="utf-8"))
         answer = ANSWERS[question["about"]]
     except (OSError, ValueError, LookupError, TypeError) as error:
-        raise JobError(f"{options.question}: is no question of the workbench ({error})") from error
+        raise JobError.because("command.no_question", file=options.question, error=error) from error
     write_atomically(options.answer, json.dumps(answer(question), ensure_ascii=False).encode())
     return ALL_PASS

@@ -42,7 +42,7 @@ def run(options: argparse.Namespace) -> int:
 
     addresses = options.camera or _of_the_system()
     if not addresses:
-        raise JobError(f"no producer is known: name one, gentl:FILE.cti, or set {_SYSTEM_PRODUCERS}")
+        raise JobError.because("command.no_producer", variable=_SYSTEM_PRODUCERS)
     found: list[Device] = []
     failed = False
     for address in addresses:

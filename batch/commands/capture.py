@@ -47,7 +47,9 @@ def run(options: argparse.Namespace) -> int:
 
     single = options.count is None and options.every is None
     if single and options.out.is_dir() and any(options.out.iterdir()):
-        raise JobError(f"{options.out}: holds files already; name another folder for this capture")
+        from aadm_workbench.model.reason import Reason
+
+        raise JobError.because("said.of_file", file=options.out, why=Reason("scan.capture_there"))
     (options.out.parent if single else options.out).mkdir(parents=True, exist_ok=True)
     with Session(options.camera) as session:
         written, lost = _take_all(session, options, single)

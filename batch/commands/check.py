@@ -108,7 +108,7 @@ def _asked(options: argparse.Namespace) -> Job:
 
     job = read_job(options.job)
     if options.events == "-" and options.json:
-        raise JobError("--events - and --json both want stdout; write the events into a file")
+        raise JobError.because("command.events_and_json")
     require_packages(chosen_formats(options))
     if options.write_ifc:
         from ..model_results import ifc_model_of
@@ -157,16 +157,18 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
 
     from ..served_report import without_absolute_paths
     from ..shown.terminal import say, show_json
+    from ..tower_plan import with_setting
 
     if options.debug:
         for name, trace in done.traces.items():
             say(f"{name}: {trace}")
-    report = done.report if options.absolute_paths else without_absolute_paths(done.report, job)
+    report = with_setting(done.report, job.model_path)
+    report = report if options.absolute_paths else without_absolute_paths(report, job)
     code = exit_code_of(column.verdict for column in report.columns)
     try:
         write_report(report, folder / "report.json")
         write_atomically(folder / "timing.json", encode(done.seconds))
-        _write_reports(folder, options)
+        _write_reports(job, folder, options)
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
         say(f"aadm: {told(error, options)}")
@@ -182,7 +184,7 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
     return code
 
 
-def _write_reports(folder: Path, options: argparse.Namespace) -> None:
+def _write_reports(job: Job, folder: Path, options: argparse.Namespace) -> None:
     """The other reports that were asked for, from what report.json holds."""
     formats = chosen_formats(options)
     if formats:
@@ -190,7 +192,8 @@ def _write_reports(folder: Path, options: argparse.Namespace) -> None:
 
         from ..report_files import write_reports
 
-        write_reports(read_report(folder / "report.json"), formats, folder, options.language)
+        report = read_report(folder / "report.json")
+        write_reports(report, formats, folder, options.language, model=job.model_path)
 
 
 def _write_model(report: JobReport, job: Job, folder: Path, options: argparse.Namespace) -> int:

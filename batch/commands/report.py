@@ -37,12 +37,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = (
         "aadm report REPORT.json [--out DIR] [--html] [--pdf] [--xlsx] [--csv] [--bcf] [--bcf-pairs]\n"
         "                   [--crew] [--scan-card] [--fcstd]\n"
-        "                   [--language en|zh] [--only ID ...] [--json] [--quiet]\n"
+        "                   [--language en|zh] [--model MODEL.ifc] [--only ID ...] [--json] [--quiet]\n"
         "       aadm report JOB.toml --scan-card [--out DIR] [--only ID ...]"
     )
     parser.add_argument("report", type=Path, metavar="REPORT.json", help="the report of a check, or a job (JOB.toml)")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder of the files (default: that of REPORT.json)")
     add_format_switches(parser)
+    parser.add_argument(
+        "--model", type=Path, metavar="MODEL.ifc", help="of a job with [stack]: heights and beams for the tower"
+    )
     parser.add_argument("--only", nargs="+", action="extend", default=[], metavar="ID", help="these columns only")
     add_switches(parser, prints_json="which files were written")
     parser.set_defaults(run=run)
@@ -64,7 +67,8 @@ def _reports(options: argparse.Namespace) -> dict[str, Path]:
     formats = chosen_formats(options) or ("html",)
     require_packages(formats)
     report = only_columns(read_report(options.report), options.only, options.report)
-    return write_reports(report, formats, _folder(options, options.report.parent), options.language)
+    folder = _folder(options, options.report.parent)
+    return write_reports(report, formats, folder, options.language, model=options.model)
 
 
 def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
@@ -75,10 +79,7 @@ def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
     from ..report_files import FORMATS
 
     if chosen_formats(options) != ("scan_card",):
-        raise JobError(
-            f"{options.report}: of a job only --scan-card can be made; check it first (aadm check {options.report}), "
-            "then name its report.json"
-        )
+        raise JobError.because("command.report_of_job", file=options.report, job=options.report)
     require_packages(("scan_card",))
     from aadm_workbench.report.pages.scan_card_page import write_scan_cards
 
@@ -101,7 +102,7 @@ def only_columns(report: JobReport, ids: list[str], source: Path) -> JobReport:
     known = [column.id for column in report.columns]
     for name in ids:
         if name not in known:
-            raise ReportError(f'{source} has no column "{name}" (--only); {did_you_mean(name, known)}')
+            raise ReportError.because("command.no_such_column", job=source, name=name, meant=did_you_mean(name, known))
     return replace(report, columns=tuple(column for column in report.columns if not ids or column.id in ids))
 
 
@@ -112,7 +113,7 @@ def _folder(options: argparse.Namespace, otherwise: Path) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise ReportError(f"{folder}: the folder for the reports cannot be made ({error.strerror})") from error
+        raise ReportError.because("command.no_report_folder", folder=folder, why=error.strerror) from error
     return folder
 
 

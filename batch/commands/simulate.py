@@ -104,7 +104,7 @@ def _simulate_pair(options: argparse.Namespace) -> int:
     if options.camera == "fringe":
         _require_renderer()
     elif filters.edge_mask:
-        raise AadmError("--filter edge-mask wants the brightness of the scan: use --camera fringe")
+        raise AadmError.because("command.edge_mask_camera")
     _prepare(options)
     words = "" if options.camera == "ray" else f" --camera {options.camera}"
     for switch in ("filter", "site", "slip"):
@@ -148,11 +148,11 @@ def _prepare(options: argparse.Namespace) -> None:
     from aadm_workbench.errors import AadmError
 
     if options.seed < 0:
-        raise AadmError(f"--seed must not be below zero, it is {options.seed}")
+        raise AadmError.because("command.seed_below_zero", seed=options.seed)
     try:
         options.out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise AadmError(f"{options.out}: the folder cannot be made ({error.strerror})") from error
+        raise AadmError.because("command.no_folder", folder=options.out, why=error.strerror) from error
 
 
 def _require_virtual_camera() -> None:

@@ -102,7 +102,7 @@ def _prepare(options: argparse.Namespace) -> None:
     from aadm_workbench.errors import AadmError, MissingDependencyError, install_of
 
     if options.seed < 0:
-        raise AadmError(f"--seed must not be below zero, it is {options.seed}")
+        raise AadmError.because("command.seed_below_zero", seed=options.seed)
     for package in (*_PACKAGES, *(() if options.out is None else ("matplotlib",))):
         if find_spec(package) is None:
             needed_for = "A plot" if package == "matplotlib" else "The virtual camera"
@@ -111,7 +111,7 @@ def _prepare(options: argparse.Namespace) -> None:
         try:
             options.out.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise AadmError(f"{options.out}: the folder cannot be made ({error.strerror})") from error
+            raise AadmError.because("command.no_folder", folder=options.out, why=error.strerror) from error
 
 
 def _encoded(study: MethodStudy, *, quick: bool) -> bytes:

@@ -71,7 +71,7 @@ def _write(options: argparse.Namespace) -> WriteBack:
     from ..model_results import write_results
 
     if options.model is None:
-        raise ReportError(f"{options.report}: name the report and the model: aadm writeback REPORT.json MODEL.ifc")
+        raise ReportError.because("command.writeback_of_what", file=options.report)
     out = options.model if options.in_place else options.out or _beside(options.model, "checked")
     return write_results(read_report(options.report), options.report.parent, options.model, out, force=options.force)
 

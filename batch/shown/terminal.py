@@ -17,6 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from aadm_workbench.model import Verdict
+from aadm_workbench.report.words.labels import Language, phrase
 
 from .printable import printable
 
@@ -34,10 +35,11 @@ _UNBOUNDED = 100_000
 """Width in characters of what is no terminal: no line is ever broken."""
 
 
-def verdict_text(verdict: Verdict) -> Text:
+def verdict_text(verdict: Verdict, language: Language = "en") -> Text:
     """A verdict as people read it: sign, word, colour."""
     sign, style = STYLE[verdict]
-    return Text(f"{sign} {in_words(verdict)}".strip(), style=style)
+    word = in_words(verdict) if language == "en" else phrase(f"verdict.{verdict.value}").zh
+    return Text(f"{sign} {word}".strip(), style=style)
 
 
 def in_words(verdict: Verdict) -> str:

@@ -72,7 +72,7 @@ class Watcher:
         if task.design is None:
             raise DesignError(task.no_design)
         if not folder.is_dir():
-            raise JobError(f"{folder}: there is no such folder to watch")
+            raise JobError.because("command.no_watched_folder", folder=folder)
         self.task, self.design, self.options, self.say = task, task.design, options, say
         self.frames, self.bad_frames = 0, 0
         self.verdict = Verdict.NOT_MEASURED
@@ -98,7 +98,9 @@ class Watcher:
             try:
                 ready = self._folder.ready()
             except OSError as error:
-                raise AadmError(f"{self._folder.folder}: cannot be listed any more ({error.strerror})") from error
+                raise AadmError.because(
+                    "command.folder_gone", folder=self._folder.folder, why=error.strerror
+                ) from error
             for path in ready:
                 self._frame(path)
                 if self._enough(monotonic() - began):

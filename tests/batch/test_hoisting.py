@@ -101,15 +101,23 @@ def test_a_job_can_measure_its_frames_as_published(folder: Path) -> None:
 
 
 def test_watch_measures_new_frames_waits_for_unfinished_ones_and_skips_bad_ones(
-    folder: Path, capsys: pytest.CaptureFixture[str]
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     frames = folder / "frames"
     frames.mkdir()
     content = (folder / "hang.tiff").read_bytes()
     (frames / "old.tiff").write_bytes(content)
 
+    watching, skips = threading.Event(), FolderWatch.skip_present
+
+    def skip_present(watched: FolderWatch) -> None:
+        skips(watched)
+        watching.set()
+
+    monkeypatch.setattr(FolderWatch, "skip_present", skip_present)
+
     def camera() -> None:
-        time.sleep(0.6)
+        watching.wait(60.0)
         (frames / "a.tiff").write_bytes(content)
         time.sleep(0.5)
         with (frames / "b.tiff").open("wb") as stream:

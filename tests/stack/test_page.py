@@ -87,7 +87,7 @@ def test_never_off_grid_without_control_points(untied: StackPlan, language: Any)
 
 
 def test_without_a_model_beams_are_said_to_be_unknown(untied: StackPlan) -> None:
-    assert "no model was named" in stack_page(untied)
+    assert "no IFC model was named" in stack_page(untied)
 
 
 def test_names_are_escaped_and_nothing_runs(plan: StackPlan) -> None:

@@ -82,8 +82,8 @@ def edge_line(samples: FaceSamples, start: Array, end: Array, mouths: KnownMouth
     place = along * line.middle_mm + normal * line.offset_mm
     beyond_mm = found.zone_mm / 2.0 + taken_in(samples, place, normal, band_mm) + samples.wider_mm
     covariance = found.fit.covariance.copy()
+    # Anything from nothing to all of what is not seen is as likely: the variance of that is its square over 12.
     covariance[0, 0] += (samples.pitch_mm * _LEAST_U_PITCHES) ** 2 + found.blind_mm**2 / 12.0
-    # Anything from nothing to all of these is as likely.
     spans_mm = found.zone_mm, lost_at_rims(samples, mouths, normal, band_mm), 2.0 * samples.wider_mm
     return EdgeLine(
         normal,
@@ -92,7 +92,7 @@ def edge_line(samples: FaceSamples, start: Array, end: Array, mouths: KnownMouth
         line.turn,
         line.middle_mm,
         covariance,
-        float(np.linalg.norm(spans_mm) / np.sqrt(12.0)),
+        float(np.linalg.norm(spans_mm) / np.sqrt(12.0)),  # as likely anywhere in these
         found.strips.seen,
         chips_of(found.strips, found.fit, line.middle_mm),
     )
@@ -160,6 +160,7 @@ def _across(
     samples: FaceSamples, line: _Guess, mouths: KnownMouths, half_mm: float, reach_mm: float, step: float
 ) -> tuple[Array, Array, Array]:
     """Places (n,) along a line and beyond it, mm, but for those in mouths, and the heights of what returned there."""
+    # Half a step more than the reach: so that its end is among them.
     s, d = np.meshgrid(np.arange(-half_mm, half_mm, step), np.arange(-reach_mm - step, reach_mm + 1.5 * step, step))
     s, d = s.ravel(), d.ravel()
     asked = samples.ask(

@@ -8,6 +8,7 @@ import numpy as np
 
 from aadm_workbench.extract.sample import Thinned
 from aadm_workbench.model import Array, Plane
+from aadm_workbench.model.scatter import OF_MEDIAN, TO_SIGMA
 
 _CELLS = 12  # along the longer side: cells of 50 mm on a foot of 600 mm, as under a straightedge
 _FEWEST = 12  # points of a cell: its median is then known to a third of the camera's noise
@@ -54,7 +55,7 @@ def face_heights(
         own = height[order[bounds[cell] : bounds[cell + 1]]]
         if len(own) >= _FEWEST:
             grid[cell] = np.median(own)
-            scatter.append(1.4826 * float(np.median(np.abs(own - grid[cell]))) * 1.2533 / np.sqrt(len(own)))
+            scatter.append(TO_SIGMA * float(np.median(np.abs(own - grid[cell]))) * OF_MEDIAN / np.sqrt(len(own)))
     seen = np.isfinite(grid)
     if seen.sum() < rows * columns / 2:
         return None

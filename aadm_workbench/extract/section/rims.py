@@ -44,7 +44,8 @@ def lost_at_rims(samples: FaceSamples, mouths: KnownMouths, normal: Array, band_
 def _rim_end(samples: FaceSamples, centre: Array, radius_mm: float, normal: Array, band_mm: float) -> float | None:
     """Distance from the centre at which the face ends at a rim, in the sector that ends it towards ``normal``."""
     step = samples.pitch_mm
-    reach_mm = min(_RIM_REACH_MM, 0.45 * radius_mm)
+    reach_mm = min(_RIM_REACH_MM, 0.45 * radius_mm)  # clear of the middle, which belongs to no side
+    # Half a step more than the reach: so that its end is among them.
     span = np.arange(-radius_mm - reach_mm - step, radius_mm + reach_mm + 1.5 * step, step)
     x, y = np.meshgrid(span, span)
     about = np.column_stack([x.ravel(), y.ravel()])

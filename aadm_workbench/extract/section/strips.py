@@ -12,6 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from aadm_workbench.model import Array, BoolArray, IntArray, Reason
+from aadm_workbench.model.scatter import TO_SIGMA
 
 _STRIP_PITCHES = 6.0  # along the edge: some fifty places tell where a strip ends, and a chip of 5 mm fills one
 _FEWEST_STRIPS = 8  # of fewer a line has no scatter
@@ -121,7 +122,7 @@ def line_through(strips: Strips, pitch_mm: float) -> StripLine | Reason:
     residual = strips.end - design @ _outermost(strips, pitch_mm)
     normal, scatter = design.T @ design, 0.0
     for _ in range(_ROUNDS):
-        scatter = max(1.4826 * float(np.median(np.abs(residual))), _LEAST_SCATTER_PITCHES * pitch_mm)
+        scatter = max(TO_SIGMA * float(np.median(np.abs(residual))), _LEAST_SCATTER_PITCHES * pitch_mm)
         weight = np.maximum(1.0 - (residual / (_TUKEY * scatter)) ** 2, 0.0) ** 2
         normal = design.T @ (weight[:, None] * design)
         found = np.linalg.solve(normal, design.T @ (weight * strips.end))

@@ -16,6 +16,7 @@ from aadm_workbench.document.display.colours import of_verdict, text_on
 from aadm_workbench.document.display.marks import pitch_of
 from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.display.result_rows import DISTANCE, Row
+from aadm_workbench.document.display.setting import setting_said
 from aadm_workbench.document.places import world_point
 from aadm_workbench.document.result import found_of
 from aadm_workbench.document.scan_cloud import fill_scan
@@ -155,7 +156,7 @@ class CheckPanel(WorkingPanel):
         more = len(result.Reasons) - _SHOWN_REASONS
         if more > 0:
             lines.append(translate("AADM_Check", "… and {count} more, see the table").format(count=more))
-        lines += notes
+        lines += [*notes, *setting_said(found.get("setting")).lines]
         self.reasons.setText("\n".join(lines))
         self._say_what_is_shown()
         self._fill_table()

@@ -26,17 +26,20 @@ from aadm_workbench.report.hoist import headline
 from aadm_workbench.report.pages.fonts import embedded_font_css
 from aadm_workbench.report.pages.html_column import column_entry
 from aadm_workbench.report.pages.svg import svg_of, svg_styles
-from aadm_workbench.report.sheets.numbers import is_number, number_text
+from aadm_workbench.report.sheets.numbers import is_number, number_text, signed
 from aadm_workbench.report.sheets.sheets import MOULD, mould_rows, profile_table
 from aadm_workbench.report.sheets.tables import Heading, Row, narrowed
+from aadm_workbench.report.tower import TowerShown
 from aadm_workbench.report.words.labels import Language, Phrase, all_words, phrase, resource_folder, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
 _VERDICTS = tuple(verdict.value for verdict in (*SUMMED, Verdict.NOT_ASSESSED))
 
 
-def write_html(report: JobReport, path: Path, language: Language = "en") -> None:
+def write_html(report: JobReport, path: Path, language: Language = "en", *, tower: TowerShown | None = None) -> None:
     """Write report.html, whole or not at all; ``language`` is the one that it opens in.
+
+    ``tower`` is what set columns do to the storey above, where somebody has worked it out.
 
     Raises
     ------
@@ -45,17 +48,19 @@ def write_html(report: JobReport, path: Path, language: Language = "en") -> None
     AadmError
         Where the file cannot be written.
     """
-    write_atomically(path, html_text(report, language).encode("utf-8", errors="replace"))
+    write_atomically(path, html_text(report, language, tower=tower).encode("utf-8", errors="replace"))
 
 
-def html_text(report: JobReport, language: Language = "en") -> str:
+def html_text(report: JobReport, language: Language = "en", *, tower: TowerShown | None = None) -> str:
     """The document; the same report gives the same text."""
     found = findings(report)
     sentences: dict[Phrase, int] = {}
-    context = _context(report, found, language) | {"number_of": lambda text: sentences.setdefault(text, len(sentences))}
+    context = _context(report, found, language) | _tower(tower)
+    context |= {"number_of": lambda text: sentences.setdefault(text, len(sentences))}
     body = _environment().get_template("report.html.j2")
     script = (resource_folder() / "report.js").read_text(encoding="utf-8")
-    style = (resource_folder() / "report.css").read_text(encoding="utf-8") + svg_styles()
+    sheets = ("report.css",) if tower is None else ("report.css", "tower.css")
+    style = "".join((resource_folder() / name).read_text(encoding="utf-8") for name in sheets) + svg_styles()
     # The font comes last: which characters it must hold is known once the rest is written.
     known = {"script": "", "style": "", "policy": "", "dictionary": {}}
     plain = body.render(**context | known)
@@ -135,6 +140,13 @@ def _plans(report: JobReport, found: list[Finding]) -> list[tuple[Plan, str]]:
     anchors = {finding.column.id: finding.anchor for finding in found}
     plans = floor_plans(report.columns, anchors)
     return [(plan, _raw(svg_of(plan.sketch, label="plan", css_class="plan"))) for plan in plans]
+
+
+def _tower(tower: TowerShown | None) -> dict[str, Any]:
+    """What the template needs of the tower, where there is one."""
+    drawn = () if tower is None else tower.plans
+    plans = [(plan, _raw(svg_of(plan.sketch, label="plan", css_class="plan"))) for plan in drawn]
+    return {"tower": tower, "tower_plans": plans, "word": phrase, "signed": signed}
 
 
 class _Mould(NamedTuple):

@@ -18,8 +18,10 @@ from aadm_workbench.report.pages.pdf_canvas import A4, MM, reportlab, write
 from aadm_workbench.report.pages.pdf_column import column_flowables
 from aadm_workbench.report.pages.pdf_parts import drawing, paragraph
 from aadm_workbench.report.pages.pdf_tables import table_flowable
+from aadm_workbench.report.pages.pdf_tower import tower_flowables
 from aadm_workbench.report.sheets.sheets import MOULD, mould_rows, profile_table
 from aadm_workbench.report.sheets.tables import narrowed
+from aadm_workbench.report.tower import TowerShown
 from aadm_workbench.report.words.labels import COLOUR, FAINT, Language, Phrase, phrase, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
@@ -28,8 +30,8 @@ WIDTH = A4[0] - 2.0 * _MARGIN
 """Between the margins."""
 
 
-def write_pdf(report: JobReport, path: Path, language: Language = "en") -> None:
-    """Write report.pdf, whole or not at all; the same report gives the same bytes.
+def write_pdf(report: JobReport, path: Path, language: Language = "en", *, tower: TowerShown | None = None) -> None:
+    """Write report.pdf, whole or not at all; the same report gives the same bytes. ``tower`` as in report.html.
 
     Raises
     ------
@@ -62,11 +64,11 @@ def write_pdf(report: JobReport, path: Path, language: Language = "en") -> None:
         write(canvas, (A4[0] - _MARGIN, 9.0 * MM), str(page.page), 7.5, colour=FAINT, anchor="end")
 
     document.addPageTemplates([templates.PageTemplate(frames=[frame], onPage=foot)])
-    document.build(list(_story(report, title, language)))
+    document.build(list(_story(report, title, language, tower)))
     write_atomically(path, content.getvalue())
 
 
-def _story(report: JobReport, title: str, language: Language) -> Iterator[Any]:
+def _story(report: JobReport, title: str, language: Language, tower: TowerShown | None) -> Iterator[Any]:
     templates: Any = reportlab("platypus")
     found = findings(report)
     yield paragraph(title, 17.0, bold=True, outline=0, bookmark="top")
@@ -74,6 +76,9 @@ def _story(report: JobReport, title: str, language: Language) -> Iterator[Any]:
     yield paragraph(" · ".join(part for part in (said, report.profile.title) if part), 8.0, colour=FAINT, after=8.0)
     yield from _summary(report, found, language)
     yield from _plans(report, found, language)
+    if tower is not None:
+        yield templates.PageBreak()
+        yield from tower_flowables(tower, WIDTH, language)
     for finding in found:
         yield templates.PageBreak()
         yield from column_flowables(report, finding, WIDTH, language)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from aadm_workbench.report.sheets.tables import CellKind
 
 _DECIMALS: dict[CellKind, int] = {"mm": 2, "mm_fine": 3, "deg": 2, "ratio": 2, "count": 0}
@@ -26,3 +28,11 @@ def signed(value: float, decimals: int = 2) -> str:
     """``+0.31``."""
     text = f"{value:+.{decimals}f}"
     return text.replace("-", "+") if float(text) == 0.0 else text
+
+
+def pose_text(pose: Sequence[float]) -> str:
+    """dx, dy mm and yaw degrees as a job has them: ``[1.20, -0.40, 0.050]``."""
+    dx, dy, yaw_deg = (
+        signed(value, decimals).removeprefix("+") for value, decimals in zip(pose, (2, 2, 3), strict=True)
+    )
+    return f"[{dx}, {dy}, {yaw_deg}]"

@@ -56,6 +56,10 @@
    <translation>检测进程以 {code} 结束，没有给出任何说明；请修复其运行环境</translation>
   </message>
   <message>
+   <source>The top of the set column is not predicted: see the report</source>
+   <translation>未预测就位后的柱顶：见报告</translation>
+  </message>
+  <message>
    <source>There is not enough memory for this scan: crop it to the component, or close others.</source>
    <translation>内存不足以处理此扫描：请裁剪到构件范围，或关闭其他文件。</translation>
   </message>
@@ -70,6 +74,22 @@
   <message>
    <source>This should not happen ({kind}: {reason}). The log of the report view shows where.</source>
    <translation>出现了意外情况（{kind}：{reason}）。详见报告浏览器中的日志。</translation>
+  </message>
+  <message>
+   <source>Top of the set column: {top} – {verdict}</source>
+   <translation>就位后柱顶：{top} – {verdict}</translation>
+  </message>
+  <message>
+   <source>against its own bars alone</source>
+   <translation>只相对于本柱钢筋</translation>
+  </message>
+  <message>
+   <source>against the grid</source>
+   <translation>相对于轴网</translation>
+  </message>
+  <message>
+   <source>against the grid, through the column below</source>
+   <translation>相对于轴网（经下层柱传递）</translation>
   </message>
   <message>
    <source>arrows ×{factor:g}</source>
@@ -140,8 +160,16 @@
    <translation>{label} 由更新版本的 AADM 工作台保存：请先升级再修改此对象</translation>
   </message>
   <message>
+   <source>{off} ± {u}, {against}</source>
+   <translation>{off} ± {u}，{against}</translation>
+  </message>
+  <message>
    <source>{program} cannot be run; look at the settings</source>
    <translation>无法运行 {program}；请检查设置</translation>
+  </message>
+  <message>
+   <source>→ {pose} in the job: the top comes to {after}</source>
+   <translation>→ 在任务中写 {pose}：柱顶偏差变为 {after}</translation>
   </message>
  </context>
  <context>
@@ -1214,6 +1242,10 @@
    <translation>文件中的点数；视图显示较少</translation>
   </message>
   <message>
+   <source>Pose in the play that leads the tower back to the grid, for the job</source>
+   <translation>间隙内使柱顶回到轴网的位置，供任务使用</translation>
+  </message>
+  <message>
    <source>Positions against the design, or the trial assembly: minimax, or least squares</source>
    <translation>与设计比较的位置，或试装：最小最大、最小二乘</translation>
   </message>
@@ -1290,6 +1322,10 @@
    <translation>仅试装的结论</translation>
   </message>
   <message>
+   <source>Verdict on the top of the set column</source>
+   <translation>就位后柱顶的结论</translation>
+  </message>
+  <message>
    <source>What it shows: the sleeves of the foot, or the rebars</source>
    <translation>内容：柱底套筒或钢筋</translation>
   </message>
@@ -1304,6 +1340,10 @@
   <message>
    <source>When it was checked (UTC), where that is known</source>
    <translation>检测时间（UTC，如已知）</translation>
+  </message>
+  <message>
+   <source>Where the top comes to, against what, with its standard uncertainty</source>
+   <translation>就位后柱顶的偏差、其基准及标准不确定度</translation>
   </message>
   <message>
    <source>Which points are labelled</source>

@@ -51,7 +51,7 @@ def test_a_client_sees_values_quality_time_out_and_can_write_nothing(tmp_path: P
     async def run() -> None:
         async with (
             linked(path, OpcUaLink("127.0.0.1", port, None)),
-            Client(f"opc.tcp://127.0.0.1:{port}/aadm") as client,
+            Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=60) as client,
         ):
             read = await reader(client)
             assert (await read("Ready")).Value.Value is True
@@ -126,7 +126,7 @@ def test_ready_is_withdrawn_before_values_change(tmp_path: Path) -> None:
     async def run() -> None:
         async with (
             linked(path, OpcUaLink("127.0.0.1", port, None)),
-            Client(f"opc.tcp://127.0.0.1:{port}/aadm") as client,
+            Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=60) as client,
         ):
             space = await client.get_namespace_index(NAMESPACE)
             nodes = [client.get_node(f"ns={space};s=Hoisting.{name}") for name in ("Ready", "Dx_mm")]
@@ -160,7 +160,7 @@ def certificate(folder: Path, uri: str = READER, days: int = 30) -> tuple[Path, 
 
 async def ready_of(port: int, own: tuple[Path, Path] | None, server: Path, says: bytes | None = b"own") -> Any:
     """What a client with a certificate reads; ``says``: the certificate that it names when it opens its session."""
-    client = Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=10)
+    client = Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=60)
     client.application_uri = READER
     if own is not None:
         await client.set_security(
