@@ -30,10 +30,6 @@ PANELS = {
 WINDOWS = {"about": AboutWindow, "install": EnvironmentWindow, "hoisting": HoistingWindow}
 
 application = QtGui.QApplication.instance()
-# Where a machine has no Chinese font, thin boxes would be measured.
-QtGui.QFontDatabase.addApplicationFont(
-    str(Path(SAMPLES).parent / "aadm_workbench/resources/fonts/wqy-microhei-subset.ttf")
-)
 light = application.styleSheet()
 sheets = Path(FreeCAD.getResourceDir()) / "Gui" / "Stylesheets"
 dark_sheets = [sheets / "Behave-dark.qss", sheets / "FreeCAD Dark.qss"]

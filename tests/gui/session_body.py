@@ -15,6 +15,10 @@ from PySide import QtCore, QtGui
 
 from aadm_workbench.gui.aadm_process import _RUNNING
 
+# Where a machine has no Chinese font, thin boxes would be looked at.
+QtGui.QFontDatabase.addApplicationFont(
+    str(Path(SAMPLES).parent / "aadm_workbench" / "resources" / "fonts" / "wqy-microhei-subset.ttf")
+)
 namespace = {}
 exec(MODEL, namespace)
 window = Gui.getMainWindow()
