@@ -40,7 +40,8 @@ class AADMWorkbench(FreeCADGui.Workbench):
 
         if chosen_columns():
             self.appendContextMenu(
-                "AADM", ["AADM_ImportScan", "AADM_CheckColumn", "AADM_CheckAll", "AADM_WriteResults"]
+                "AADM",
+                ["AADM_ImportScan", "AADM_CaptureScan", "AADM_CheckColumn", "AADM_CheckAll", "AADM_WriteResults"],
             )
 
     def GetClassName(self) -> str:

@@ -33,7 +33,7 @@ from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.tolerances import rules_of_the_erected_column, sum_up
 from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.errors import JobError
-from aadm_workbench.extract.method import extract_sizes
+from aadm_workbench.extract.method import Known, extract_sizes
 from aadm_workbench.model import (
     AssemblyPoint,
     ColumnDesign,
@@ -189,8 +189,9 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
     views, points, up_deg = scans.of(kind), design.points(kind), scans.up_deg(kind)
     scan, diameter_mm = views[0], float(np.median(_diameters_mm(points)))
     rng = np.random.default_rng([settings.seed, list(Kind).index(kind)])
+    known = Known(design, up_deg)
     with stage("extract"):
-        seen = [extract_sizes(view, kind, _diameters_mm(points), settings.method, rng) for view in views]
+        seen = [extract_sizes(view, kind, _diameters_mm(points), settings.method, rng, known=known) for view in views]
         control = _control(design, scans, kind, seen[0])
         ups = [up_deg] * len(views)
         if up_deg is None and control:

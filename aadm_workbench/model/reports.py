@@ -25,7 +25,8 @@ class ColumnReport:
 
     ``findings`` are what contradicts the design, what was declared, or the camera. ``section`` is that of the foot;
     None where the design does not say where its section lies, or nothing says which edge is which. ``setting`` is where
-    the column comes to stand, where the job asks for that ([stack]).
+    the column comes to stand, where the job asks for that ([stack]). ``hoisting_joint`` is what two and more frames of
+    the hanging column tell together.
     """
 
     id: str
@@ -48,6 +49,7 @@ class ColumnReport:
     findings: tuple[Finding, ...] = ()
     section: SectionReport | None = None
     setting: SettingReport | None = None
+    hoisting_joint: HoistingReport | None = None
 
     def group(self, kind: Kind) -> GroupReport | None:
         """Its sleeves or its rebars."""
@@ -62,6 +64,11 @@ class ColumnReport:
         """Its sleeves or its rebars, one by one; empty without them."""
         group = self.group(kind)
         return () if group is None else group.points
+
+    @property
+    def hoisting_frames(self) -> tuple[HoistingReport, ...]:
+        """Its frames, and last what they tell together where they do."""
+        return self.hoisting if self.hoisting_joint is None else (*self.hoisting, self.hoisting_joint)
 
     @property
     def parts(self) -> tuple[ColumnReport | GroupReport | TrialReport, ...]:

@@ -7,7 +7,6 @@ from dataclasses import dataclass, fields
 from aadm_workbench.model.measured import Vector2, Vector3
 from aadm_workbench.model.verdicts import Verdict
 
-
 _TALL_MM, _PLUMB_MM, _PLUMB_OF_TALL_MM = 6000.0, 5.0, 10.0
 """Verticality of columns and walls up to 6 m and above, GB/T 51231-2016, table 10.4.12 (unverified: recalled)."""
 

@@ -26,8 +26,8 @@ from aadm_workbench.model.results import AimedPose, TrialPose
 from aadm_workbench.report.directions import Compass, Heading, compass_of
 from aadm_workbench.report.words.labels import Phrase
 
-_AS_ASKED = 1e-3
-"""mm and degrees: rounding of what was asked for."""
+_AS_ASKED = 0.01
+"""mm and degrees: what was asked for has two decimals, and may be rounded over a limit by as much."""
 
 PLAIN = Compass(
     (

@@ -14,14 +14,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 
 from aadm_workbench.design.floor import Floor, FloorBeam, How, Support
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Verdict
 from aadm_workbench.report.words.labels import Phrase, phrase
+from aadm_workbench.report.words.reasons import in_both_languages
 from aadm_workbench.stack.limits import Limits, standard, unjudged
 from aadm_workbench.stack.result import Judged, Neighbours, NotFound, StackedColumn, StackedMember
 from aadm_workbench.stack.torsor import Torsor, point_matrix, seen_from
@@ -98,7 +99,7 @@ class MembersOn:
                 self._judged("bearing_length", (second, -along @ second.matrix)),
             ),
             skew_deg=self._skew(carried, along, length_mm),
-            level_mm=self._judged("inclination", (first, -first.matrix[2]), (second, second.matrix[2])),
+            level_mm=_of_no_scan(self._judged("inclination", (first, -first.matrix[2]), (second, second.matrix[2]))),
         )
 
     def _name(self, support: Support) -> str | None:
@@ -154,6 +155,17 @@ class MembersOn:
             return unjudged(first.missing or phrase("stack.end_unknown"))
         row = second.matrix[2] - first.matrix[2]
         return self.limits.signed("flushness", float(row @ first.placed.values), standard(first.placed.covariance, row))
+
+
+def _of_no_scan(level: Judged) -> Judged:
+    """A fall that is not settled, with what is missing: no scan tells heights, so nothing was too close to a limit."""
+    if level.verdict is not Verdict.INCONCLUSIVE or level.limit is None or level.u is None:
+        return level
+    clause = in_both_languages(level.clause)
+    said = phrase("stack.level_unknown")
+    parts = {"u": f"{level.u:.1f}", "limit": f"{level.limit[1]:g}"}
+    reason = Phrase(said.en.format(clause=clause.en, **parts), said.zh.format(clause=clause.zh, **parts))
+    return replace(level, reason=reason)
 
 
 def _why(support: Support) -> Phrase:

@@ -14,10 +14,14 @@ def advice_phrase(column: StackedColumn) -> Phrase:
     assert column.advice is not None
     dx, dy, yaw_deg = column.advice.from_trial
     turn = phrase("stack.advice_turn", turn=f"{yaw_deg:+.2f}") if abs(yaw_deg) >= _LEAST_TURN_DEG else Phrase("", "")
+    # It goes on its bars, but something else forbids hoisting: whoever reads this line alone must not lift it.
+    first = Phrase("", "") if column.measured.verdict is Verdict.PASS else phrase("stack.once_released")
     return Phrase(
         *(
-            sentence.format(way=way, turn=text, before=_length(column.top), after=_length(column.advice.top))
-            for sentence, way, text in zip(phrase("stack.advice_line"), _way(column, dx, dy), turn, strict=True)
+            lead + sentence.format(way=way, turn=text, before=_length(column.top), after=_length(column.advice.top))
+            for lead, sentence, way, text in zip(
+                first, phrase("stack.advice_line"), _way(column, dx, dy), turn, strict=True
+            )
         )
     )
 
@@ -33,7 +37,9 @@ def _length(top: Top | None) -> str:
 
 
 def against(column: StackedColumn) -> Phrase:
-    """What the numbers of a column are told against."""
+    """What the numbers of a column are told against; a dash where there are none."""
+    if column.placed is None:
+        return Phrase("–", "–")
     if column.basis == "storey_below":
         return phrase("stack.storey_below", below=column.below)
     return phrase(f"stack.{column.basis}")
@@ -48,6 +54,8 @@ def headline(plan: StackPlan) -> tuple[Phrase, str]:
         return phrase("stack.headline_beyond", bad=bad, total=len(counted)), "bad"
     if not counted or all(column.placed is None for column in plan.columns):
         return phrase("stack.headline_none"), ""
+    if left == len(counted):
+        return phrase("stack.headline_unjudged", total=len(counted)), ""
     if left:
         return phrase("stack.headline_open", open=left, total=len(counted)), ""
     return phrase("stack.headline_good", total=len(counted)), "good"

@@ -56,11 +56,10 @@ class Tower:
         ground, basis = self._ground(column, below)
         on_bars = pose_on_bars(column)
         through = below.measured.id if below is not None and basis == "storey_below" else None
+        if on_bars is None:
+            return StackedColumn(column, None, basis, through, height_mm=height_mm, reasons=(_why_not(column),))
         reasons = (phrase("stack.not_tied"),) if basis == "bars" else ()
         reasons = (*reasons, phrase("stack.told_cut")) if column.told_is_cut else reasons
-        if on_bars is None:
-            said = (_why_not(column), *reasons)
-            return StackedColumn(column, None, basis, through, height_mm=height_mm, reasons=said)
         stacked = StackedColumn(column, None, basis, through, on_bars.origin, height_mm, reasons=reasons)
         placed = ground.plus(in_plan(on_bars.planar, np.zeros((3, 3))).values, self._settled(stacked, on_bars))
         stacked = replace(stacked, placed=placed)

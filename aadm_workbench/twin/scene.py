@@ -74,7 +74,9 @@ def truth_of(part: Foot | BarGroup) -> tuple[AssemblyPoint, ...]:
     """The true assembly points of a part, in the order in which it lists them."""
     if isinstance(part, Foot):
         return tuple(
-            AssemblyPoint(f"S{k}", Kind.SLEEVE, np.array([s.x, s.y, 0.0]), axis_of(s.lean), s.diameter)
+            AssemblyPoint(
+                f"S{k}", Kind.SLEEVE, np.array([s.x, s.y, part.level_at(s.x, s.y)]), axis_of(s.lean), s.diameter
+            )
             for k, s in enumerate(part.sleeves, 1)
         )
     return tuple(

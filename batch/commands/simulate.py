@@ -26,7 +26,10 @@ example:
   aadm simulate pair --setting field --out rings --filter rings=1 --filter median=3
 
   a roughened foot with plugged sleeves, and a job with half of the camera's focal length:
-  aadm simulate pair --setting lab --out site --site rough --site plugs --slip focal-half"""
+  aadm simulate pair --setting lab --out site --site rough --site plugs --slip focal-half
+
+  a section that is too wide, with the sleeves beside their place in it and chipped corners:
+  aadm simulate pair --setting lab --out section --site off-size --site pattern-beside --site broken-corners"""
 _CAMERA = (
     "ray: rays and a law of noise (default); pixel: the same with pixels that have a size; fringe: fringe projection, "
     "path-traced, minutes per scan"
@@ -37,7 +40,8 @@ _FILTER = (
 )
 _SITE = (
     "what the site did, again for each: rough, keyed (feet), spalls, taped-spalls, proud-rings, plugs, burrs, caps, "
-    "kinks, leans, two-heights"
+    "kinks, leans, two-heights; of the foot's own section off-size, askew, pattern-beside, bowed, warped, "
+    "broken-corners, broken-edges"
 )
 _SLIP = (
     "what goes wrong between camera and job, again for each: focal-half, focal-double, focal-2-percent, "

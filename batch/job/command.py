@@ -12,7 +12,10 @@ if TYPE_CHECKING:
     from ..runner.cluster import Certificates
     from ..runner.pools import PoolOptions
 
-METHODS = ("refined", "fusion", "pointcloud", "image")
+METHODS = ("refined", "fusion", "pointcloud", "image", "corners")
+BY_DESIGN = ("corners",)
+"""These need a design: they find nothing in a scan alone, and nothing of a column that hangs."""
+SCAN_METHODS = tuple(method for method in METHODS if method not in BY_DESIGN)
 
 
 def add_job_arguments(

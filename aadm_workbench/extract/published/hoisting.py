@@ -29,6 +29,7 @@ from typing import Any
 import cv2
 import numpy as np
 
+from aadm_workbench.extract.method import BY_DESIGN
 from aadm_workbench.extract.method import METHODS as RECIPES
 from aadm_workbench.extract.plane import facing, from_plane, in_plane
 from aadm_workbench.extract.published.binary_image import binary_image
@@ -41,7 +42,7 @@ from aadm_workbench.extract.published.round_fits import ransac_circle, ransac_cy
 from aadm_workbench.extract.sample import counts_in_cells
 from aadm_workbench.model import Array, FloatArray, Plane, Reason, Scan
 
-METHODS = tuple(method for method in RECIPES if method != "refined")
+METHODS = tuple(method for method in RECIPES if method not in ("refined", *BY_DESIGN))
 _SLICE_MM = 2.0  # as of the pass-through filter along z
 # of what most slices hold; what the nearest edge of the column is deep (a choice, not tuned since)
 _EMPTY_SHARE, _EDGE_MM = 0.02, 8.0

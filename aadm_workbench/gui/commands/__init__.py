@@ -8,6 +8,7 @@ COMMANDS = MappingProxyType(
     {
         "AADM_SampleDesign": ("sample_design", "SampleDesign"),
         "AADM_ImportScan": ("import_scan", "ImportScan"),
+        "AADM_CaptureScan": ("capture_scan", "CaptureScan"),
         "AADM_CheckColumn": ("check_column", "CheckColumn"),
         "AADM_CheckAll": ("check_all", "CheckAll"),
         "AADM_RunJob": ("run_job", "RunJob"),
@@ -25,6 +26,7 @@ COMMANDS = MappingProxyType(
 TOOLBAR = (
     "AADM_SampleDesign",
     "AADM_ImportScan",
+    "AADM_CaptureScan",
     "AADM_CheckColumn",
     "AADM_CheckAll",
     "AADM_RunJob",

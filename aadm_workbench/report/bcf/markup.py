@@ -122,6 +122,7 @@ def _description(report: JobReport, finding: Finding) -> str:
         f"Tolerances: {report.profile.title or report.profile.name}",
     ]
     said += [f"Scan of the {kind.plural}: {group.source}" for kind, group in column.groups.items()]
+    said += [f"Also: {one.text}" for one in column.findings if not one.holds_back]
     return "\n".join(said)
 
 

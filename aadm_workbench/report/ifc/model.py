@@ -31,6 +31,7 @@ from aadm_workbench.report.ifc.marks import Marks
 from aadm_workbench.report.ifc.points import write_points
 from aadm_workbench.report.ifc.records import add_records, add_report_link
 from aadm_workbench.report.ifc.removal import Stripped, keep_book, without_results
+from aadm_workbench.report.ifc.section_set import SECTION_SET, section_properties
 
 _SHORT_HASH = 12  # 48 bits: no two states of a model share them
 
@@ -114,6 +115,8 @@ def write_ifc(
     for column in checked:
         element = of_column[column.id]
         assigner.assign(element, ifc_sets.COLUMN_SET, ifc_sets.column_properties(report, column))
+        if section := section_properties(report, column):
+            assigner.assign(element, SECTION_SET, section)
         if element.id() in frames:
             marks.draw(column, element, frames[element.id()])
         add_records(addition, report, column, element)

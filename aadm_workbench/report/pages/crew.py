@@ -70,7 +70,7 @@ def crew_advice(report: JobReport, column: ColumnReport) -> CrewAdvice:
     check says whether it may be hoisted, and what has to be done first.
     """
     hoist, compass = hoist_of(column), compass_of(report.columns, column)
-    for frame in reversed(column.hoisting):
+    for frame in reversed(column.hoisting_frames):
         if frame.correction is not None and column.verdict != "fail" and column.goes_on != "fail":
             return _hanging(column, frame, frame.correction, hoist, compass)
     repair = column.repair

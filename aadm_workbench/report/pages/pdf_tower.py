@@ -33,6 +33,8 @@ def tower_flowables(tower: TowerShown, width: float, language: Language) -> Iter
         yield reportlab("platypus").PageBreak()
         yield _heading("setting_out", 13.0, language, bookmark="setting-out")
         yield paragraph(phrase("stack.setting_out_note").in_language(language), 9.0, after=4.0)
+        if tower.warning is not None:
+            yield paragraph(phrase("stack.setting_out_relative").in_language(language), 9.0, after=4.0)
         yield table_flowable(*setting_out_table(tower.setting_out, language), width, language)
 
 

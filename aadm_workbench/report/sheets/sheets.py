@@ -142,8 +142,8 @@ def _repair_rows(column: ColumnReport) -> Iterator[Row]:
 
 
 def _frames(report: JobReport, column: ColumnReport) -> Iterator[Row]:
-    for frame in column.hoisting:
-        yield from ((frame.source, *row) for row in hoisting_rows(report, frame))
+    for frame in column.hoisting_frames:
+        yield from ((frame.name, *row) for row in hoisting_rows(report, frame))
 
 
 MOULD = (

@@ -208,6 +208,40 @@
   </message>
  </context>
  <context>
+  <name>AADM_Capture</name>
+  <message>
+   <source>Capture</source>
+   <translation>采集</translation>
+  </message>
+  <message>
+   <source>Choose the folder that captures are kept in: they are the record.</source>
+   <translation>请选择保存采集的文件夹：采集即原始记录。</translation>
+  </message>
+  <message>
+   <source>Folder of the captures</source>
+   <translation>采集文件夹</translation>
+  </message>
+  <message>
+   <source>Kept in</source>
+   <translation>保存于</translation>
+  </message>
+  <message>
+   <source>Name a camera: {forms}.</source>
+   <translation>请指定相机：{forms}。</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_CaptureScan</name>
+  <message>
+   <source>Capture…</source>
+   <translation>采集…</translation>
+  </message>
+  <message>
+   <source>Takes a scan with a live camera and gives it to the selected column</source>
+   <translation>用在线相机采集扫描并交给所选柱</translation>
+  </message>
+ </context>
+ <context>
   <name>AADM_Check</name>
   <message>
    <source>Against the design</source>

@@ -65,7 +65,7 @@ def test_no_rib_is_pressed_against_its_sleeve(asked: Vector3) -> None:
     for sleeve, bar in zip(leaning.sleeves.points, leaning.rebars.points, strict=True):
         assert sleeve.aligned_mm is not None
         assert bar.aligned_mm is not None
-        mouth = turn.apply([*sleeve.aligned_mm[:2], 0.0]) + [aim.dx_mm, aim.dy_mm, 0.0]
+        mouth = np.array([aim.dx_mm, aim.dy_mm, 0.0]) + turn.apply([*sleeve.aligned_mm[:2], 0.0])
         along = turn.apply(sleeve.axis)
         top = np.array([*bar.aligned_mm[:2], 160.0])
         for height in (0.0, 160.0):
