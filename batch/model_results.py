@@ -45,9 +45,15 @@ def write_results(
     force: bool = False,
     setting: Mapping[str, Sequence[Property]] | None = None,
 ) -> WriteBack:
-    """Write a report into a model and link the columns to the report's file; arguments and errors as ``write_ifc``."""
+    """Write a report into a model and link the columns to the report's file; arguments and errors as ``write_ifc``.
+
+    ``setting`` None: that of the report's own job, where it has [stack].
+    """
     from aadm_workbench.report.ifc.model import write_ifc
 
+    from .tower_plan import setting_of
+
+    setting = setting_of(report, model) if setting is None else setting
     return write_ifc(report, model, out, report_location=_link(report_folder, out), force=force, setting=setting)
 
 

@@ -28,7 +28,6 @@ from aadm_workbench.model import (
     MouldDrift,
     Profile,
     Scan,
-    StackSettings,
 )
 from aadm_workbench.scan.read import read_scan
 
@@ -242,11 +241,18 @@ def report_of(plan: JobPlan, columns: Sequence[ColumnReport]) -> JobReport:
         tool=tool_entry(),
         job=job_entry(plan),
         capture=job.capture,
-        model=None if model is None else {"source": model.source, "sha256": model.sha256},
+        model=None if model is None else model_entry(model),
         profile=job.profile,
         columns=columns,
         mould_drift=_mould_drift(columns, job.profile),
+        grid=() if model is None else model.grid,
     )
+
+
+def model_entry(model: ModelDesign) -> dict[str, str]:
+    """What reports say about the model: its file, and the GlobalId of the project of an IFC model."""
+    project = {"ifc_project": model.project} if model.project else {}
+    return {"source": model.source, "sha256": model.sha256, **project}
 
 
 def _mould_drift(columns: Sequence[ColumnReport], profile: Profile) -> tuple[MouldDrift, ...]:
@@ -267,7 +273,7 @@ def job_entry(plan: JobPlan) -> dict[str, str]:
         "method": settings.method,
         "decision": settings.decision,
         "seed": str(settings.seed),
-        **({} if plan.job.stack == StackSettings() else {"stack": plan.job.stack.text}),
+        **({} if plan.job.stack is None else {"stack": plan.job.stack.text}),
     }
 
 

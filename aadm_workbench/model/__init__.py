@@ -64,6 +64,7 @@ from aadm_workbench.model.repairs import (
 )
 from aadm_workbench.model.reports import (
     ColumnReport,
+    GridAxis,
     JobReport,
 )
 from aadm_workbench.model.results import (
@@ -96,6 +97,7 @@ from aadm_workbench.model.shipment import (
     ShipmentReport,
 )
 from aadm_workbench.model.stack import (
+    SettingReport,
     StackSettings,
 )
 from aadm_workbench.model.verdicts import (
@@ -138,6 +140,7 @@ __all__ = [
     "Fit",
     "FitCell",
     "FloatArray",
+    "GridAxis",
     "GroupReport",
     "HoistingMeasurement",
     "HoistingPair",
@@ -161,6 +164,7 @@ __all__ = [
     "Rule",
     "RuleResult",
     "Scan",
+    "SettingReport",
     "ShipmentGroup",
     "ShipmentProblem",
     "ShipmentReport",

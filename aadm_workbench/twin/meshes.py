@@ -7,6 +7,7 @@ Meshes of what stands about in a scene and is neither a foot nor a bar: boxes, b
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -34,8 +35,9 @@ def surface_of(part: Foot | BarGroup) -> Surface:
     return foot_surface(part) if isinstance(part, Foot) else bars_surface(part)
 
 
+@lru_cache(maxsize=2)  # frame after frame shows one foot; a mesh of a rough face takes 100 MB
 def foot_surface(foot: Foot) -> Surface:
-    """Mesh of the foot with its bores, plugs, chips, tapes and grout, and of what stands beside it."""
+    """Mesh of the foot with its bores, plugs, chips, tapes and grout, and of what is beside it; to be read alone."""
     import manifold3d
 
     block = block_of(foot).as_original()

@@ -17,8 +17,8 @@ LARGEST_SET_POSE = 20.0
 STACK = (*_LENGTHS, "braced", "height_mm")
 
 
-def read_stack(top: JobTable) -> StackSettings:
-    """The settings of a job; the usual ones where it has none.
+def read_stack(top: JobTable) -> StackSettings | None:
+    """The settings of a job, the usual ones where its table leaves them out; None where it has no such table.
 
     Raises
     ------
@@ -26,9 +26,9 @@ def read_stack(top: JobTable) -> StackSettings:
         For keys that are not known and values that are none.
     """
     table = top.table("stack", "[stack]")
-    usual = StackSettings()
     if table is None:
-        return usual
+        return None
+    usual = StackSettings()
     table.allow(STACK)
     lengths = {key: table.length(key) for key in _LENGTHS}
     return StackSettings(

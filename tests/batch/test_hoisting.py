@@ -24,6 +24,7 @@ from aadm_workbench.inspection.tasks import plan_job
 from aadm_workbench.model import HoistingMeasurement
 from aadm_workbench.report.hoisting_fitness import seconds_of
 from aadm_workbench.report.json import report_schema
+from aadm_workbench.report.read import read_report
 from aadm_workbench.scan.write import write_depth_tiff
 from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM
 from aadm_workbench.twin.scenes import LAB
@@ -90,6 +91,33 @@ def test_one_picture_under_two_corners_contradicts_itself(folder: Path) -> None:
         assert frame["verdict"] in ("inconclusive", "fail")
         assert frame["findings"][0]["code"] == "hoisting_frames_contradict"
         assert "near = +x-y" in frame["reasons"][0]
+
+
+def test_frames_of_two_corners_are_put_together_in_a_job_and_in_a_watch(folder: Path) -> None:
+    corners = {"-x-y": (-1, -1), "+x-y": (1, -1)}
+    for name, near in corners.items():
+        depth = scenes.from_corner(near).frame.depth
+        put(folder / name / "a.tiff", 0.0)
+        write_depth_tiff(folder / name / "a.tiff", np.where(depth < _FARTHEST_MM, depth, np.nan), DEPTH_SCALE_MM)
+    for name in ("hang.tiff", "cut.tiff"):
+        (folder / name).unlink()
+    job = (folder / "job.toml").read_text(encoding="utf-8")
+    both = ", ".join(f'{{file = "{name}/a.tiff", near = "{name}"}}' for name in corners)
+    (folder / "job.toml").write_text(job.replace('"hang.tiff", "cut.tiff"', both), encoding="utf-8")
+    main(["check", str(folder / "job.toml"), "--quiet"])
+    report = json.loads((folder / "job-report" / "report.json").read_text(encoding="utf-8"))
+    jsonschema.validate(report, report_schema())
+    (column,) = report["columns"]
+    joint, last = column["hoisting_joint"], column["hoisting"][-1]
+    assert joint["joined"] == ["-x-y/a.tiff", "+x-y/a.tiff"]
+    assert sum(pair["seen"] for pair in joint["pairs"]) > sum(pair["seen"] for pair in last["pairs"])
+    assert all(pair["reason"] == "" for pair in joint["pairs"] if pair["seen"])
+    (again,) = read_report(folder / "job-report" / "report.json").columns
+    assert [frame.name for frame in again.hoisting_frames] == [*joint["joined"], "-x-y/a.tiff + +x-y/a.tiff"]
+    main(["watch", str(folder / "job.toml"), str(folder), "--column", "L-1", "--present", "--frames", "2", "--quiet"])
+    state = json.loads((folder / "aadm-state.json").read_text(encoding="utf-8"))
+    assert sorted(state["frame"]["joined"]) == ["+x-y/a.tiff", "-x-y/a.tiff"]
+    assert sum(pair["seen"] for pair in state["frame"]["pairs"]) == sum(pair["seen"] for pair in joint["pairs"])
 
 
 def test_a_job_can_measure_its_frames_as_published(folder: Path) -> None:
