@@ -92,9 +92,9 @@ def section_line(section: SectionReport) -> Phrase | None:
         if edge.measured_mm is None
     ]
     if unseen:
-        word = phrase("ui.edges_unseen")
+        label = phrase("ui.edges_unseen")
         told = "; ".join(one.en for one in unseen), "；".join(one.zh for one in unseen)
-        parts.append(Phrase(f"{word.en}: {told[0]}", f"{word.zh}：{told[1]}"))
+        parts.append(Phrase(f"{label.en}: {told[0]}", f"{label.zh}：{told[1]}"))
     if not parts:
         return None
     return Phrase(" · ".join(part.en for part in parts), " · ".join(part.zh for part in parts))
