@@ -58,6 +58,9 @@ class Pair:
         (2, 2) mm² of rebar minus sleeve; None where one of the two has none.
     bar_shift_covariance, sleeve_shift_covariance
         (2, 2) mm² of these shifts; None where they are exact.
+    bar_bent_mm
+        Part of the bar's shift covariance that is no error of its measurement, standard deviation per axis: how far the
+        axis may bend below what was seen of it.
     room_u_mm
         Standard uncertainty of the room.
     seen_length_mm
@@ -78,6 +81,7 @@ class Pair:
     covariance: Array | None
     bar_shift_covariance: Array | None = None
     sleeve_shift_covariance: Array | None = None
+    bar_bent_mm: float = 0.0
     room_u_mm: float = 0.0
     seen_length_mm: float | None = None
     bar_usual_mm: float = 0.0
@@ -130,7 +134,8 @@ def form_pairs(
         if sleeve is None or rebar is None:
             continue
         inner_mm = sleeve.diameter_mm if measured_diameters else design.sleeves[index].diameter_mm
-        bar_shift = _shift_covariance(rebar, length_mm) + _unstraight(rebar, length_mm)
+        bent_mm = _bent_mm(rebar, length_mm)
+        bar_shift = _shift_covariance(rebar, length_mm) + bent_mm**2 * np.eye(2)
         sleeve_shift = _shift_covariance(sleeve, length_mm)
         outer_mm = outer_diameter_mm(design, design.rebars[other])
         pairs.append(
@@ -145,6 +150,7 @@ def form_pairs(
                 covariance=_together(flat_covariance(sleeve), flat_covariance(rebar)),
                 bar_shift_covariance=bar_shift,
                 sleeve_shift_covariance=sleeve_shift,
+                bar_bent_mm=bent_mm,
                 room_u_mm=float(np.hypot(MEASURED_SIZE_U_MM if measured_diameters else SIZE_U_MM, SIZE_U_MM)) / 2.0,
                 seen_length_mm=None if rebar.seen_length_mm is None else min(rebar.seen_length_mm, length_mm),
                 bar_usual_mm=_usual_mm(rebar, length_mm),
@@ -170,10 +176,9 @@ def outer_diameter_mm(design: ColumnDesign, bar: AssemblyPoint) -> float | None:
     return over_ribs_mm(bar.diameter_mm)
 
 
-def _unstraight(rebar: AssemblyPoint, length_mm: float) -> Array:
-    """Covariance (2, 2), mm², of what a bar may bend below its seen part; all is unseen where nobody says."""
-    unseen_mm = max(length_mm - (rebar.seen_length_mm or 0.0), 0.0)
-    return (STRAIGHT_U_RAD * unseen_mm) ** 2 * np.eye(2)
+def _bent_mm(rebar: AssemblyPoint, length_mm: float) -> float:
+    """By how much, per axis, a bar may bend below its seen part; all is unseen where nobody says."""
+    return STRAIGHT_U_RAD * max(length_mm - (rebar.seen_length_mm or 0.0), 0.0)
 
 
 def _usual_mm(point: AssemblyPoint, length_mm: float) -> float:

@@ -54,6 +54,8 @@ _BENT_PRIORS = Priors(radius=0.15, push=0.6, own_push=0.4)  # light that bounces
 _FIT_SHARE = 0.8  # the fit's own covariance has neighbours share more of their errors than they do
 _WEAR_PITCHES = 0.04  # how far rims may be worn away unnoticed; it shifts centres along the view
 _ROUGH_U_MM = 0.1  # grains at the rim of a roughened foot, each mouth by itself
+# all radii of a roughened foot, whose rims lie at many depths: 18 feet of the twin had 0.36 mm of diameter (rms)
+_ROUGH_RADIUS_U_MM = 0.2
 _FOREIGN = 0.01  # share of outline points that are flying pixels or dirt
 # of an outline on its circle, or running on into the wall: half of a taped mouth is more; a choice: ±30 % moves
 # nothing on sound scans
@@ -138,6 +140,8 @@ def _measured(mouths: Mouths, patches: Patches, layer: FootFace, diameter_mm: fl
     fit = _fit(mouths, lines, diameter_mm, pitch_mm)
     if fit is not None and not layer.flat:
         fit = replace(fit, covariance=fit.covariance + _ROUGH_U_MM**2 * np.eye(2))
+    if fit is not None and layer.rough:
+        fit = replace(fit, radius_u_mm=float(np.hypot(fit.radius_u_mm, _ROUGH_RADIUS_U_MM)))
     signs = filter_signs(own, mouths.centre, diameter_mm / 2, pitch_mm, 1.0, flat=layer.flat)
     if fit is None or signs.reason(blurred=False):
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=signs.reason(blurred=fit is None))
@@ -239,6 +243,7 @@ def _fit_of_sharp(mouths: Mouths, diameter_mm: float, pitch_mm: float) -> Pooled
 def _are_round(mouths: Mouths, fit: PooledFit, pitch_mm: float) -> BoolArray:
     """Whether enough (k,) of what each outline shows lies on its circle: a gap between things is no mouth."""
     behind = mouths.rims.distance(fit.centre) - fit.radius[:, None]
+    # Rim points thin out over a few pixels behind the edge.
     on_circle = (behind > -AGREES_MM / 2) & (behind < max(AGREES_MM, 2.5 * pitch_mm)) & mouths.rims.seen
     runs_on = np.where(mouths.wall_count() >= _WALL_COUNT_MIN, (~mouths.rims.seen).mean(axis=1), 0.0)
     return np.asarray(on_circle.mean(axis=1) + runs_on > _SOUND_SHARE)
@@ -266,6 +271,7 @@ def _tails(mouths: Mouths, state: State, pitch_mm: float) -> Array:
     count = np.bincount(side[seen], minlength=_SIDES)
     first = np.bincount(side[seen], inset[seen] < pitch_mm, minlength=_SIDES)
     kept = np.where(count >= _SIDE_COUNT_MIN, first / np.maximum(count, 1), _USUALLY_KEPT)
+    # A side that keeps less than a seventh is no rim; counting noise makes of all kept a little more than one.
     return np.asarray(_TAIL_TO_KEPT * pitch_mm / np.clip(kept, 0.15, 1.2))[side]
 
 

@@ -30,7 +30,6 @@ from aadm_workbench.model import (
     MouldDrift,
     Profile,
     Scan,
-    StackSettings,
 )
 from aadm_workbench.scan.read import read_scan
 
@@ -139,7 +138,7 @@ def chosen_columns(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
     ids = [column.id for column in job.columns]
     for name in only:
         if name not in ids:
-            raise JobError(f'{job.source} has no column "{name}" (--only); {did_you_mean(name, ids)}')
+            raise JobError.because("command.no_such_column", job=job.source, name=name, meant=did_you_mean(name, ids))
     return tuple(column for column in job.columns if not only or column.id in only)
 
 
@@ -177,9 +176,15 @@ def _check_named_once(job: Job, model: ModelDesign) -> None:
             continue
         other = first.setdefault(id(design), column.id)
         if other != column.id:
-            raise JobError(
-                f'{job.source}, line {job.lines.get(column.id, 1)}: "{column.id}" and "{other}" (line '
-                f"{job.lines.get(other, 1)}) are one column of {model.source} ({design.id}); name it once"
+            raise JobError.because(
+                "command.named_twice",
+                job=job.source,
+                line=job.lines.get(column.id, 1),
+                id=column.id,
+                other=other,
+                other_line=job.lines.get(other, 1),
+                model=model.source,
+                column=design.id,
             )
 
 
@@ -245,11 +250,18 @@ def report_of(plan: JobPlan, columns: Sequence[ColumnReport]) -> JobReport:
         tool=tool_entry(),
         job=job_entry(plan),
         capture=job.capture | named_profile(job.camera_profile),
-        model=None if model is None else {"source": model.source, "sha256": model.sha256},
+        model=None if model is None else model_entry(model),
         profile=job.profile,
         columns=columns,
         mould_drift=_mould_drift(columns, job.profile),
+        grid=() if model is None else model.grid,
     )
+
+
+def model_entry(model: ModelDesign) -> dict[str, str]:
+    """What reports say about the model: its file, and the GlobalId of the project of an IFC model."""
+    project = {"ifc_project": model.project} if model.project else {}
+    return {"source": model.source, "sha256": model.sha256, **project}
 
 
 def _mould_drift(columns: Sequence[ColumnReport], profile: Profile) -> tuple[MouldDrift, ...]:
@@ -270,7 +282,7 @@ def job_entry(plan: JobPlan) -> dict[str, str]:
         "method": settings.method,
         "decision": settings.decision,
         "seed": str(settings.seed),
-        **({} if plan.job.stack == StackSettings() else {"stack": plan.job.stack.text}),
+        **({} if plan.job.stack is None else {"stack": plan.job.stack.text}),
     }
 
 

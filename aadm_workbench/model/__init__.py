@@ -69,6 +69,7 @@ from aadm_workbench.model.repairs import (
 )
 from aadm_workbench.model.reports import (
     ColumnReport,
+    GridAxis,
     JobReport,
 )
 from aadm_workbench.model.results import (
@@ -101,6 +102,7 @@ from aadm_workbench.model.shipment import (
     ShipmentReport,
 )
 from aadm_workbench.model.stack import (
+    SettingReport,
     StackSettings,
 )
 from aadm_workbench.model.verdicts import (
@@ -144,6 +146,7 @@ __all__ = [
     "Fit",
     "FitCell",
     "FloatArray",
+    "GridAxis",
     "GroupReport",
     "HoistingMeasurement",
     "HoistingPair",
@@ -169,6 +172,7 @@ __all__ = [
     "Rule",
     "RuleResult",
     "Scan",
+    "SettingReport",
     "ShipmentGroup",
     "ShipmentProblem",
     "ShipmentReport",

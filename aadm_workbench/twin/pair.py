@@ -27,9 +27,7 @@ from aadm_workbench.twin.scene import TrueScan, scan_of
 from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_foot, random_pose
 from aadm_workbench.twin.site import left_by_site
 from aadm_workbench.twin.slips import NO_SLIP, Slip, seen_with, told_camera
-from aadm_workbench.twin.truth import true_verdicts
-
-_DECIMALS = 4  # 0.1 µm: truth that is finer than anything it is compared with
+from aadm_workbench.twin.truth import DECIMALS, section_truth, true_verdicts
 
 Shoot: TypeAlias = Callable[[Foot | BarGroup | PlateAsBuilt, Array, np.random.Generator], TrueScan]
 """From a part, the pose T_column_scan (4, 4) and a generator to a scan with its truth."""
@@ -132,7 +130,7 @@ def design_table(setting: Setting) -> dict[str, float | list[float] | list[list[
     return {
         "sleeve_diameter": setting.sleeve_diameter,
         "rebar_diameter": setting.bar_diameter,
-        "rebar_outer_diameter": round(setting.bar_core + 2.0 * BarAsBuilt.rib_height, _DECIMALS),
+        "rebar_outer_diameter": round(setting.bar_core + 2.0 * BarAsBuilt.rib_height, DECIMALS),
         "embedded_length": setting.exposed,
         "size": [setting.size, setting.size],
         "centres": setting.centres().tolist(),
@@ -148,6 +146,7 @@ def _truth(pair: Pair, seed: int) -> dict[str, Any]:
         "minimax": true.minimax,
         "sleeves": scan_truth(pair.sleeves, pair.design.sleeves),
         "rebars": scan_truth(pair.rebars, pair.design.rebars),
+        "section": section_truth(pair.design, pair.foot),
     }
     return {"synthetic": True, "seed": seed, "setting": pair.setting.name, "columns": {pair.design.id: column}}
 
@@ -160,11 +159,11 @@ def scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, J
         "points": [
             {
                 "label": point.label,
-                "design_mm": np.round(target.centre, _DECIMALS).tolist(),
-                "column_mm": np.round(point.centre, _DECIMALS).tolist(),
-                "scan_mm": np.round(in_scan, _DECIMALS).tolist(),
+                "design_mm": np.round(target.centre, DECIMALS).tolist(),
+                "column_mm": np.round(point.centre, DECIMALS).tolist(),
+                "scan_mm": np.round(in_scan, DECIMALS).tolist(),
                 "axis": np.round(point.axis, 9).tolist(),
-                "diameter_mm": round(float(point.diameter_mm), _DECIMALS),
+                "diameter_mm": round(float(point.diameter_mm), DECIMALS),
             }
             for point, target, in_scan in points
         ],

@@ -83,7 +83,9 @@ def truth_of(part: Foot | BarGroup | PlateAsBuilt) -> tuple[AssemblyPoint, ...]:
         return (*bored, *truth_of(BarGroup(part.pins, 0.0)))
     if isinstance(part, Foot):
         return tuple(
-            AssemblyPoint(f"S{k}", Kind.SLEEVE, np.array([s.x, s.y, 0.0]), axis_of(s.lean), s.diameter)
+            AssemblyPoint(
+                f"S{k}", Kind.SLEEVE, np.array([s.x, s.y, part.level_at(s.x, s.y)]), axis_of(s.lean), s.diameter
+            )
             for k, s in enumerate(part.sleeves, 1)
         )
     return tuple(

@@ -15,6 +15,10 @@ from PySide import QtCore, QtGui
 
 from aadm_workbench.gui.aadm_process import _RUNNING
 
+# Where a machine has no Chinese font, thin boxes would be looked at.
+QtGui.QFontDatabase.addApplicationFont(
+    str(Path(SAMPLES).parent / "aadm_workbench" / "resources" / "fonts" / "wqy-microhei-subset.ttf")
+)
 namespace = {}
 exec(MODEL, namespace)
 window = Gui.getMainWindow()
@@ -96,7 +100,14 @@ result.update(name=active.MenuText, tooltip=active.ToolTip)
 result["commands"] = sorted(name for name in Gui.listCommands() if name.startswith("AADM_"))
 result["toolbars"] = [bar.windowTitle() for bar in window.findChildren(QtGui.QToolBar) if bar.isVisible()]
 result["icon_is_drawn"] = not Gui.getIcon(active.Icon).pixmap(64, 64).isNull()
-NEED_SOMETHING = ["AADM_SampleDesign", "AADM_ImportScan", "AADM_CheckColumn", "AADM_WriteResults", "AADM_Report"]
+NEED_SOMETHING = [
+    "AADM_SampleDesign",
+    "AADM_ImportScan",
+    "AADM_CaptureScan",
+    "AADM_CheckColumn",
+    "AADM_WriteResults",
+    "AADM_Report",
+]
 result["active_without_document"] = [name for name in NEED_SOMETHING if is_active(name)]
 result["said_without_document"] = {name: run_anyway(name) for name in NEED_SOMETHING}
 
@@ -115,7 +126,7 @@ result["objects_after_nonsense"] = [obj.Name for obj in document.Objects if obj.
 document.removeObject(torus.Name)
 
 # Sample design, undo, redo.
-from aadm_workbench.gui.panels.design import DesignPanel
+from aadm_workbench.gui.panels.design import REBAR_PLACE, DesignPanel
 
 Gui.Selection.clearSelection()
 Gui.Selection.addSelection(column_body)
@@ -133,7 +144,7 @@ design_panel.apply()
 result["said_for_wrong_up"] = sentences()
 design_panel.sleeves_up.setCurrentText("+y")
 design_panel.rebars_up.setCurrentText("+y")
-design_panel.table.cellWidget(0, 3).setCurrentIndex(3)
+design_panel.table.cellWidget(0, REBAR_PLACE).setCurrentIndex(3)
 design_panel.swap(0, 3)
 design_panel.apply()
 swapped = api.column_design(column)
@@ -181,6 +192,43 @@ result["said_for_good_scans"] = import_scan(scans / "C-302-foot.tiff", "sleeves"
     scans / "C-302-bars.tiff", "rebars"
 )
 result["scans"] = [[cloud.Kind, cloud.PointCount, len(cloud.Points)] for cloud in column.Scans]
+
+# Capture: no camera named, one that is not there, then one that plays a capture again; taken back by one undo.
+from aadm_workbench.gui.panels.capture import CapturePanel
+
+camera_folder = folder / "camera"
+camera_folder.mkdir()
+(camera_folder / "depth.tiff").write_bytes((scans / "C-302-foot.tiff").read_bytes())
+(camera_folder / "camera.toml").write_text(f"{intrinsics.read_text()}depth_scale_mm = 0.03\n")
+Gui.Selection.clearSelection()
+Gui.Selection.addSelection(column)
+Gui.runCommand("AADM_CaptureScan")
+capturing = panel(CapturePanel)
+result["capture_kept_in"] = capturing.folder.text()
+capturing.camera.setText("")
+capturing.start()
+result["said_without_camera_named"] = sentences()
+capturing.camera.setText(f"replay:{camera_folder}")
+capturing.start()
+result["said_without_folder"] = sentences()
+capturing.folder.set_text(str(folder / "captures"))
+capturing.camera.setText(f"replay:{folder / 'nowhere'}")
+capturing.start()
+spin(capturing.start_button.isEnabled, 30)
+result["said_for_no_camera"] = sentences()
+capturing.camera.setText(f"replay:{camera_folder}")
+before = len(column.Scans)
+capturing.start()
+spin(lambda: len(column.Scans) > before and capturing.start_button.isEnabled(), 30)
+result["said_by_capture"] = sentences()
+result["captures"] = sorted(path.name for path in (folder / "captures").iterdir())
+captured = column.Scans[-1]
+result["captured"] = [captured.Kind, captured.PointCount, Path(captured.File).name]
+screenshot("capture.png")
+capturing.reject()
+result["capture_undo"] = document.UndoNames[0]
+document.undo()
+result["scans_after_capture_undone"] = len(column.Scans)
 
 # Check: cancelled, then to its end, while the window lives.
 from aadm_workbench.gui.panels.check import CheckPanel

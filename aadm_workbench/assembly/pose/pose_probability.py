@@ -22,7 +22,7 @@ from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.pose.best_pose import WITHIN, BestFit, Part, fit_best_pose, start_pose
 from aadm_workbench.assembly.pose.eopa import NoFit, turn
 from aadm_workbench.assembly.pose.smallest_common_disc import proven_bound, smallest_common_disc, squared
-from aadm_workbench.assembly.pose.true_offsets import Measured, true_offsets, true_shifts
+from aadm_workbench.assembly.pose.true_offsets import Measured, MeasuredShifts, true_offsets
 from aadm_workbench.model import Array, BoolArray
 
 SAMPLES = 1200
@@ -181,19 +181,38 @@ def _drawn(pairs: Sequence[Pair], limits_mm: Array, fit: BestFit, generator: np.
     centres = np.flatnonzero(gaps.part == Part.CENTRES)
     covariances = np.array([pair.covariance for pair in pairs])
     rooms_u_mm = np.array([pair.room_u_mm for pair in pairs])
-    bars = np.array([pair.bar_shift for pair in pairs]), [pair.bar_shift_covariance for pair in pairs]
-    sleeves = np.array([pair.sleeve_shift for pair in pairs]), [pair.sleeve_shift_covariance for pair in pairs]
-    bars_usual_mm = min(pair.bar_usual_mm for pair in pairs)
-    sleeves_usual_mm = min(pair.sleeve_usual_mm for pair in pairs)
+    bars, sleeves = _bar_shifts(pairs), _sleeve_shifts(pairs)
     for offsets in true_offsets(Measured(vectors[centres], turning[centres], covariances), generator):
         k = len(offsets)
         moved = (offsets - vectors[centres])[:, gaps.owner]
-        bar = true_shifts(*bars, bars_usual_mm, k, generator) @ turn(fit.yaw).T
-        sleeve = true_shifts(*sleeves, sleeves_usual_mm, k, generator)
+        bar, sleeve = bars.drawn(k, generator) @ turn(fit.yaw).T, sleeves.drawn(k, generator)
         moved -= np.where((gaps.part == Part.MOUTH)[:, None], bar[:, gaps.owner], 0.0)
         moved -= np.where((gaps.part == Part.TOP)[:, None], sleeve[:, gaps.owner], 0.0)
         room = (rooms_u_mm * generator.standard_normal((k, count)))[:, gaps.owner]
         yield _Draws(vectors + moved, turning, gaps.limits_mm + np.where(gaps.part == Part.CENTRES, 0.0, room))
+
+
+def _bar_shifts(pairs: Sequence[Pair]) -> MeasuredShifts:
+    bent_mm = np.array([pair.bar_bent_mm for pair in pairs])
+    return MeasuredShifts(
+        np.array([pair.bar_shift for pair in pairs]),
+        _known([pair.bar_shift_covariance for pair in pairs]) - bent_mm[:, None, None] ** 2 * np.eye(2),
+        bent_mm,
+        min(pair.bar_usual_mm for pair in pairs),
+    )
+
+
+def _sleeve_shifts(pairs: Sequence[Pair]) -> MeasuredShifts:
+    return MeasuredShifts(
+        np.array([pair.sleeve_shift for pair in pairs]),
+        _known([pair.sleeve_shift_covariance for pair in pairs]),
+        np.zeros(len(pairs)),
+        min(pair.sleeve_usual_mm for pair in pairs),
+    )
+
+
+def _known(covariances: list[Array | None]) -> Array:
+    return np.array([np.zeros((2, 2)) if one is None else one for one in covariances])
 
 
 def _at_most(pair: Pair, limit_mm: float) -> float:

@@ -13,10 +13,11 @@ it was measured and not drawn to the others. The pose is free, as in the trial.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import gammainc, gammaincinv
 
 from aadm_workbench.assembly.matching.pattern_search import USUAL_SCATTER_MM
 from aadm_workbench.model import Array
@@ -40,6 +41,9 @@ _TINY = 1e-18  # keeps quotients finite
 
 _LEAST_LEAN = 0.1
 """Of what is usual: no group stands straighter."""
+
+_OF_A_MEDIAN = np.pi / 2.0
+"""Variance of the median of many normal numbers, in that of their mean."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,23 +132,46 @@ def _drawn_variance(weighted_squares: Array, count: int, generator: np.random.Ge
     return np.maximum(found / generator.gamma(shape, size=len(weighted_squares)), _SMALLEST_VARIANCE)
 
 
-def true_shifts(
-    shifts: Array, covariances: Sequence[Array | None], usual_mm: float, count: int, generator: np.random.Generator
-) -> Array:
-    """What the true shifts (n, 2) mm of leaning axes differ from the measured ones by: draws (count, n, 2).
+@dataclass(frozen=True, eq=False)
+class MeasuredShifts:
+    """How far n axes of one group were measured to lean over the embedded length, ``shifts`` (n, 2) mm.
 
-    Axes of one group lean about their median, as far as they are seen to and by ``usual_mm`` per axis as built, which
-    counts as one axis more; what one of them differs by is partly its error. With zero for it the covariances hold all
-    that is known.
+    ``errors`` (n, 2, 2) mm² are the covariances of these measurements; ``bent_mm`` (n,) is by how much, per axis, each
+    may bend where nobody saw it, which the measurement does not hold; ``usual_mm`` by how much, per axis, such axes
+    lean as built, zero where the errors hold all that is known.
     """
-    known = np.array([np.zeros((2, 2)) if one is None else one for one in covariances])
-    normal = generator.standard_normal((count, *shifts.shape))
-    if usual_mm <= 0.0:
-        return _coloured(known, normal)
-    off = shifts - np.median(shifts, axis=0)
-    error = float(np.trace(known, axis1=1, axis2=2).mean()) / 2.0
-    freedom = 2 * len(off) - 2 + 2
-    both = (float((off**2).sum()) + 2.0 * (usual_mm**2 + error)) / generator.chisquare(freedom, count)
-    variance = np.maximum(both - error, (_LEAST_LEAN * usual_mm) ** 2)[:, None, None, None]
-    gain = variance * _inverse(variance * np.eye(2) + known)
-    return np.asarray(np.einsum("knij,nj->kni", gain, off) - off + _coloured(gain @ known, normal))
+
+    shifts: Array
+    errors: Array
+    bent_mm: Array
+    usual_mm: float
+
+    def drawn(self, count: int, generator: np.random.Generator) -> Array:
+        """What the true shifts differ from the measured ones by: draws (count, n, 2).
+
+        Axes of one group lean about a common place, as far as they are seen to; ``usual_mm`` counts as one axis more.
+        What one of them differs by is partly the error of its measurement, and is drawn towards the others by that
+        part. A bend below what was seen is no such error: the seen part says nothing of it, and it only adds.
+        """
+        normal = generator.standard_normal((2, count, *self.shifts.shape))
+        bends = self.bent_mm[:, None] * normal[1]
+        if self.usual_mm <= 0.0:
+            return np.asarray(_coloured(self.errors, normal[0]) + bends)
+        off = self.shifts - np.median(self.shifts, axis=0)
+        error = float(np.trace(self.errors, axis1=1, axis2=2).mean()) / 2.0
+        both = self._drawn_variance(float((off**2).sum()), error, count, generator)
+        middle = np.sqrt(_OF_A_MEDIAN * both / len(off))[:, None] * generator.standard_normal((count, 2))
+        variance = (both - error)[:, None, None, None]
+        gain = variance * _inverse(variance * np.eye(2) + self.errors)
+        left = middle[:, None] - off
+        drawn = _coloured(gain @ self.errors, normal[0])
+        return np.asarray(left - np.einsum("knij,knj->kni", gain, left) + drawn + bends)
+
+    def _drawn_variance(self, squares: float, error: float, count: int, generator: np.random.Generator) -> Array:
+        """Of leans and errors together, (count,) mm²: by the law of a normal sample, beyond what errors alone give."""
+        half_freedom = len(self.shifts) - 1.0 + _PRIOR_POINTS
+        half_squares = squares / 2.0 + _PRIOR_POINTS * (self.usual_mm**2 + error)
+        least = error + (_LEAST_LEAN * self.usual_mm) ** 2
+        share = generator.uniform(_TINY, 1.0, count) * gammainc(half_freedom, half_squares / least)
+        drawn = half_squares / gammaincinv(half_freedom, np.maximum(share, _TINY))
+        return np.asarray(np.maximum(drawn, least))

@@ -7,11 +7,11 @@ camera loses; chips and whatever hides a part of a face end strips too early, an
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
 from aadm_workbench.model import Array, BoolArray, IntArray, Reason
+from aadm_workbench.model.scatter import TO_SIGMA
 
 _STRIP_PITCHES = 6.0  # along the edge: some fifty places tell where a strip ends, and a chip of 5 mm fills one
 _FEWEST_STRIPS = 8  # of fewer a line has no scatter
@@ -53,15 +53,24 @@ class Strips:
     width_mm: float
 
 
-def ends_of_strips(s: Array, d: Array, on: BoolArray, half_mm: float, reach_mm: float, step: float) -> Strips | Reason:
-    """Where the face ends in strips of places (n,) along (s) and across (d) an edge; or why nobody can tell."""
+def ends_of_strips(
+    s: Array, d: Array, on: BoolArray, half_mm: float, reach_mm: float, steps_mm: tuple[float, float]
+) -> Strips | Reason:
+    """Where the face ends in strips of places (n,) along (s) and across (d) an edge; or why nobody can tell.
+
+    Parameters
+    ----------
+    steps_mm
+        Between places, along and across.
+    """
+    step = steps_mm[1]
     count = max(int(2.0 * half_mm / (_STRIP_PITCHES * step)), _FEWEST_STRIPS)
     strip = np.clip(((s + half_mm) / (2.0 * half_mm) * count).astype(np.int64), 0, count - 1)
     within, without = d < -_WITHIN_SHARE * reach_mm, d > _WITHIN_SHARE * reach_mm
     asked_within, asked_without, on_within, on_without = (
         np.bincount(strip[chosen], minlength=count) for chosen in (within, without, on & within, on & without)
     )
-    quarter = 0.5 * (1.0 - _WITHIN_SHARE) * 2.0 * reach_mm * (2.0 * half_mm / count) / step**2
+    quarter = 0.5 * (1.0 - _WITHIN_SHARE) * 2.0 * reach_mm * (2.0 * half_mm / count) / (steps_mm[0] * step)
     share = on_within / np.maximum(asked_within, 1)
     usable = (asked_within > _ASKED_MIN * quarter) & (share > _FOUND_MIN)
     if usable.sum() < max(_FEWEST_STRIPS, _SEEN_MIN * count):
@@ -88,16 +97,22 @@ def _likeliest_ends(strip: IntArray, d: Array, on: BoolArray, count: int, found:
     The middle between the two places that the end lies between; NaN for a strip without places.
     """
     inside, outside = min(found, 1.0 - _LEAST_CHANCE), max(flush, _LEAST_CHANCE)
-    order = np.lexsort((d, strip))
+    # One key for both: places of a strip in their order across, strip after strip.
+    span = float(np.ptp(d)) + 1.0 if len(d) else 1.0
+    order = np.argsort(strip * (2.0 * span) + d, kind="stable")
     gain = np.where(on[order], np.log(inside / outside), np.log((1.0 - inside) / (1.0 - outside)))
     begin = np.searchsorted(strip[order], np.arange(count + 1))
-    before = np.concatenate([[0.0], np.cumsum(gain)])
-    sorted_d = d[order]
+    usable = np.flatnonzero(np.diff(begin) > 1)
     end = np.full(count, np.nan)
-    for k, (first, last) in enumerate(pairwise(begin.tolist())):
-        if last - first > 1:
-            best = first + int(np.argmax(before[first + 1 : last]))
-            end[k] = (sorted_d[best] + sorted_d[best + 1]) / 2.0
+    if len(usable) == 0:
+        return end
+    after, sorted_d = np.cumsum(gain), d[order]
+    after[begin[1:][np.diff(begin) > 0] - 1] = -np.inf  # something must lie beyond an end
+    best = np.full(count, np.nan)
+    best[usable] = np.maximum.reduceat(after, begin[usable])
+    at_best = np.flatnonzero(after == best[strip[order]])
+    at = at_best[np.searchsorted(strip[order][at_best], usable)]
+    end[usable] = (sorted_d[at] + sorted_d[at + 1]) / 2.0
     return end
 
 
@@ -121,7 +136,7 @@ def line_through(strips: Strips, pitch_mm: float) -> StripLine | Reason:
     residual = strips.end - design @ _outermost(strips, pitch_mm)
     normal, scatter = design.T @ design, 0.0
     for _ in range(_ROUNDS):
-        scatter = max(1.4826 * float(np.median(np.abs(residual))), _LEAST_SCATTER_PITCHES * pitch_mm)
+        scatter = max(TO_SIGMA * float(np.median(np.abs(residual))), _LEAST_SCATTER_PITCHES * pitch_mm)
         weight = np.maximum(1.0 - (residual / (_TUKEY * scatter)) ** 2, 0.0) ** 2
         normal = design.T @ (weight[:, None] * design)
         found = np.linalg.solve(normal, design.T @ (weight * strips.end))

@@ -19,6 +19,7 @@ SENTENCES: dict[str, Sentence] = {
         "读取压缩的 PCD 文件（DATA binary_compressed）",
     ),
     "words.a depth map or a picture": Sentence("a depth map or a picture", "读取深度图或图像"),
+    "words.a frame of hoisting": Sentence("a frame of hoisting", "吊装帧"),
     "words.absolute position": Sentence("absolute position", "绝对位置"),
     "words.an E57 file": Sentence("an E57 file", "读取 E57 文件"),
     "words.as the others do": Sentence("as the others do", "按其余钢筋"),
@@ -64,4 +65,5 @@ SENTENCES: dict[str, Sentence] = {
     "words.target": Sentence("target", "目标"),
     "words.upright bar": Sentence("upright bar", "竖直钢筋"),
     "words.zip archive of a model": Sentence("zip archive of a model", "模型压缩包"),
+    "words.the job": Sentence("the job", "作业"),
 }

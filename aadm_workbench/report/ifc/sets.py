@@ -140,8 +140,8 @@ def _trial(column: ColumnReport) -> _Told:
 
 
 def _hoisting(column: ColumnReport) -> _Told:
-    """The last frame that was measured."""
-    frames = [(frame, frame.correction) for frame in column.hoisting if frame.correction is not None]
+    """The last frame that was measured, or what all of them tell together."""
+    frames = [(frame, frame.correction) for frame in column.hoisting_frames if frame.correction is not None]
     for last, move in frames[-1:]:
         yield "HoistingVerdict", _LABEL, last.verdict
         yield "HoistingDistance", _LENGTH, last.max_mm

@@ -18,7 +18,7 @@ from aadm_workbench.report.pages.svg import svg_of, svg_styles
 from aadm_workbench.report.words.labels import Language, resource_folder
 
 _LANGUAGES: tuple[Language, Language] = ("en", "zh")
-_STYLES = ("report.css", "stack.css")
+_STYLES = ("report.css", "tower.css", "stack.css")
 
 
 def static_page(template: str, context: Mapping[str, object], language: Language, needed_for: str) -> str:

@@ -152,9 +152,9 @@ def _absolute(report: JobReport, column: ColumnReport) -> Iterator[Block]:
 
 
 def _hoisting(report: JobReport, column: ColumnReport) -> Iterator[Block]:
-    for frame in column.hoisting:
+    for frame in column.hoisting_frames:
         title = phrase("ui.hoisting")
-        said = Phrase(f"{title.en}: {frame.source}", f"{title.zh}：{frame.source}")
+        said = Phrase(f"{title.en}: {frame.name}", f"{title.zh}：{frame.name}")
         yield from _block(said, HOISTING, hoisting_rows(report, frame), _correction(frame), frame.verdict)
 
 
