@@ -17,7 +17,7 @@ from aadm_workbench.gui.resources import icon
 from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, TABLES
 
 translate = FreeCAD.Qt.translate
-_COLUMN, _SLEEVES, _REBARS, _UP = range(4)
+_COLUMN, _SLEEVES, _REBARS, _UP = range(4)  # places in the table, from left to right
 _FILES = QtCore.Qt.UserRole
 _FORMATS = " ".join(f"*{suffix}" for suffix in (*DEPTH_MAPS, *CLOUDS, *TABLES))
 
