@@ -18,7 +18,7 @@ translate = FreeCAD.Qt.translate
 WINDOW_NAME = "AADM_Sentence"
 Offer = tuple[str, Callable[[], object]]
 WAYS_ON: dict[type[AadmError], Callable[[], tuple[Offer, ...]]] = {}
-"""What is offered about errors of a kind, where who shows one offers nothing; panels say what they are the way out of."""
+"""What is offered about errors of a kind, where who shows one offers nothing; panels say what they lead out of."""
 
 
 @contextmanager

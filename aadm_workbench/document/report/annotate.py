@@ -132,7 +132,7 @@ def _opened(path: Path) -> Any:
 
 def objects_by_global_id(document: Any) -> dict[str, Any]:
     """Objects of a model by the GlobalId that importers leave on them."""
-    found: dict[str, Any] = {}
+    found = {}
     for obj in document.Objects:
         if getattr(getattr(obj, "Proxy", None), "Type", "") != Column.Type:
             for name in global_ids_of(obj):
