@@ -23,7 +23,7 @@ from aadm_workbench.design.ifc.geometry.kernel import closing_kernel
 from aadm_workbench.design.ifc.geometry.placement import frame
 from aadm_workbench.design.ifc.geometry.shapes import Shapes, evaluator
 from aadm_workbench.design.ifc.geometry.solids import BROKEN
-from aadm_workbench.design.ifc.grid import crossings
+from aadm_workbench.design.ifc.grid import Families, crossings, grid_axes, grids_of
 from aadm_workbench.design.ifc.hints import explain
 from aadm_workbench.design.ifc.ids import shared_id_warning, shared_ids, with_shared_ids
 from aadm_workbench.design.ifc.search import FoundFoot, Nearby, SleeveSearch
@@ -98,7 +98,8 @@ def _found(
     searched, lost = _searched(shapes, search, bodies)
     feet, doubles = _one_column_each(searched)
     loose_sleeves, refused = loose_sleeves_of(named, feet)
-    designs, used_bars, broken = _designs(opened, shapes, feet, bars)
+    grids = grids_of(opened.file, shapes)
+    designs, used_bars, broken = _designs(shapes, feet, bars, grids)
     loose_rebars, inside = loose_rebars_of(bars, used_bars, feet, lambda ends: ends_in_walls(opened, shapes, ends))
     not_taken = (
         *unreadable,
@@ -133,6 +134,8 @@ def _found(
         holdings=ifc_names.holdings(opened.file),
         hint=explain(opened, feet, search, not_taken, len(loose_sleeves), len(loose_rebars)),
         T_model_file=_world(opened, shapes),
+        grid=grid_axes(grids),
+        project=next((project.GlobalId for project in opened.file.by_type("IfcProject")), ""),
     )
 
 
@@ -169,10 +172,10 @@ def _one_column_each(
 
 
 def _designs(
-    opened: OpenedIfc, shapes: Shapes, feet: Sequence[tuple[ColumnBody, FoundFoot]], bars: FoundBars
+    shapes: Shapes, feet: Sequence[tuple[ColumnBody, FoundFoot]], bars: FoundBars, grids: Sequence[Families]
 ) -> tuple[list[ColumnDesign], set[int], list[NotTaken]]:
     """The designs of all columns with sleeves, the numbers of the bar ends under them, and columns that are broken."""
-    grid = crossings(opened.file, shapes)
+    grid = crossings(grids)
     number = {id(end): k for k, end in enumerate(bars.ends)}
     designs: list[ColumnDesign] = []
     used: set[int] = set()
