@@ -4,6 +4,8 @@ It finds what :mod:`tests.gui.session_body` finds, and what that has defined.
 """
 
 # ruff: noqa: E402, F821 - a script in the order of the session, with names that the runner puts in
+import json
+
 # Write results onto the model, save, write report.json.
 from aadm_workbench.gui.panels.report import ReportPanel
 from aadm_workbench.gui.panels.write import WritePanel
