@@ -46,7 +46,8 @@ class TableWriter:
             return f"<td class={'uv' if text == 'unverified' else 't'}{self._said(phrase(f'ui.{text}'))}"
         if text in _INPUTS:
             return f"<td class=t{self._said(all_words()[f'ui.{text}'])}"
-        return f"<td class={'uv' if text.endswith(_UNVERIFIED) else 't'}{self._said(in_both_languages(cell if isinstance(cell, str) else text))}"
+        said = in_both_languages(cell if isinstance(cell, str) else text)
+        return f"<td class={'uv' if text.endswith(_UNVERIFIED) else 't'}{self._said(said)}"
 
     def _in_cell(self, said: Phrase) -> str:
         """The rest of an opening tag, and the text."""
