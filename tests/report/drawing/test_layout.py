@@ -62,10 +62,8 @@ def test_no_name_lies_on_anything(report: Any) -> None:
     for sketch in sketches(report):
         labels = [shape for shape in sketch.shapes if isinstance(shape, Label)]
         names = [label for label in labels if label.text[0] in "SR" and label.text[1:2].isdigit()]
-        assert len({label.text.split()[0] for label in names}) >= (1.0 - MOST_LEFT_OUT) * count
-        dots = [
-            shape for shape in sketch.shapes if isinstance(shape, Circle) and shape.style in ("design", "bar", "ink")
-        ]
+        dots = [shape for shape in sketch.shapes if isinstance(shape, Circle) and shape.style in DOTS]
+        assert len({label.text.split()[0] for label in names}) >= (1.0 - MOST_LEFT_OUT) * len(dots)
         for label in names:
             points = ink(label)
             assert points.min() >= 0.0
