@@ -19,9 +19,10 @@ from aadm_workbench.report.pages.fonts import embedded_font_css
 from aadm_workbench.report.pages.svg import svg_of, svg_styles
 from aadm_workbench.report.sheets.numbers import signed
 from aadm_workbench.report.words.labels import Language, Phrase, phrase, resource_folder, verdict_words
+from aadm_workbench.report.words.reasons import in_both_languages
 from aadm_workbench.stack.result import Judged, StackPlan
 from aadm_workbench.stack.shown import tower_shown
-from aadm_workbench.stack.told import against, limit_reasons
+from aadm_workbench.stack.told import against, limit_reasons, member_reasons
 
 _LANGUAGES: tuple[Language, Language] = ("en", "zh")
 
@@ -77,6 +78,8 @@ def _context(plan: StackPlan, language: Language) -> dict[str, object]:
         "tower": tower,
         "plans": [(one, _raw(svg_of(one.sketch, label="plan", css_class="plan"))) for one in tower.plans],
         "said": limit_reasons(plan),
+        "of_members": member_reasons(plan),
+        "sentence": in_both_languages,
         "against": against,
         "origin": lambda column: phrase(f"stack.{column.origin}") if column.origin else Phrase("–", "–"),
         "number": number,

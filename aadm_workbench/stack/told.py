@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
 from aadm_workbench.model import Verdict
 from aadm_workbench.report.words.labels import Phrase, phrase
 from aadm_workbench.stack.result import StackedColumn, StackPlan, Top
@@ -63,10 +65,19 @@ def headline(plan: StackPlan) -> tuple[Phrase, str]:
 
 def by_reason(plan: StackPlan) -> list[tuple[Phrase, str]]:
     """What is said of columns themselves, each reason once, with the columns that it holds for."""
+    return _grouped((column.measured.id, column.reasons) for column in plan.columns)
+
+
+def member_reasons(plan: StackPlan) -> list[tuple[Phrase, str]]:
+    """Why beams are no pass, each reason once, with the beams that it holds for."""
+    return _grouped((member.id, member.reasons) for member in plan.members)
+
+
+def _grouped(said: Iterable[tuple[str, Sequence[Phrase]]]) -> list[tuple[Phrase, str]]:
     found: dict[Phrase, list[str]] = {}
-    for column in plan.columns:
-        for reason in column.reasons:
-            found.setdefault(reason, []).append(column.measured.id)
+    for name, reasons in said:
+        for reason in reasons:
+            found.setdefault(reason, []).append(name)
     return [(reason, ", ".join(names)) for reason, names in found.items()]
 
 

@@ -177,7 +177,7 @@ def _plans(report: JobReport, found: list[Finding]) -> list[tuple[Plan, str]]:
     return [(plan, _raw(svg_of(plan.sketch, label="plan", css_class="plan"))) for plan in plans]
 
 
-def _tower(tower: TowerShown | None) -> dict[str, Any]:
+def _tower(tower: TowerShown | None) -> dict[str, object]:
     """What the template needs of the tower, where there is one."""
     drawn = () if tower is None else tower.plans
     plans = [(plan, _raw(svg_of(plan.sketch, label="plan", css_class="plan"))) for plan in drawn]
