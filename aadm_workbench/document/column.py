@@ -35,6 +35,13 @@ PROPERTIES = (
         QT_TRANSLATE_NOOP("App::Property", "What jobs and reports call it"),
     ),
     Property(
+        "App::PropertyString",
+        "MadeAs",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "Name of this object when it was made: a copy has another"),
+        mode=HIDDEN,
+    ),
+    Property(
         "App::PropertyLinkGlobal",
         "Model",
         _IDENTITY,
@@ -88,7 +95,28 @@ PROPERTIES = (
         mode=HIDDEN,
     ),
     Property(
+        "App::PropertyString",
+        "Body",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "Body of the column, as its model draws it: thin, in the column frame"),
+        mode=HIDDEN,
+    ),
+    Property(
+        "App::PropertyString",
+        "SampledSha256",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "Hash of the design points as they were sampled"),
+        mode=HIDDEN,
+    ),
+    Property(
         "App::PropertyString", "Design", _IDENTITY, QT_TRANSLATE_NOOP("App::Property", "Design points"), mode=HIDDEN
+    ),
+    Property(
+        "App::PropertyString",
+        "JobFile",
+        _CHECK,
+        QT_TRANSLATE_NOOP("App::Property", "Job file that it was last checked by, together with others"),
+        mode=HIDDEN,
     ),
     Property("App::PropertyLinkList", "Scans", _CHECK, QT_TRANSLATE_NOOP("App::Property", "Its scans")),
     Property("App::PropertyLink", "Result", _CHECK, QT_TRANSLATE_NOOP("App::Property", "Its last result")),
@@ -142,7 +170,11 @@ class Column(Stateless):
 
     def onDocumentRestored(self, obj: Any) -> None:
         """Bring a column of an earlier version up to date, and give it its view."""
-        bring_up_to_date(obj, PROPERTIES)
+        from aadm_workbench.document.belongings import own_up, watch_belongings
+
+        if bring_up_to_date(obj, PROPERTIES):
+            own_up(obj)
+        watch_belongings()
         show_restored(obj, "column_view", "ColumnView")
 
     def execute(self, obj: Any) -> None:
@@ -160,9 +192,13 @@ def make_column(document: Any, design: ColumnDesign, model: Any = None) -> Any:
     model
         The object of the model that it is, if it is in the document.
     """
+    from aadm_workbench.document.belongings import watch_belongings
+
+    watch_belongings()
     column = document.addObject("App::GeometryPython", "AADM_Column")
     column.Proxy = Column()
     apply_properties(column, PROPERTIES)
+    column.MadeAs = column.Name
     column.Schema = SCHEMA
     column.ColumnId = design.id
     column.Label = f"AADM {design.id}"

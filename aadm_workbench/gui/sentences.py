@@ -12,6 +12,7 @@ from PySide import QtCore, QtGui
 
 from aadm_workbench.document.display.messages import complain
 from aadm_workbench.errors import AadmError, NoEnvironmentError
+from aadm_workbench.gui.chosen import NoColumnError
 from aadm_workbench.gui.language import in_language
 
 translate = FreeCAD.Qt.translate
@@ -44,6 +45,10 @@ def show_error(title: str, error: BaseException, *offers: tuple[str, Callable[[]
         from aadm_workbench.gui.panels.environment import install
 
         offers = ((translate("AADM", "Install now"), install), *offers)
+    elif isinstance(error, NoColumnError) and not offers:
+        from aadm_workbench.gui.panels.sampling import ways_to_columns
+
+        offers = ways_to_columns()
     for text, act in offers:
         button = box.addButton(text, QtGui.QMessageBox.ActionRole)
         button.clicked.connect(lambda checked=False, act=act: act())

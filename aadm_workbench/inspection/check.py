@@ -15,6 +15,7 @@ import numpy as np
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.findings.finding import SeenGroup
 from aadm_workbench.assembly.findings.of_column import Seen, with_findings
+from aadm_workbench.assembly.following import told_once
 from aadm_workbench.assembly.group_notes import (
     axes_not_told,
     in_coordinates_of_the_file,
@@ -135,6 +136,7 @@ def check_column(
             trial, repair = _repair(design, measured[Kind.SLEEVE], measured[Kind.REBAR], trial, settings)
         section = _section(design, scans, measured, settings)
     report = replace(_report(design, measured, trial, checks, settings.profile), repair=repair, section=section)
+    report = told_once(report)
     seen = {kind: Seen(_seen(design, kind, scans, measured[kind]), scans.of(kind)[0]) for kind in measured}
     rng = np.random.default_rng([settings.seed, 4])
     with stage("assembly"):

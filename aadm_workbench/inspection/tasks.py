@@ -241,11 +241,18 @@ def report_of(plan: JobPlan, columns: Sequence[ColumnReport]) -> JobReport:
         tool=tool_entry(),
         job=job_entry(plan),
         capture=job.capture,
-        model=None if model is None else {"source": model.source, "sha256": model.sha256},
+        model=None if model is None else model_entry(model),
         profile=job.profile,
         columns=columns,
         mould_drift=_mould_drift(columns, job.profile),
+        grid=() if model is None else model.grid,
     )
+
+
+def model_entry(model: ModelDesign) -> dict[str, str]:
+    """What reports say about the model: its file, and the GlobalId of the project of an IFC model."""
+    project = {"ifc_project": model.project} if model.project else {}
+    return {"source": model.source, "sha256": model.sha256, **project}
 
 
 def _mould_drift(columns: Sequence[ColumnReport], profile: Profile) -> tuple[MouldDrift, ...]:

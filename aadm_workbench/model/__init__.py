@@ -64,6 +64,7 @@ from aadm_workbench.model.repairs import (
 )
 from aadm_workbench.model.reports import (
     ColumnReport,
+    GridAxis,
     JobReport,
 )
 from aadm_workbench.model.results import (
@@ -139,6 +140,7 @@ __all__ = [
     "Fit",
     "FitCell",
     "FloatArray",
+    "GridAxis",
     "GroupReport",
     "HoistingMeasurement",
     "HoistingPair",

@@ -23,7 +23,7 @@ from aadm_workbench.model import (
     Verdict,
 )
 from aadm_workbench.model.results import AimedPose, TrialPose
-from aadm_workbench.report.directions import Compass, Heading, compass_of
+from aadm_workbench.report.directions import Compass, Heading, compass_of, grid_of
 from aadm_workbench.report.words.labels import Phrase
 
 _AS_ASKED = 0.01
@@ -136,7 +136,7 @@ class MeasuredFloor:
 
 def measured_floor(report: JobReport) -> MeasuredFloor:
     """A report as this room needs it."""
-    columns = (_column(column, compass_of(report.columns, column)) for column in report.columns)
+    columns = (_column(column, compass_of(grid_of(report), column)) for column in report.columns)
     return MeasuredFloor(str(report.job["name"]), tuple(columns), str(report.job.get("decision", "guarded")))
 
 

@@ -14,7 +14,9 @@ from tests.conftest import ROOT, FreeCADRunner, find_freecad
 from tests.freecad_environment import with_environment
 from tests.gui.model_text import MODEL
 
-_BODIES = ("bare_body.py", "session_body.py", "floor_body.py", "private_body.py")
+_BODIES = tuple(
+    f"{name}_body.py" for name in ("bare", "session", "floor", "private", "floor_check", "legible", "looks", "end")
+)
 
 
 @pytest.fixture(scope="session")

@@ -15,6 +15,10 @@ from PySide import QtCore, QtGui
 
 from aadm_workbench.gui.aadm_process import _RUNNING
 
+# Where a machine has no Chinese font, thin boxes would be looked at.
+QtGui.QFontDatabase.addApplicationFont(
+    str(Path(SAMPLES).parent / "aadm_workbench" / "resources" / "fonts" / "wqy-microhei-subset.ttf")
+)
 namespace = {}
 exec(MODEL, namespace)
 window = Gui.getMainWindow()
@@ -122,7 +126,7 @@ result["objects_after_nonsense"] = [obj.Name for obj in document.Objects if obj.
 document.removeObject(torus.Name)
 
 # Sample design, undo, redo.
-from aadm_workbench.gui.panels.design import DesignPanel
+from aadm_workbench.gui.panels.design import REBAR_PLACE, DesignPanel
 
 Gui.Selection.clearSelection()
 Gui.Selection.addSelection(column_body)
@@ -140,7 +144,7 @@ design_panel.apply()
 result["said_for_wrong_up"] = sentences()
 design_panel.sleeves_up.setCurrentText("+y")
 design_panel.rebars_up.setCurrentText("+y")
-design_panel.table.cellWidget(0, 3).setCurrentIndex(3)
+design_panel.table.cellWidget(0, REBAR_PLACE).setCurrentIndex(3)
 design_panel.swap(0, 3)
 design_panel.apply()
 swapped = api.column_design(column)

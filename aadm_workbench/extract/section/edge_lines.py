@@ -87,10 +87,23 @@ class FoundEdge:
     line: Guess
     strips: Strips
     fit: StripLine
+    length_mm: float
     overshoot: Overshoot | None
     blind_mm: float
     lost_mm: float | None
     taken_mm: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Ended:
+    """A line on which a face ends, and places (n,) about it, mm: along it, beyond it, and heights of what returned."""
+
+    line: Guess
+    strips: Strips
+    fit: StripLine
+    along: Array
+    off: Array
+    height: Array
 
 
 def find_edge(
@@ -111,8 +124,8 @@ def find_edge(
     ended = _ended(samples, guess, mouths, length_mm / 2.0 - _CORNER_MM, band_mm)
     if isinstance(ended, Reason):
         return ended
-    line, strips, fit, off, height = ended
-    overshoot = overshoot_of(off, height, band_mm, samples.pitch_mm)
+    line = ended.line
+    overshoot = overshoot_of(ended.off, ended.height, band_mm, samples.pitch_mm)
     if isinstance(overshoot, Reason):
         return overshoot
     why = _doubt(line, guess, samples, length_mm)
@@ -120,8 +133,8 @@ def find_edge(
         return why
     lost_mm = lost_at_rim(samples, mouths, normal, band_mm) if overshoot is None else None
     taken_mm = taken_in(samples, along * line.middle_mm + normal * line.offset_mm, normal, band_mm)
-    blind_mm = _blind_mm(off, samples.pitch_mm)
-    return FoundEdge(line, strips, fit, overshoot, blind_mm, lost_mm, taken_mm)
+    blind_mm = _blind_mm(ended.along, ended.off, samples.pitch_mm)
+    return FoundEdge(line, ended.strips, ended.fit, length_mm, overshoot, blind_mm, lost_mm, taken_mm)
 
 
 def edge_lines(
@@ -154,8 +167,9 @@ def _edge_line(samples: FaceSamples, found: FoundEdge, mixed: Overshoot | None, 
     line = found.line
     mixed = Overshoot(0.0, 0.0) if mixed is None else mixed
     covariance = found.fit.covariance.copy()
-    # What is as likely anywhere in a gap has a variance of its square over 12.
-    covariance[0, 0] += (_OWN_SHARE * mixed.beyond_mm) ** 2 + found.blind_mm**2 / 12.0
+    # What is as likely anywhere in a gap has a variance of its square over 12; at both ends a line may be off by it.
+    covariance += np.diag([found.blind_mm**2 / 12.0, (found.blind_mm / found.length_mm) ** 2])
+    covariance[0, 0] += (_OWN_SHARE * mixed.beyond_mm) ** 2
     # Of what a look at cells makes wider, anything from nothing to all is as likely.
     shared = mixed.u_mm, lost_mm / 2.0, 2.0 * samples.wider_mm / np.sqrt(12.0)
     return EdgeLine(
@@ -200,15 +214,10 @@ def _deepened(samples: FaceSamples, line: Guess, chip: Chip, mouths: KnownMouths
     return replace(chip, depth_mm=max(chip.depth_mm, float(face[0]))) if len(face) else chip
 
 
-def _ended(
-    samples: FaceSamples, line: Guess, mouths: KnownMouths, half_mm: float, band_mm: float
-) -> tuple[Guess, Strips, StripLine, Array, Array] | Reason:
-    """The line on which the face ends: looked for in wide strips, then in narrow ones about what these give.
-
-    And how far from it places lie (n,) and how high over the face what returned there (n,), mm.
-    """
+def _ended(samples: FaceSamples, line: Guess, mouths: KnownMouths, half_mm: float, band_mm: float) -> _Ended | Reason:
+    """The line on which the face ends: looked for in wide strips, then in narrow ones about what these give."""
     fine_mm = max(_REACH_MM, _REACH_PITCHES * samples.pitch_mm)
-    ended: tuple[Guess, Strips, StripLine, Array, Array] | Reason = OUT_OF_PICTURE
+    ended: _Ended | Reason = OUT_OF_PICTURE
     for reach_mm, every in ((_FIRST_REACH_MM, _WIDE_EVERY), (fine_mm, _FINE_EVERY), (fine_mm, _FINE_EVERY)):
         s, d, height = _across(samples, line, mouths, half_mm, reach_mm, every)
         if every == _FINE_EVERY:
@@ -221,7 +230,7 @@ def _ended(
         if isinstance(fit, Reason):
             return fit
         line = replace(line, offset_mm=line.offset_mm + fit.offset, turn=line.turn + fit.turn)
-        ended = line, strips, fit, d - fit.offset - fit.turn * s, height
+        ended = _Ended(line, strips, fit, s, d - fit.offset - fit.turn * s, height)
         if every == _FINE_EVERY and abs(fit.offset) < _SETTLED_PITCHES * samples.pitch_mm:
             break
     return ended
@@ -286,10 +295,19 @@ def _rise(d: Array, height: Array) -> float:
     return float((np.median(height[outer]) - np.median(height[~outer])) / (d[outer].mean() - d[~outer].mean()))
 
 
-def _blind_mm(off: Array, pitch_mm: float) -> float:
-    """The widest gap, mm, between distances from an edge at which anything was asked, next to it.
+def _blind_mm(s: Array, off: Array, pitch_mm: float) -> float:
+    """The widest gap, mm, between distances from an edge at which anything was asked: that of usual parts of it.
 
-    Rows of pixels that run along an edge all lie on one side of it or the other: how far, nobody knows.
+    Rows of pixels that run along an edge all lie on one side of it or the other: how far, nobody knows, and where they
+    cross it once or twice, its line hangs on where they do.
     """
-    near = np.sort(off[np.abs(off) < _BLIND_PITCHES * pitch_mm])
-    return float(np.diff(near).max(initial=0.0)) if len(near) else 0.0
+    near = np.abs(off) < _BLIND_PITCHES * pitch_mm
+    s, off = s[near], off[near]
+    if len(s) == 0:
+        return 0.0
+    part = ((s - s.min()) / (np.ptp(s) + pitch_mm) * _BLOCKS).astype(int)
+    order = np.lexsort((off, part))
+    gaps = np.where(np.diff(part[order]) == 0, np.diff(off[order]), 0.0)
+    widest = np.zeros(_BLOCKS)
+    np.maximum.at(widest, part[order][1:], gaps)
+    return float(np.sqrt(np.mean(widest**2)))

@@ -20,6 +20,7 @@ from aadm_workbench.report.words.labels import HEAD, SIGN, Language, phrase, ver
 
 _FORMATS: dict[CellKind, str] = {
     "mm": "0.00",
+    "mm_signed": "+0.00;-0.00;0.00",
     "mm_fine": "0.000",
     "deg": "0.00",
     "share": "0.0%",
@@ -56,7 +57,13 @@ def write_xlsx(report: JobReport, path: Path, language: Language = "en") -> None
     except ImportError as error:
         raise MissingDependencyError("xlsxwriter", "report.xlsx") from error
     content = io.BytesIO()
-    options = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "nan_inf_to_errors": False}
+    # Row by row, through a temporary file: the workbook of a thousand columns has a million cells.
+    options = {
+        "constant_memory": True,
+        "strings_to_formulas": False,
+        "strings_to_urls": False,
+        "nan_inf_to_errors": False,
+    }
     book = xlsxwriter.Workbook(content, options)
     title = phrase("ui.title").in_language(language)
     book.set_properties({"title": f"{title}: {report.job['name']}", "created": _CREATED})
@@ -88,12 +95,12 @@ class _Sheets:
         """One sheet: headings that stay, a filter, and verdicts that are coloured by what they say."""
         sheet = self.book.add_worksheet(table.name.in_language(self.language).translate(_FORBIDDEN_IN_SHEET_NAMES)[:31])
         titles = [heading.in_full().in_language(self.language) for heading in table.headings]
+        self._arrange(sheet, table, titles)
         for column, title in enumerate(titles):
             sheet.write_string(0, column, title, self.head)
         for row, cells in enumerate(table.rows, start=1):
             for column, (cell, heading) in enumerate(zip(cells, table.headings, strict=True)):
                 self._write(sheet, row, column, cell, heading.kind)
-        self._arrange(sheet, table, titles)
 
     def _write(self, sheet: Any, row: int, column: int, cell: Cell, kind: CellKind) -> None:
         if cell is None or cell == "":

@@ -55,7 +55,7 @@ def all_words() -> dict[str, Phrase]:
     }
 
 
-def phrase(name: str, **values: object) -> Phrase:
+def phrase(name: str, /, **values: object) -> Phrase:
     """One text in both languages by its name, its ``{places}`` filled in."""
     found = all_words()[name]
     return found.filled(**values) if values else found

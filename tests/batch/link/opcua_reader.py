@@ -54,6 +54,7 @@ def main(url: str, certificate="", key="", server="", uri="") -> None:
         "applicationUri": uri,
     }
     client = o6.Client(url, **(secured if certificate else {}))
+    client.config.timeout = 60_000  # ms; the machine may be busy
     try:
         client.connect()
     except o6.StatusCodeError as error:

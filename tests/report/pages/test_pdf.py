@@ -8,7 +8,7 @@ import pypdf
 import pytest
 
 from aadm_workbench.report.pages.pdf import write_pdf
-from aadm_workbench.report.pages.pdf_canvas import lines_of, printable, width_of
+from aadm_workbench.report.pages.pdf_text import lines_of, printable, width_of
 from tests.report.checked_floor import HOSTILE
 from tests.report.typed import typed
 
