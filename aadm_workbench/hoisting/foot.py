@@ -130,7 +130,8 @@ def fit_foot(
         state, _ = _system(views, walls, state, pattern, believed)[0].stepped(state)
     covariance = _system(views, walls, state, pattern, believed)[0].covariance()[0]
     counts = np.array([len(wall) for wall in walls])
-    own_mm = np.sqrt(np.diag(covariance).reshape(-1, 2).max(axis=1))
+    variances = np.diag(covariance)
+    own_mm = np.sqrt(np.where(variances > 0.0, variances, np.inf)).reshape(-1, 2).max(axis=1)
     seen = (counts >= _WALL_FEWEST) & (own_mm < _SEEN_MM)
     alone, _ = _own_system(views, walls, state, believed)
     return FootFit(
