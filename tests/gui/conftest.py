@@ -15,7 +15,8 @@ from tests.freecad_environment import with_environment
 from tests.gui.model_text import MODEL
 
 _BODIES = tuple(
-    f"{name}_body.py" for name in ("bare", "session", "floor", "private", "floor_check", "legible", "looks", "end")
+    f"{name}_body.py"
+    for name in ("bare", "session", "capture", "floor", "private", "floor_check", "legible", "looks", "end")
 )
 
 
