@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,8 +11,9 @@ from aadm_workbench.assembly.inspect import inspect_group
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.assembly.trial.virtual import try_scans
-from aadm_workbench.model import Array, BoolArray, ColumnReport, Extraction, GroupReport, Kind, Verdict
+from aadm_workbench.model import Array, AssemblyPoint, BoolArray, ColumnReport, Extraction, GroupReport, Kind, Verdict
 from aadm_workbench.twin.camera import PRO_M
+from aadm_workbench.twin.parts import BarAsBuilt, axis_of
 from aadm_workbench.twin.scene import truth_of
 from benchmarks.site_scenes import Column
 
@@ -84,7 +85,19 @@ def false_verdicts(column: Column, report: ColumnReport, *, void: bool) -> list[
 
 
 def _exact(column: Column, kind: Kind) -> Extraction:
-    return Extraction(kind, "truth", truth_of(column.foot if kind is Kind.SLEEVE else column.bars), None, _UP, "truth")
+    points = truth_of(column.foot if kind is Kind.SLEEVE else column.bars)
+    if kind is Kind.REBAR:
+        length_mm = column.setting.exposed
+        points = tuple(_from_end_to_end(*one, length_mm) for one in zip(points, column.bars.bars, strict=True))
+    return Extraction(kind, "truth", points, None, _UP, "truth")
+
+
+def _from_end_to_end(point: AssemblyPoint, bar: BarAsBuilt, length_mm: float) -> AssemblyPoint:
+    """The point with the axis from where a kinked bar passes the mouth to its top: farthest off are the ends."""
+    if bar.kinked_at is None:
+        return point
+    bent = min(length_mm / bar.kinked_at, 1.0) / length_mm
+    return replace(point, axis=axis_of((bar.lean[0] + bent * bar.bend[0], bar.lean[1] + bent * bar.bend[1])))
 
 
 def _exact_group(column: Column, kind: Kind) -> GroupReport | None:

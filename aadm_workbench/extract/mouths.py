@@ -95,9 +95,11 @@ def mouths_in(
     hidden = _are_hidden(patches, high_mm, centre, radius_mm, pitch_mm)
     kept &= ~hidden & (not _is_floor(hidden, kept))
     bores = _bores(patches, centre, radius_mm, near)
-    upper = (bores.depth > _UPPER_WALL_MM[0]) & (bores.depth < _UPPER_WALL_MM[1])
+    # Between the lands of a roughened foot its floor shows beside the bore, and is no wall.
+    layer_mm = -low_mm if face is not None and face.rough else 0.0
+    upper = (bores.depth > layer_mm + _UPPER_WALL_MM[0]) & (bores.depth < layer_mm + _UPPER_WALL_MM[1])
     rims = shape.only(~_shown(bores.points.where(upper), centre, bins))
-    deep = bores.where((bores.depth > WALL_DEPTH_MM[0]) & kept[bores.points.owner])
+    deep = bores.where((bores.depth > max(WALL_DEPTH_MM[0], layer_mm)) & kept[bores.points.owner])
     xy, depth, slope, seen = _rows(deep.where(_opposite(deep, centre)), np.flatnonzero(kept))
     return Mouths(
         np.flatnonzero(kept), places[kept], centre[kept], rims.of(kept), shape.coverage[kept], xy, depth, slope, seen

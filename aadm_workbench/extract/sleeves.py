@@ -54,6 +54,8 @@ _BENT_PRIORS = Priors(radius=0.15, push=0.6, own_push=0.4)  # light that bounces
 _FIT_SHARE = 0.8  # the fit's own covariance has neighbours share more of their errors than they do
 _WEAR_PITCHES = 0.04  # how far rims may be worn away unnoticed; it shifts centres along the view
 _ROUGH_U_MM = 0.1  # grains at the rim of a roughened foot, each mouth by itself
+# all radii of a roughened foot, whose rims lie at many depths: 18 feet of the twin had 0.36 mm of diameter (rms)
+_ROUGH_RADIUS_U_MM = 0.2
 _FOREIGN = 0.01  # share of outline points that are flying pixels or dirt
 # of an outline on its circle, or running on into the wall: half of a taped mouth is more; a choice: ±30 % moves
 # nothing on sound scans
@@ -138,6 +140,8 @@ def _measured(mouths: Mouths, patches: Patches, layer: FootFace, diameter_mm: fl
     fit = _fit(mouths, lines, diameter_mm, pitch_mm)
     if fit is not None and not layer.flat:
         fit = replace(fit, covariance=fit.covariance + _ROUGH_U_MM**2 * np.eye(2))
+    if fit is not None and layer.rough:
+        fit = replace(fit, radius_u_mm=float(np.hypot(fit.radius_u_mm, _ROUGH_RADIUS_U_MM)))
     signs = filter_signs(own, mouths.centre, diameter_mm / 2, pitch_mm, 1.0, flat=layer.flat)
     if fit is None or signs.reason(blurred=False):
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=signs.reason(blurred=fit is None))

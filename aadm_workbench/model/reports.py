@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from aadm_workbench.model.drift import MouldDrift
 from aadm_workbench.model.findings import Finding
 from aadm_workbench.model.hoisting import HoistingReport
-from aadm_workbench.model.measured import Array
+from aadm_workbench.model.measured import Array, Vector2
 from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, PairResult, PointResult, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile
@@ -83,9 +84,22 @@ class ColumnReport:
         return () if pose is None else pose.pairs
 
 
+@dataclass(frozen=True, slots=True)
+class GridAxis:
+    """A straight axis of the model's grid seen from above: its ends, mm, model frame.
+
+    ``family`` is that of IFC (u, v, w): axes of one family do not cross.
+    """
+
+    tag: str
+    family: Literal["u", "v", "w"]
+    start_mm: Vector2
+    end_mm: Vector2
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class JobReport:
-    """Everything that report.json holds: one job, its inputs by hash, its columns."""
+    """Everything that report.json holds: one job, its inputs by hash, its columns, the axes of its model's grid."""
 
     tool: dict[str, str]
     job: dict[str, str]
@@ -94,6 +108,7 @@ class JobReport:
     profile: Profile
     columns: tuple[ColumnReport, ...]
     mould_drift: tuple[MouldDrift, ...] = ()
+    grid: tuple[GridAxis, ...] = ()
 
     def summary(self) -> dict[str, int]:
         """How many columns came to each verdict: pass, fail, inconclusive, not_measured, error."""

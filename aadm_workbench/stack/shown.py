@@ -13,7 +13,7 @@ from aadm_workbench.report.tower import SettingOut, ToDo, TowerShown
 from aadm_workbench.report.words.labels import Phrase, phrase
 from aadm_workbench.stack.drawing import in_plan_axes, stack_drawings
 from aadm_workbench.stack.result import StackedColumn, StackPlan
-from aadm_workbench.stack.told import advice_phrase, against, by_reason, headline, limit_reasons
+from aadm_workbench.stack.told import advice_phrase, against, by_reason, headline, limit_reasons, member_reasons
 from aadm_workbench.stack.torsor import Torsor
 
 _VERDICTS = tuple(verdict.value for verdict in (*SUMMED, Verdict.NOT_ASSESSED))
@@ -44,8 +44,7 @@ def _to_do(plan: StackPlan) -> Iterator[ToDo]:
 
 def _open_ends(plan: StackPlan) -> Iterator[tuple[str, Phrase]]:
     yield from limit_reasons(plan)
-    for member in plan.members:
-        yield from ((member.id, reason) for reason in member.reasons)
+    yield from ((names, reason) for reason, names in member_reasons(plan))
     yield from ((one.about, one.reason) for one in plan.not_found)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
 from aadm_workbench.model import Verdict
 from aadm_workbench.report.words.labels import Phrase, phrase
 from aadm_workbench.stack.result import StackedColumn, StackPlan, Top
@@ -14,10 +16,14 @@ def advice_phrase(column: StackedColumn) -> Phrase:
     assert column.advice is not None
     dx, dy, yaw_deg = column.advice.from_trial
     turn = phrase("stack.advice_turn", turn=f"{yaw_deg:+.2f}") if abs(yaw_deg) >= _LEAST_TURN_DEG else Phrase("", "")
+    # It goes on its bars, but something else forbids hoisting: whoever reads this line alone must not lift it.
+    first = Phrase("", "") if column.measured.verdict is Verdict.PASS else phrase("stack.once_released")
     return Phrase(
         *(
-            sentence.format(way=way, turn=text, before=_length(column.top), after=_length(column.advice.top))
-            for sentence, way, text in zip(phrase("stack.advice_line"), _way(column, dx, dy), turn, strict=True)
+            lead + sentence.format(way=way, turn=text, before=_length(column.top), after=_length(column.advice.top))
+            for lead, sentence, way, text in zip(
+                first, phrase("stack.advice_line"), _way(column, dx, dy), turn, strict=True
+            )
         )
     )
 
@@ -59,10 +65,19 @@ def headline(plan: StackPlan) -> tuple[Phrase, str]:
 
 def by_reason(plan: StackPlan) -> list[tuple[Phrase, str]]:
     """What is said of columns themselves, each reason once, with the columns that it holds for."""
+    return _grouped((column.measured.id, column.reasons) for column in plan.columns)
+
+
+def member_reasons(plan: StackPlan) -> list[tuple[Phrase, str]]:
+    """Why beams are no pass, each reason once, with the beams that it holds for."""
+    return _grouped((member.id, member.reasons) for member in plan.members)
+
+
+def _grouped(said: Iterable[tuple[str, Sequence[Phrase]]]) -> list[tuple[Phrase, str]]:
     found: dict[Phrase, list[str]] = {}
-    for column in plan.columns:
-        for reason in column.reasons:
-            found.setdefault(reason, []).append(column.measured.id)
+    for name, reasons in said:
+        for reason in reasons:
+            found.setdefault(reason, []).append(name)
     return [(reason, ", ".join(names)) for reason, names in found.items()]
 
 

@@ -7,18 +7,32 @@ Meshes of what stands about in a scene and is neither a foot nor a bar: boxes, b
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from aadm_workbench.model import Array
 from aadm_workbench.twin.blocks import block_of, broken_off
-from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose, SleeveAsBuilt, axis_of
-from aadm_workbench.twin.surface import BAR, CONCRETE, DARK, FLOOR, OBJECT, SLEEVE_WALL, TAPE, Surface, joined, one_kind
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose, PlateAsBuilt, SleeveAsBuilt, axis_of
+from aadm_workbench.twin.surface import (
+    BAR,
+    CONCRETE,
+    DARK,
+    FLOOR,
+    OBJECT,
+    SLEEVE_WALL,
+    TAPE,
+    Surface,
+    joined,
+    moved,
+    one_kind,
+)
 
 _RIB_INCLINATION = np.radians(60.0)  # of transverse ribs against the bar's axis; 45 to 70 degrees are usual
 _SHIFT_DEPTHS_MM = (1.5, 2.0)  # behind the face: over so much depth a wall goes aside that is shifted; its mouth stays
 _RING_WIDTH_MM, _RING_ROOT_MM = 4.0, 20.0  # a tube with a wall of 4 mm, cast in by 20 mm
+_PIN_ROOT_MM = -5.0  # height to which a pin goes into its plate: below the face it ends unseen
 _CAP_LENGTH_MM = 25.0  # of the caps that protect threads
 SEGMENTS = 256  # of a bore's outline: the chord stays within 0.003 mm of a 36 mm circle
 
@@ -29,13 +43,17 @@ _AROUND = 32  # corners of a hose's section
 _STEP_MM = 4.0  # of a hose's path: a choice by eye
 
 
-def surface_of(part: Foot | BarGroup) -> Surface:
-    """Mesh of a foot or of a group of bars."""
+def surface_of(part: Foot | BarGroup | PlateAsBuilt) -> Surface:
+    """Mesh of a foot, of a group of bars or of a plate."""
+    if isinstance(part, PlateAsBuilt):
+        pins = [_bar(pin, number, _PIN_ROOT_MM) for number, pin in enumerate(part.pins)]
+        return joined([moved(foot_surface(part.foot), np.diag([1.0, -1.0, -1.0, 1.0])), *pins])
     return foot_surface(part) if isinstance(part, Foot) else bars_surface(part)
 
 
+@lru_cache(maxsize=2)  # frame after frame shows one foot; a mesh of a rough face takes 100 MB
 def foot_surface(foot: Foot) -> Surface:
-    """Mesh of the foot with its bores, plugs, chips, tapes and grout, and of what stands beside it."""
+    """Mesh of the foot with its bores, plugs, chips, tapes and grout, and of what is beside it; to be read alone."""
     import manifold3d
 
     block = block_of(foot).as_original()

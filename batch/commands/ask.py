@@ -1,7 +1,7 @@
 """Answer a question of the FreeCAD workbench, which runs no packages of its own. For programs, not for people.
 
-QUESTION.json says under "about" what is asked: "columns" of a model or of shapes that FreeCAD has sampled, or the
-"scan" in a file. The answer appears whole or not at all.
+QUESTION.json says under "about" what is asked: "columns" of a model or of shapes that FreeCAD has sampled, the "scan"
+in a file, or the "camera" in one. The answer appears whole or not at all.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ Writes into the folder of report.json unless --out says otherwise; without a for
 there already is updated: its topics keep their ids, and those of columns that now pass are closed. Scan cards can also
 be made from a job, before anything is scanned: aadm report floor3.toml --scan-card
 
-The exit code is 0 when the files are written, whatever the verdicts are.
+The exit code is 0 when the files are written, whatever the verdicts are; 70 where one could not be: the others are.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS
+from ..exit_codes import ALL_PASS, INTERNAL
 from ..report_files import add_format_switches, chosen_formats, require_packages
 from ..switches import add_switches
 
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
     from aadm_workbench.model import JobReport
     from aadm_workbench.report.pages.scan_card import ScanCard
+
+    from ..report_files import Written
 
 EXAMPLE = """\
 examples:
@@ -37,7 +39,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = (
         "aadm report REPORT.json [--out DIR] [--html] [--pdf] [--xlsx] [--csv] [--bcf] [--bcf-pairs]\n"
         "                   [--crew] [--scan-card] [--fcstd]\n"
-        "                   [--language en|zh] [--model MODEL.ifc] [--only ID ...] [--json] [--quiet]\n"
+        "                   [--bcf-version 2.1|3.0] [--language en|zh] [--model MODEL.ifc] [--only ID ...]\n"
+        "                   [--json] [--quiet]\n"
         "       aadm report JOB.toml --scan-card [--out DIR] [--only ID ...]"
     )
     parser.add_argument("report", type=Path, metavar="REPORT.json", help="the report of a check, or a job (JOB.toml)")
@@ -53,22 +56,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write the reports that were asked for."""
-    is_job = options.report.suffix.lower() == ".toml"
-    files = _cards_of_job(options) if is_job else _reports(options)
-    _say(files, options)
-    return ALL_PASS
+    if options.report.suffix.lower() == ".toml":
+        _say(_cards_of_job(options), options)
+        return ALL_PASS
+    written = _reports(options)
+    _say(written.files, options)
+    written.say(options)
+    return INTERNAL if written.failed else ALL_PASS
 
 
-def _reports(options: argparse.Namespace) -> dict[str, Path]:
+def _reports(options: argparse.Namespace) -> Written:
     from aadm_workbench.report.read import read_report
 
-    from ..report_files import write_reports
+    from ..report_files import HowReports, write_reports
 
     formats = chosen_formats(options) or ("html",)
     require_packages(formats)
     report = only_columns(read_report(options.report), options.only, options.report)
     folder = _folder(options, options.report.parent)
-    return write_reports(report, formats, folder, options.language, model=options.model)
+    return write_reports(report, formats, folder, HowReports.asked(options, options.model))
 
 
 def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
@@ -143,9 +149,10 @@ def job_cards(job: Job, only: Sequence[str] = ()) -> list[ScanCard]:
     from aadm_workbench.report.pages.scan_card import CardDesign, design_cards
 
     designs = []
-    for task in plan_job(job, only=only).tasks:
+    plan = plan_job(job, only=only)
+    for task in plan.tasks:
         if task.design is None:
             raise DesignError(task.no_design)
         column = task.column
         designs.append(CardDesign(column.id, task.design, column.sleeves_up_deg, column.rebars_up_deg))
-    return design_cards(designs, job.camera)
+    return design_cards(designs, job.camera, () if plan.model is None else plan.model.grid)

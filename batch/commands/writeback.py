@@ -84,7 +84,8 @@ def _remove(options: argparse.Namespace) -> WriteBack:
 
 
 def _beside(model: Path, suffix: str) -> Path:
-    return model.with_name(f"{model.stem}-{suffix}.ifc")
+    """``floor3-checked.ifc`` beside ``floor3.ifc``, and ``floor3-restored.ifc`` beside that."""
+    return model.with_name(f"{model.stem.removesuffix('-checked')}-{suffix}.ifc")
 
 
 def _show(done: WriteBack, options: argparse.Namespace) -> None:

@@ -11,7 +11,7 @@ from rich.text import Text
 
 from aadm_workbench.report.sheets.numbers import signed
 from aadm_workbench.report.words.labels import Language, Phrase, phrase
-from aadm_workbench.stack.told import advice_phrase, against, by_reason, limit_reasons
+from aadm_workbench.stack.told import advice_phrase, against, by_reason, limit_reasons, member_reasons
 
 from .terminal import new_table, verdict_text
 
@@ -43,8 +43,7 @@ class _Shown:
                 yield self._line(column.measured.id, self._said(advice_phrase(column)))
         yield from (self._line(names, self._said(reason)) for reason, names in by_reason(plan))
         yield from (self._line(name, self._said(reason)) for name, reason in limit_reasons(plan))
-        for member in plan.members:
-            yield from (self._line(member.id, self._said(reason)) for reason in member.reasons)
+        yield from (self._line(names, self._said(reason)) for reason, names in member_reasons(plan))
         yield from (self._line(one.about, self._said(one.reason)) for one in plan.not_found)
 
     def _word(self, name: str, **values: object) -> str:

@@ -17,7 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from aadm_workbench.model import Verdict
-from aadm_workbench.report.words.labels import Language, phrase
+from aadm_workbench.model.reason import Language, sentence
 
 from .printable import printable
 
@@ -38,13 +38,12 @@ _UNBOUNDED = 100_000
 def verdict_text(verdict: Verdict, language: Language = "en") -> Text:
     """A verdict as people read it: sign, word, colour."""
     sign, style = STYLE[verdict]
-    word = in_words(verdict) if language == "en" else phrase(f"verdict.{verdict.value}").zh
-    return Text(f"{sign} {word}".strip(), style=style)
+    return Text(f"{sign} {in_words(verdict, language)}".strip(), style=style)
 
 
-def in_words(verdict: Verdict) -> str:
-    """``not measured``."""
-    return verdict.value.replace("_", " ")
+def in_words(verdict: Verdict, language: Language = "en") -> str:
+    """``not measured``, 未测得."""
+    return verdict.value.replace("_", " ") if language == "en" else sentence(f"words.{verdict.value}").zh
 
 
 def new_table(*headings: str, numbers: tuple[str, ...] = (), title: str | None = None) -> Table:

@@ -7,7 +7,7 @@ the mouths, whose bores are known; whether it drops them before an empty backgro
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,15 +27,17 @@ from aadm_workbench.extract.section.strips import (
 from aadm_workbench.model import Array, Reason
 
 _FIRST_REACH_MM = 30.0  # sections are cast to within 5 mm, and patterns stand within 10 mm of their place in them
-_REACH_MM, _REACH_PITCHES = 6.0, 8.0  # to both sides of an edge that is known by and by
+_REACH_MM, _REACH_PITCHES = 4.0, 8.0  # to both sides of an edge that is known by and by; deeper chips are followed
 _CORNER_MM = 3.0  # of the neighbouring edge: nothing is asked so near to it
 _MOST_ASKEW_MM = 8.0  # from end to end: sections are cast to 5 mm, and what hides a part of one runs as it likes
 _MOST_OFF_MM = 8.0  # from its place by design: sections and patterns keep to 5 mm each
 _SETTLED_PITCHES = 1.0  # of a step of the line: places about it are then the same
 _BLIND_PITCHES = 1.0  # about an edge: places fill it where rows of pixels run across it at some angle
-_OWN_SHARE = 0.1  # of the overshoot: by so much it differs from edge to edge, for what is lit along it
+_OWN_SHARE = 0.06  # of the overshoot: by so much it differs from edge to edge, for what is lit along it
 _LEVEL_PITCHES = 4.0  # before an edge: farther than any sharp camera's blur
 _BLOCKS, _BLOCK_PLACES = 10, 20  # along an edge: what bends more often is no face that was cast
+_LEVEL_PLACES = 1200  # of which each block has a hundred, and a median a tenth of the noise
+_AT_END_MM = 1.5  # before the next edge: a strip there may be cut by it, and shallower chips are none
 _CHIP_LOOK_MM = 30.0  # half of how deep a chip is followed: what is deeper is no chip
 _ABOUT_MOUTH_MM = 2.0  # rims that are worn, or chamfered
 _WIDE_MM = 5.0  # about the face: as far as edges bend that are 0.5 mm from the middle of a pixel, seen from 1.5 m
@@ -85,10 +87,23 @@ class FoundEdge:
     line: Guess
     strips: Strips
     fit: StripLine
+    length_mm: float
     overshoot: Overshoot | None
     blind_mm: float
     lost_mm: float | None
     taken_mm: float
+
+
+@dataclass(frozen=True, eq=False)
+class _Ended:
+    """A line on which a face ends, and places (n,) about it, mm: along it, beyond it, and heights of what returned."""
+
+    line: Guess
+    strips: Strips
+    fit: StripLine
+    along: Array
+    off: Array
+    height: Array
 
 
 def find_edge(
@@ -109,15 +124,17 @@ def find_edge(
     ended = _ended(samples, guess, mouths, length_mm / 2.0 - _CORNER_MM, band_mm)
     if isinstance(ended, Reason):
         return ended
-    line, strips, fit, off, height = ended
-    overshoot = overshoot_of(off, height, band_mm, samples.pitch_mm)
-    why = overshoot if isinstance(overshoot, Reason) else _doubt(line, guess, samples, length_mm)
-    if why or isinstance(overshoot, Reason):
+    line = ended.line
+    overshoot = overshoot_of(ended.off, ended.height, band_mm, samples.pitch_mm)
+    if isinstance(overshoot, Reason):
+        return overshoot
+    why = _doubt(line, guess, samples, length_mm)
+    if why:
         return why
     lost_mm = lost_at_rim(samples, mouths, normal, band_mm) if overshoot is None else None
     taken_mm = taken_in(samples, along * line.middle_mm + normal * line.offset_mm, normal, band_mm)
-    blind_mm = _blind_mm(off, samples.pitch_mm)
-    return FoundEdge(line, strips, fit, overshoot, blind_mm, lost_mm, taken_mm)
+    blind_mm = _blind_mm(ended.along, ended.off, samples.pitch_mm)
+    return FoundEdge(line, ended.strips, ended.fit, length_mm, overshoot, blind_mm, lost_mm, taken_mm)
 
 
 def edge_lines(
@@ -129,20 +146,30 @@ def edge_lines(
     lost = [edge.lost_mm for edge in seen if edge.lost_mm is not None]
     # Who loses whole rings at mouths loses them before an empty background, too, or none there: either is as likely.
     lost_mm = 0.0 if mixed is not None else float(np.median(lost)) if lost else samples.pitch_mm
-    return {
-        side: _edge_line(samples, edge, mixed, lost_mm, mouths) if isinstance(edge, FoundEdge) else edge
-        for side, edge in found.items()
-    }
+    lines: dict[str, EdgeLine | Reason] = {}
+    for side, edge in found.items():
+        if isinstance(edge, Reason):
+            lines[side] = edge
+            continue
+        line = _edge_line(samples, edge, mixed, lost_mm)
+        chips = [
+            _deepened(samples, edge.line, chip, mouths) if chip.depth_mm >= edge.strips.reach_mm else chip
+            for chip in chips_of(edge.strips, edge.fit, edge.line.middle_mm)
+        ]
+        others = [other.line for other in seen if other is not edge]
+        trimmed = (_trimmed(chip, edge.line, others) for chip in chips)
+        lines[side] = replace(line, chips=tuple(chip for chip in trimmed if chip is not None))
+    return lines
 
 
-def _edge_line(
-    samples: FaceSamples, found: FoundEdge, mixed: Overshoot | None, lost_mm: float, mouths: KnownMouths
-) -> EdgeLine:
+def _edge_line(samples: FaceSamples, found: FoundEdge, mixed: Overshoot | None, lost_mm: float) -> EdgeLine:
+    """Without its chips."""
     line = found.line
     mixed = Overshoot(0.0, 0.0) if mixed is None else mixed
     covariance = found.fit.covariance.copy()
-    # What is as likely anywhere in a gap has a variance of its square over 12.
-    covariance[0, 0] += (_OWN_SHARE * mixed.beyond_mm) ** 2 + found.blind_mm**2 / 12.0
+    # What is as likely anywhere in a gap has a variance of its square over 12; at both ends a line may be off by it.
+    covariance += np.diag([found.blind_mm**2 / 12.0, (found.blind_mm / found.length_mm) ** 2])
+    covariance[0, 0] += (_OWN_SHARE * mixed.beyond_mm) ** 2
     # Of what a look at cells makes wider, anything from nothing to all is as likely.
     shared = mixed.u_mm, lost_mm / 2.0, 2.0 * samples.wider_mm / np.sqrt(12.0)
     return EdgeLine(
@@ -154,11 +181,21 @@ def _edge_line(
         covariance,
         float(np.linalg.norm(shared)),
         found.strips.seen,
-        tuple(
-            _deepened(samples, line, chip, mouths) if chip.depth_mm >= found.strips.reach_mm else chip
-            for chip in chips_of(found.strips, found.fit, line.middle_mm)
-        ),
+        (),
     )
+
+
+def _trimmed(chip: Chip, line: Guess, others: Sequence[Guess]) -> Chip | None:
+    """The part of a chip that lies within the other edges; None where none does: there the face itself has ended."""
+    run = np.linspace(chip.begin_mm, chip.end_mm, 2 * int(chip.end_mm - chip.begin_mm) + 2)
+    places = np.outer(run, line.along) + np.outer(line.offset_mm + line.turn * (run - line.middle_mm), line.normal)
+    inside = np.ones(len(run), bool)
+    for other in others:
+        end = other.offset_mm + other.turn * (places @ other.along - other.middle_mm)
+        inside &= places @ other.normal < end - _AT_END_MM
+    if not inside.any():
+        return None
+    return replace(chip, begin_mm=float(run[inside][0]), end_mm=float(run[inside][-1]))
 
 
 def _deepened(samples: FaceSamples, line: Guess, chip: Chip, mouths: KnownMouths) -> Chip:
@@ -177,18 +214,14 @@ def _deepened(samples: FaceSamples, line: Guess, chip: Chip, mouths: KnownMouths
     return replace(chip, depth_mm=max(chip.depth_mm, float(face[0]))) if len(face) else chip
 
 
-def _ended(
-    samples: FaceSamples, line: Guess, mouths: KnownMouths, half_mm: float, band_mm: float
-) -> tuple[Guess, Strips, StripLine, Array, Array] | Reason:
-    """The line on which the face ends: looked for in wide strips, then in narrow ones about what these give.
-
-    And how far from it places lie (n,) and how high over the face what returned there (n,), mm.
-    """
+def _ended(samples: FaceSamples, line: Guess, mouths: KnownMouths, half_mm: float, band_mm: float) -> _Ended | Reason:
+    """The line on which the face ends: looked for in wide strips, then in narrow ones about what these give."""
     fine_mm = max(_REACH_MM, _REACH_PITCHES * samples.pitch_mm)
-    ended: tuple[Guess, Strips, StripLine, Array, Array] | Reason = OUT_OF_PICTURE
+    ended: _Ended | Reason = OUT_OF_PICTURE
     for reach_mm, every in ((_FIRST_REACH_MM, _WIDE_EVERY), (fine_mm, _FINE_EVERY), (fine_mm, _FINE_EVERY)):
         s, d, height = _across(samples, line, mouths, half_mm, reach_mm, every)
-        d, height = _levelled(samples, line, s, d, height, band_mm)
+        if every == _FINE_EVERY:
+            d, height = _levelled(samples, line, s, d, height, band_mm)
         step = every[1] * samples.pitch_mm
         strips = ends_of_strips(s, d, np.abs(height) < band_mm, half_mm, reach_mm, (every[0] * samples.pitch_mm, step))
         if isinstance(strips, Reason):
@@ -197,7 +230,7 @@ def _ended(
         if isinstance(fit, Reason):
             return fit
         line = replace(line, offset_mm=line.offset_mm + fit.offset, turn=line.turn + fit.turn)
-        ended = line, strips, fit, d - fit.offset - fit.turn * s, height
+        ended = _Ended(line, strips, fit, s, d - fit.offset - fit.turn * s, height)
         if every == _FINE_EVERY and abs(fit.offset) < _SETTLED_PITCHES * samples.pitch_mm:
             break
     return ended
@@ -228,8 +261,10 @@ def _across(
     d = asked.xy @ line.normal - line.offset_mm - line.turn * s
     wanted = (np.abs(s) < half_mm) & (np.abs(d) < reach_mm)
     for centre, radius in zip(mouths.centres, mouths.radii.tolist(), strict=True):
-        if abs(float(centre @ line.normal) - line.offset_mm) < reach_mm + radius + _ABOUT_MOUTH_MM:
-            wanted &= np.hypot(*(asked.xy - centre).T) > radius + _ABOUT_MOUTH_MM
+        out, clear_mm = float(centre @ line.normal) - line.offset_mm, radius + _ABOUT_MOUTH_MM
+        if abs(out) < reach_mm + clear_mm:
+            beside, beyond = s - (float(centre @ line.along) - line.middle_mm), d - out + line.turn * s
+            wanted &= beside * beside + beyond * beyond > clear_mm**2
     return s[wanted], d[wanted], asked.height[wanted]
 
 
@@ -240,15 +275,14 @@ def _levelled(
 
     A line of sight meets what lies over the plane before it meets the plane.
     """
-    inner = (np.abs(height) < band_mm) & (d < -_LEVEL_PITCHES * samples.pitch_mm)
-    if samples.eye is None or not inner.any():
+    inner = np.flatnonzero((np.abs(height) < band_mm) & (d < -_LEVEL_PITCHES * samples.pitch_mm))
+    inner = inner[:: len(inner) // _LEVEL_PLACES + 1]
+    if samples.eye is None or len(inner) < _BLOCK_PLACES:
         return d, height
-    block = ((s[inner] - s[inner].min()) / (np.ptp(s[inner]) + 1.0) * _BLOCKS).astype(int)
-    known = [chosen for chosen in (block == number for number in range(_BLOCKS)) if chosen.sum() >= _BLOCK_PLACES]
-    if not known:
-        return d, height
-    at = [float(s[inner][chosen].mean()) for chosen in known]
-    level = np.interp(s, at, [float(np.median(height[inner][chosen])) for chosen in known])
+    # Blocks of as many places each, from end to end.
+    blocks = np.array_split(inner[np.argsort(s[inner], kind="stable")], min(_BLOCKS, len(inner) // _BLOCK_PLACES))
+    at = [float(s[block].mean()) for block in blocks]
+    level = np.interp(s, at, [float(np.median(height[block])) for block in blocks])
     near = height[inner] - level[inner]
     level += _rise(d[inner], near) * (d - float(np.median(d[inner])))
     slope = samples.slope_at(np.outer(line.middle_mm + s, line.along) + line.offset_mm * line.normal) @ line.normal
@@ -263,10 +297,19 @@ def _rise(d: Array, height: Array) -> float:
     return float((np.median(height[outer]) - np.median(height[~outer])) / (d[outer].mean() - d[~outer].mean()))
 
 
-def _blind_mm(off: Array, pitch_mm: float) -> float:
-    """The widest gap, mm, between distances from an edge at which anything was asked, next to it.
+def _blind_mm(s: Array, off: Array, pitch_mm: float) -> float:
+    """The widest gap, mm, between distances from an edge at which anything was asked: that of usual parts of it.
 
-    Rows of pixels that run along an edge all lie on one side of it or the other: how far, nobody knows.
+    Rows of pixels that run along an edge all lie on one side of it or the other: how far, nobody knows, and where they
+    cross it once or twice, its line hangs on where they do.
     """
-    near = np.sort(off[np.abs(off) < _BLIND_PITCHES * pitch_mm])
-    return float(np.diff(near).max(initial=0.0)) if len(near) else 0.0
+    near = np.abs(off) < _BLIND_PITCHES * pitch_mm
+    s, off = s[near], off[near]
+    if len(s) == 0:
+        return 0.0
+    part = ((s - s.min()) / (np.ptp(s) + pitch_mm) * _BLOCKS).astype(int)
+    order = np.lexsort((off, part))
+    gaps = np.where(np.diff(part[order]) == 0, np.diff(off[order]), 0.0)
+    widest = np.zeros(_BLOCKS)
+    np.maximum.at(widest, part[order][1:], gaps)
+    return float(np.sqrt(np.mean(widest**2)))

@@ -30,6 +30,22 @@ SENTENCES: dict[str, Sentence] = {
         "(--debug shows where)",
         "{model} 无法求值：其中有内容不合其格式（{error}）；请重新导出（--debug 可显示位置）",
     ),
+    "run.defect": Sentence(
+        '--defect "{text}" is none: write COLUMN: POINT DX,DY in mm, as in "C-302: R5 +7.5,0", or "C-301: S7 plugged"',
+        '--defect "{text}" 无法识别：格式为 COLUMN: POINT DX,DY（mm），例如 "C-302: R5 +7.5,0"，或 "C-301: S7 plugged"',
+    ),
+    "run.defect_column": Sentence(
+        "--defect names column {column}, but these are made: {ids}; name one of them, or ask for more with --columns",
+        "--defect 指定了柱 {column}，但生成的柱为：{ids}；请指定其中之一，或用 --columns 增加",
+    ),
+    "run.defect_far": Sentence(
+        '--defect "{text}": at most {most_mm:g} mm, beyond that a bar stands in the place of another',
+        '--defect "{text}"：最多 {most_mm:g} mm，再远就到了另一根钢筋的位置',
+    ),
+    "run.defect_point": Sentence(
+        '--defect "{text}": a column has points 1 to {most:d}',
+        '--defect "{text}"：每根柱只有 1 至 {most:d} 号测点',
+    ),
     "run.journal_changed": Sentence(
         "{file}: was changed while it was written; check again without --resume",
         "{file}：写入期间被改动；请不带 --resume 重新检查",

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from aadm_workbench.report.sheets.tables import CellKind
 
-_DECIMALS: dict[CellKind, int] = {"mm": 2, "mm_fine": 3, "deg": 2, "ratio": 2, "count": 0}
+_DECIMALS: dict[CellKind, int] = {"mm": 2, "mm_signed": 2, "mm_fine": 3, "deg": 2, "ratio": 2, "count": 0}
 
 
 def is_number(kind: CellKind) -> bool:
@@ -15,11 +15,13 @@ def is_number(kind: CellKind) -> bool:
 
 
 def number_text(value: float | int | str, kind: CellKind) -> str:
-    """``2.41``, ``0.054``, ``95.0 %``; never a minus before a zero."""
+    """``2.41``, ``+0.31``, ``0.054``, ``95.0 %``; never a minus before a zero."""
     if isinstance(value, str):
         return value
     if kind == "share":
         return f"{100.0 * value:.1f} %"
+    if kind == "mm_signed":
+        return signed(value)
     text = f"{value:.{_DECIMALS.get(kind, 2)}f}"
     return text.removeprefix("-") if float(text) == 0.0 else text
 
