@@ -45,8 +45,8 @@ _FEWEST = 40  # points of a side (a choice: ±30 % moves nothing on sound scans)
 # neighbouring points of a side share their errors: standard errors are this much larger; a choice: ±30 % changes what
 # is found
 _CORRELATION = 1.8
-# of the noise that is read from the sides: half to three times that of the reference camera at 1 m (0.10)
 _NOISE_MM = 0.15  # to begin with: half as much again as the reference camera has at 1 m
+# of the noise that is read from the sides: half to three times that of the reference camera at 1 m (0.10)
 _LAW_WIDTH_MM = (0.05, 0.3)
 # of the points of a side, and how far they stand out on average: ribs of 0.9 mm with slanted flanks; a choice: ±30 %
 # changes what is found
