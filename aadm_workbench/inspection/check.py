@@ -252,7 +252,7 @@ def _extracted(
     known: Known | None = None,
 ) -> Extraction:
     """The points of a scan, set right by what was learned of its camera: with the method that it was learned with."""
-    found = extract_sizes(scan, kind, _diameters_mm(points), settings.method, rng, places, known)
+    found = extract_sizes(scan, kind, _diameters_mm(points), settings.method, rng, places, known=known)
     return with_learned_edges(found, scan.learned) if settings.method == "refined" else found
 
 

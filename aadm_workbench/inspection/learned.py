@@ -26,12 +26,15 @@ def notes_on_profile(profile: CameraProfile, camera: Camera | None, capture: Map
         What the job says of the capture: ``camera_serial``, ``settings``, ``date``.
     """
     notes = []
-    for key, known in (("camera_serial", profile.serial), ("settings", profile.settings)):
-        told = capture.get(key, "")
-        if told and known and told != known:
-            notes.append(Reason(f"calibration.other_{key}", told=told, known=known))
-        elif not told or not known:
-            notes.append(Reason(f"calibration.no_{key}"))
+    serial, settings = capture.get("camera_serial", ""), capture.get("settings", "")
+    if not serial or not profile.serial:
+        notes.append(Reason("calibration.no_camera_serial"))
+    elif serial != profile.serial:
+        notes.append(Reason("calibration.other_camera_serial", told=serial, known=profile.serial))
+    if not settings or not profile.settings:
+        notes.append(Reason("calibration.no_settings"))
+    elif settings != profile.settings:
+        notes.append(Reason("calibration.other_settings", told=settings, known=profile.settings))
     if camera is not None and _differ(camera, profile.camera):
         notes.append(Reason("calibration.other_intrinsics"))
     return (*notes, *_age(profile, capture.get("date", "")))

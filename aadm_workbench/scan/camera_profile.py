@@ -104,7 +104,7 @@ def read_profile(path: Path, source: str = "") -> CameraProfile:
     numbers = [*learned.scale, *learned.sleeves.stretch, *learned.rebars.stretch]
     numbers += [learned.sleeves.spread, learned.rebars.spread]
     if not all(math.isfinite(one) and abs(one) < _FARTHEST for one in numbers):
-        raise CameraError(said_of(source or path, "calibration.no_profile", why="scale, stretch, spread"))
+        raise CameraError(said_of(source or path, "calibration.far_profile", most=100.0 * _FARTHEST))
     one = found.camera
     intrinsics = Intrinsics("", one.fx, one.fy, one.cx, one.cy, one.width, one.height, learned.scale[1])
     return CameraProfile(

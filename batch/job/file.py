@@ -208,7 +208,7 @@ def _camera_profile(top: JobTable, folder: Path) -> CameraProfile | None:
     try:
         return read_profile(folder / name, name)
     except (CameraError, ScanError) as error:
-        raise table.wrong("profile", str(error)) from error
+        raise table.wrong("profile", "said.sentences", parts=(error.reason,)) from error
 
 
 def _capture(top: JobTable) -> dict[str, str]:

@@ -22,7 +22,7 @@ from aadm_workbench.calibration.plate.plate import Plate
 from aadm_workbench.model import Array, Kind, Measure
 
 _COVERED = 0.95  # two-sided: u is such that 1.96 of it cover what a small number of captures would with Student's t
-_USUAL = 1.959964
+_USUAL = 1.959964  # standard deviations of a normal law that hold 95 %
 _START_MM = 0.05  # scatter of a centre, to begin with: what a good camera has
 _ROUNDS = 4  # of weights: they change by less than a hundredth afterwards
 

@@ -18,6 +18,10 @@ SENTENCES: dict[str, Sentence] = {
         "a plate needs {fewest} holes and {fewest} pins, or more, each with a label of its own",
         "标定板需要至少 {fewest} 个孔和 {fewest} 个销，各有不同的标号",
     ),
+    "calibration.far_profile": Sentence(
+        "its scale, a stretch or a spread is no number, or above {most:g} %; use aadm camera learn again",
+        "其尺度、伸长或差异不是数值，或大于 {most:g} %；请用 aadm camera learn 重新学习",
+    ),
     "calibration.few_captures": Sentence(
         "a camera is learned from {fewest} captures of the plate or more, one turned by each quarter; "
         "these are {count}",
