@@ -106,3 +106,24 @@ def test_without_a_model_the_sides_of_the_column(floor: dict[str, Any]) -> None:
 
 def test_nothing_to_move(floor: dict[str, Any]) -> None:
     assert compass_of(grid_of(typed(floor)), of_column(floor["columns"][0])).in_words((0.01, -0.02)) == ("", "")
+
+
+def test_the_axes_of_the_model_lead_where_no_other_column_does(floor: dict[str, Any]) -> None:
+    """One column alone knows the next axes from the model's grid, also where it is turned and stands between them."""
+    column = floor["columns"][0]
+    T = np.array(column["T_model_column"])
+    turn = math.radians(GRID_DEG)
+    u, v = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
+    place = T[:2, 3]
+
+    def axis(tag: str, family: str, through: Any, along: Any) -> dict[str, Any]:
+        ends = [(through + sign * 9000.0 * along).tolist() for sign in (-1.0, 1.0)]
+        return {"tag": tag, "family": family, "start_mm": ends[0], "end_mm": ends[1]}
+
+    grid = [axis(name, "u", place + k * 7000.0 * v, u) for k, name in enumerate("XYZ", start=-1)]
+    grid += [axis(str(k + 7), "v", place + k * 6000.0 * u, v if k else -v) for k in (-1, 0, 1)]
+    alone = typed(floor | {"columns": [column | {"grid": None}], "grid": grid})
+    compass = compass_of(grid_of(alone), alone.columns[0])
+    for way, tag in ((u, "8"), (-u, "6"), (v, "Z"), (-v, "X")):
+        told = compass.in_words(3.0 * (T[:2, :2].T @ way))
+        assert (told.en, told.zh) == (f"3.0 mm towards grid {tag}", f"向 {tag} 轴 3.0 mm")

@@ -32,7 +32,7 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "run.defect": Sentence(
         '--defect "{text}" is none: write COLUMN: POINT DX,DY in mm, as in "C-302: R5 +7.5,0", or "C-301: S7 plugged"',
-        '--defect "{text}" 无法识别：请写 柱: 测点 DX,DY（mm），例如 "C-302: R5 +7.5,0"，或 "C-301: S7 plugged"',
+        '--defect "{text}" 无法识别：格式为 COLUMN: POINT DX,DY（mm），例如 "C-302: R5 +7.5,0"，或 "C-301: S7 plugged"',
     ),
     "run.defect_column": Sentence(
         "--defect names column {column}, but these are made: {ids}; name one of them, or ask for more with --columns",

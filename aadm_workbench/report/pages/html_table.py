@@ -8,7 +8,7 @@ from html import escape
 
 from aadm_workbench.report.sheets.numbers import is_number, number_text
 from aadm_workbench.report.sheets.tables import Cell, CellKind, Heading, Row
-from aadm_workbench.report.words.labels import Language, Phrase, all_words, phrase, verdict_words
+from aadm_workbench.report.words.labels import Language, Phrase, all_words, phrase, rule_words, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
 _INPUTS = ("sleeves", "rebars", "hoisting")
@@ -41,12 +41,15 @@ class TableWriter:
             return self._verdict(str(cell))
         if is_number(kind):
             return f"<td>{escape(number_text(cell, kind))}"
-        text = str(cell)
+        held = str(cell)
         if kind == "source":
-            return f"<td class={'uv' if text == 'unverified' else 't'}{self._said(phrase(f'ui.{text}'))}"
-        if text in _INPUTS:
-            return f"<td class=t{self._said(all_words()[f'ui.{text}'])}"
-        return f"<td class={'uv' if text.endswith(_UNVERIFIED) else 't'}{self._said(in_both_languages(cell if isinstance(cell, str) else text))}"
+            return f"<td class={'uv' if held == 'unverified' else 't'}{self._said(phrase(f'ui.{held}'))}"
+        if kind == "rule":
+            return f"<td class=t{self._said(rule_words(held))}"
+        if held in _INPUTS:
+            return f"<td class=t{self._said(all_words()[f'ui.{held}'])}"
+        said = in_both_languages(cell if isinstance(cell, str) else held)
+        return f"<td class={'uv' if held.endswith(_UNVERIFIED) else 't'}{self._said(said)}"
 
     def _in_cell(self, said: Phrase) -> str:
         """The rest of an opening tag, and the text."""

@@ -11,7 +11,7 @@ from aadm_workbench.report.pages.pdf_flow import Block
 from aadm_workbench.report.pages.pdf_text import lines_of, printable, shortened, width_of
 from aadm_workbench.report.sheets.numbers import is_number, number_text
 from aadm_workbench.report.sheets.tables import Cell, Heading, Row
-from aadm_workbench.report.words.labels import COLOUR, HEAD, INK, Language, phrase, verdict_words
+from aadm_workbench.report.words.labels import COLOUR, HEAD, INK, Language, phrase, rule_words, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
 SIZE = 7.0
@@ -186,6 +186,8 @@ def _text(cell: Cell, heading: Heading, language: Language) -> str:
         return number_text(cell, heading.kind)
     if heading.kind == "verdict":
         return verdict_words(str(cell), language)
+    if heading.kind == "rule":
+        return rule_words(str(cell)).in_language(language)
     if heading.kind == "source" or cell in ("sleeves", "rebars", "hoisting"):
         return phrase(f"ui.{cell}").in_language(language)
     return shortened(in_both_languages(str(cell)).in_language(language), *_LONGEST_CELL)

@@ -186,12 +186,12 @@ def mould_table(report: JobReport) -> Table:
 def profile_table(report: JobReport) -> Table:
     """The limits of the job's tolerance profile."""
     headings = (
-        heading("rule"),
+        heading("rule", "rule"),
         heading("lower_limit", "mm"),
         heading("upper_limit", "mm"),
         heading("clause"),
         heading("source", "source"),
-        heading("severity"),
+        heading("severity", "rule"),
         heading("advisory"),
         heading("note"),
     )

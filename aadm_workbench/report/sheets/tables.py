@@ -17,7 +17,7 @@ from aadm_workbench.report.words.labels import Phrase, phrase
 Cell: TypeAlias = str | float | int | None
 Row: TypeAlias = tuple[Cell, ...]
 CellKind: TypeAlias = Literal[
-    "text", "source", "verdict", "mm", "mm_signed", "mm_fine", "deg", "share", "ratio", "count"
+    "text", "rule", "source", "verdict", "mm", "mm_signed", "mm_fine", "deg", "share", "ratio", "count"
 ]
 """What the cells of a column hold; ``mm_signed`` are offsets and what is measured minus design."""
 
@@ -117,7 +117,7 @@ HOISTING = (
     heading("reason"),
 )
 RULES = (
-    heading("rule"),
+    heading("rule", "rule"),
     heading("largest", "mm"),
     heading("verdict", "verdict"),
     heading("counted"),

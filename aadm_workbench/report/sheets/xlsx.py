@@ -16,7 +16,8 @@ from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import JobReport
 from aadm_workbench.report.sheets.sheets import job_tables
 from aadm_workbench.report.sheets.tables import Cell, CellKind, Table
-from aadm_workbench.report.words.labels import HEAD, SIGN, Language, phrase, verdict_words
+from aadm_workbench.report.words.labels import HEAD, SIGN, Language, phrase, rule_words, verdict_words
+from aadm_workbench.report.words.reasons import in_both_languages
 
 _FORMATS: dict[CellKind, str] = {
     "mm": "0.00",
@@ -110,8 +111,16 @@ class _Sheets:
         elif kind == "verdict":
             sheet.write_string(row, column, verdict_words(cell, self.language))
         else:
-            said = phrase(f"ui.{cell}").in_language(self.language) if kind == "source" else cell
+            said = self._in_words(cell, kind)
             sheet.write_string(row, column, said[:_LONGEST_CELL], self.label if column == 0 else self.text)
+
+    def _in_words(self, cell: str, kind: CellKind) -> str:
+        """A text in the language of the workbook; names, and what the table of sentences does not know, stay."""
+        if kind == "source":
+            return phrase(f"ui.{cell}").in_language(self.language)
+        if kind == "rule":
+            return rule_words(cell).in_language(self.language)
+        return in_both_languages(cell).in_language(self.language) if self.language == "zh" else cell
 
     def _arrange(self, sheet: Any, table: Table, titles: list[str]) -> None:
         last_row, last_column = max(len(table.rows), 1), len(titles) - 1

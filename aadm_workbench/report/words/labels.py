@@ -61,6 +61,11 @@ def phrase(name: str, /, **values: object) -> Phrase:
     return found.filled(**values) if values else found
 
 
+def rule_words(name: str) -> Phrase:
+    """The name of a tolerance rule, or of its severity; a profile's own names stay as they are."""
+    return all_words().get(f"rule.{name}", Phrase(name, name))
+
+
 def verdict_words(verdict: str, language: Language) -> str:
     """A verdict as people read it: ``✗ fail``."""
     return f"{SIGN[verdict]} {all_words()[f'verdict.{verdict}'].in_language(language)}"
