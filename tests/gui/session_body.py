@@ -192,43 +192,6 @@ result["said_for_good_scans"] = import_scan(scans / "C-302-foot.tiff", "sleeves"
 )
 result["scans"] = [[cloud.Kind, cloud.PointCount, len(cloud.Points)] for cloud in column.Scans]
 
-# Capture: no camera named, one that is not there, then one that plays a capture again; taken back by one undo.
-from aadm_workbench.gui.panels.capture import CapturePanel
-
-camera_folder = folder / "camera"
-camera_folder.mkdir()
-(camera_folder / "depth.tiff").write_bytes((scans / "C-302-foot.tiff").read_bytes())
-(camera_folder / "camera.toml").write_text(f"{intrinsics.read_text()}depth_scale_mm = 0.03\n")
-Gui.Selection.clearSelection()
-Gui.Selection.addSelection(column)
-Gui.runCommand("AADM_CaptureScan")
-capturing = panel(CapturePanel)
-result["capture_kept_in"] = capturing.folder.text()
-capturing.camera.setText("")
-capturing.start()
-result["said_without_camera_named"] = sentences()
-capturing.camera.setText(f"replay:{camera_folder}")
-capturing.start()
-result["said_without_folder"] = sentences()
-capturing.folder.set_text(str(folder / "captures"))
-capturing.camera.setText(f"replay:{folder / 'nowhere'}")
-capturing.start()
-spin(capturing.start_button.isEnabled, 30)
-result["said_for_no_camera"] = sentences()
-capturing.camera.setText(f"replay:{camera_folder}")
-before = len(column.Scans)
-capturing.start()
-spin(lambda: len(column.Scans) > before and capturing.start_button.isEnabled(), 30)
-result["said_by_capture"] = sentences()
-result["captures"] = sorted(path.name for path in (folder / "captures").iterdir())
-captured = column.Scans[-1]
-result["captured"] = [captured.Kind, captured.PointCount, Path(captured.File).name]
-screenshot("capture.png")
-capturing.reject()
-result["capture_undo"] = document.UndoNames[0]
-document.undo()
-result["scans_after_capture_undone"] = len(column.Scans)
-
 # Check: cancelled, then to its end, while the window lives.
 from aadm_workbench.gui.panels.check import CheckPanel
 
