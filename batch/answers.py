@@ -42,6 +42,7 @@ def columns(question: Mapping[str, Any]) -> FoundColumns:
         "source": model.source,
         "sha256": model.sha256,
         "schema": model.schema,
+        "project": model.project,
         "warnings": list(model.warnings),
         "columns": [write_design(design) for design in found],
         "bodies": [_in_column_frame(bodies.get(design.global_id or "", ()), design) for design in found],

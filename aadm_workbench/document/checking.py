@@ -73,7 +73,8 @@ def _model_of(column: Any) -> dict[str, str] | None:
     """The model as reports name it: that which the design was taken from, not the file that handed it over."""
     if not column.ModelSha256:
         return None
-    return {"source": Path(column.ModelFile).name, "sha256": column.ModelSha256}
+    project = {"ifc_project": column.ModelProject} if column.ModelProject else {}
+    return {"source": Path(column.ModelFile).name, "sha256": column.ModelSha256, **project}
 
 
 def check_unchanged(cloud: Any) -> None:

@@ -97,6 +97,13 @@ PROPERTIES = (
     ),
     Property(
         "App::PropertyString",
+        "ModelProject",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "GlobalId of the project in that file, where it is IFC"),
+        mode=HIDDEN,
+    ),
+    Property(
+        "App::PropertyString",
         "Body",
         _IDENTITY,
         QT_TRANSLATE_NOOP("App::Property", "Body of the column, as its model draws it: thin, in the column frame"),

@@ -37,6 +37,7 @@ class FoundColumns(TypedDict):
     sha256: str
     schema: str
     warnings: list[str]
+    project: str
     columns: list[str]
     bodies: list[list[list[list[float]]]]
 

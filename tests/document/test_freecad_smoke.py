@@ -43,7 +43,7 @@ def test_freecad_reads_package_xml(freecad, repository: Path) -> None:
         "sys.path[:0] = [str(pathlib.Path(home, 'Mod', 'AddonManager')) for home in homes]\n"
         "from Addon import Addon\n"
         "addon = Addon('AADM', 'https://example.org/given/by/its/user', Addon.Status.NOT_INSTALLED, 'theirs')\n"
-        "addon.set_metadata(package)\n"
+        f"addon.load_metadata_file({str(repository / 'package.xml')!r})\n"
         "result['addon'] = [addon.display_name, addon.url, addon.branch, str(addon.repo_type), sorted(addon.tags)]\n"
         "result['python'] = sorted({*addon.python_requires, *addon.python_optional, *addon.requires})\n"
     )

@@ -144,7 +144,10 @@ def faults_of_table(table, picture):
                 continue
             if metrics.horizontalAdvance(item.text()) > rect.width() + _SPARE_PX and not item.toolTip():
                 found.append(f"cell {item.text()!r} is cut, and no tooltip has it")
-            contrast = contrast_in(picture, on_screen(table.viewport(), rect) & seen_rect(table.viewport()))
+            seen = on_screen(table.viewport(), rect) & seen_rect(table.viewport())
+            if 2 * seen.height() <= rect.height():
+                continue
+            contrast = contrast_in(picture, seen)
             if contrast < LEAST_CONTRAST:
                 found.append(f"cell {item.text()!r} hardly stands out: {contrast:.2f}")
     return found

@@ -32,7 +32,7 @@ def spin(until, limit_s=60.0):
     while not until() and time.perf_counter() - begin < limit_s:
         Gui.updateGui()
         rounds += 1
-        time.sleep(0.005)
+        time.sleep(0.02)
         now = time.process_time()  # of this process: others may be at work on the machine
         longest_gap_s = max(longest_gap_s, now - last)
         last = now

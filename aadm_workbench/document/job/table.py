@@ -110,6 +110,7 @@ def design_text(columns: Sequence[Any]) -> str:
         designs[column.ColumnId] = design
     first = columns[0]
     origin = {"source": Path(first.ModelFile).name or first.Document.Label, "sha256": first.ModelSha256}
+    origin["project"] = first.ModelProject
     return write_model(origin, designs)
 
 

@@ -1216,6 +1216,10 @@
    <translation>IFC 中的 GlobalId</translation>
   </message>
   <message>
+   <source>GlobalId of the project in that file, where it is IFC</source>
+   <translation>该文件为 IFC 时，其中项目的 GlobalId</translation>
+  </message>
+  <message>
    <source>Grid axes</source>
    <translation>轴线</translation>
   </message>
