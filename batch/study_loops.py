@@ -26,7 +26,8 @@ class LoopEnd:
 
 def run_loop(seed: int, most_frames: int, *, arm: bool = False) -> LoopEnd:
     """One column, until the state says ready and the controller lets it down."""
-    column, looks, number = drawn_column(seed, arm=arm), (), 0
+    looks: tuple[Look, ...] = ()
+    column, number = drawn_column(seed, arm=arm), 0
     while number < most_frames and not column.landed:
         number += 1
         looks = act_on_frame(column, looks, number)

@@ -8,9 +8,8 @@ from typing import Any
 
 import FreeCAD
 
-from aadm_workbench.design.design_text import write_design
-from aadm_workbench.document import column as columns
-from aadm_workbench.document.groups import put_into_group
+from aadm_workbench.design.design_text import read_design, write_design
+from aadm_workbench.document.groups import columns_in, is_column, put_into_group
 from aadm_workbench.errors import DesignError
 
 translate = FreeCAD.Qt.translate
@@ -21,7 +20,7 @@ class _Belongings:
 
     def slotDeletedObject(self, obj: Any) -> None:
         """Scans and result go with their column, in the same undo step; undoing brings back what it took itself."""
-        if not columns.is_column(obj) or obj.Document.Transacting:
+        if not is_column(obj) or obj.Document.Transacting:
             return
         for part in (*obj.Scans, obj.Result):
             if part is not None and _is_alone(part, obj):
@@ -54,7 +53,7 @@ def own_up(column: Any) -> None:
     column.Label = f"AADM {column.ColumnId}"
     column.Model, column.GlobalId = None, ""
     try:
-        design = columns.column_design(column)
+        design = read_design(column.Design, column.Label)
         column.Design = write_design(replace(design, id=column.ColumnId, global_id=None, names=(column.ColumnId,)))
     except DesignError:
         pass  # one without a design stays without
@@ -69,7 +68,7 @@ def own_up(column: Any) -> None:
 
 
 def _free_id(column: Any) -> str:
-    known = {other.ColumnId for other in columns.columns_in(column.Document) if other.Name != column.Name}
+    known = {other.ColumnId for other in columns_in(column.Document) if other.Name != column.Name}
     if column.ColumnId not in known:
         return str(column.ColumnId)  # merged in from another document
     called = translate("AADM", "{column} (copy)").format(column=column.ColumnId)
@@ -78,4 +77,4 @@ def _free_id(column: Any) -> str:
 
 
 def _is_alone(part: Any, column: Any) -> bool:
-    return all(parent.Name == column.Name for parent in part.InList if columns.is_column(parent))
+    return all(parent.Name == column.Name for parent in part.InList if is_column(parent))

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.design.design_text import read_design
-from aadm_workbench.document.column import columns_in, make_column, set_design
+from aadm_workbench.document.column import make_column, set_design
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.job.table import sha256_of
 from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.report.annotate import objects_by_global_id

@@ -7,7 +7,7 @@ from typing import Any
 import FreeCAD
 import FreeCADGui
 
-from aadm_workbench.document.column import columns_in, owner_of
+from aadm_workbench.document.groups import columns_in, owner_of
 from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.view_camera import active_view
 

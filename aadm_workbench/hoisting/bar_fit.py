@@ -35,8 +35,11 @@ _ABOVE_MM = 14.0  # how far above the level of all tops one may end: by right th
 # about the radius, from a first guess of some mm down to what a rib of 0.9 mm stands out by and its noise
 _BANDS_MM = (3.0, 2.0, 1.6, 1.6, 1.6)
 _SETTLED_MM = 0.01  # a third of the uncertainty's floor below
+_TRACKED_ROUNDS = 2  # bars stand where they stood in the frame before
 _LAST_ROUNDS = 2  # with the scatter that the bars show: all else is settled before
 _INWARDS_MM = 1.0  # ribs only stand outwards: what lies farther inside of the core is a stray
+# of a window, evenly taken: half of them are the side's; where it is known already, fewer find 300 of them
+_PIXELS, _TRACKED_PIXELS = 4_000, 2_000
 _POINTS_MAX = 300  # of a side, evenly taken: neighbours share their errors, more of them tell little
 _FEWEST = 40  # points of a side (a choice: ±30 % moves nothing on sound scans)
 # neighbouring points of a side share their errors: standard errors are this much larger; a choice: ±30 % changes what
@@ -130,7 +133,8 @@ def fit_bars(
         state.pooled[:], state.own[:, 2:] = before.state.pooled, before.state.own[:, 2:]
     if starts is not None:
         state.own[:, :2] = np.where(np.isfinite(starts), starts, state.own[:, :2])
-    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2) for centre in state.centres]
+    pixels = _PIXELS if before is None else _TRACKED_PIXELS
+    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2, pixels) for centre in state.centres]
     sigma = np.tile([_LEAN_SIGMA, _LEAN_SIGMA, 1e-4, _OWN_RADIUS_MM], (len(sides), 1))
     believed = Believed(np.array([nominal_mm]), np.array([_RADIUS_SIGMA_MM]), sigma, np.zeros((len(sides), OWN - 2)))
     # how points scatter about cores is the bars', and not the frame's
@@ -139,7 +143,7 @@ def fit_bars(
         state, law = _settled(sides, state, pattern, believed, law)
     terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
     pattern = as_built(loosened(pattern, state), state, counts >= _FEWEST)
-    for _ in range(_LAST_ROUNDS):
+    for _ in range(_LAST_ROUNDS if before is None else _TRACKED_ROUNDS):
         system = _system(terms, pattern, believed, state)
         state, _ = system.stepped(state)
         terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
@@ -159,7 +163,7 @@ def fit_bars(
         radius_mm=float(state.pooled[0]),
         noise_mm=law.width_mm,
         evidence=_own_system(terms, believed, state).evidence(state, seen, _FLOOR_MM),
-        state=state,
+        state=state if before is None else before.state,
     )
 
 
@@ -195,7 +199,9 @@ def _own_system(terms: Terms, believed: Believed, state: State) -> System:
     return system
 
 
-def _side(frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float) -> _Side | None:
+def _side(
+    frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float, most: int
+) -> _Side | None:
     """What is seen of a bar about a place; None where nothing is, or it is out of the picture."""
     reach = radius_mm + _BANDS_MM[0]
     corners = np.array(
@@ -214,7 +220,7 @@ def _side(frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, r
     high = np.minimum(np.ceil(pixels.max(axis=0)).astype(int) + 1, frame.shape[::-1])
     if (high - low < 3).any():
         return None
-    step = max(1, int(np.sqrt(np.prod(high - low) / 4000)))
+    step = max(1, int(np.sqrt(np.prod(high - low) / most)))
     points = frame.points[low[1] : high[1] : step, low[0] : high[0] : step]
     local = axes.local(points[_borne(points[..., 2])].astype(np.float64))
     near = np.hypot(*(local[:, :2] - centre).T) < reach

@@ -7,6 +7,7 @@ and all is put together, with what the pattern knows of sleeves that show little
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,7 +35,8 @@ from aadm_workbench.model import Array, BoolArray, IntArray
 _WALL, _PUSH = range(2)  # places of the bores' radius and push among the pooled unknowns
 # about the radius, from a first pose that is right within some mm down to what ribs of 1 mm leave
 _BANDS_MM = (6.0, 4.0, 2.5, 1.5, 1.0, 1.0)
-_TRACKED_BANDS_MM = (4.0, 1.5, 1.0)  # about the radius, of a column that moved by some mm since the last frame
+_LAST_ROUNDS, _LAST_TRACKED_ROUNDS = 3, 2  # with the push: what the frame before has found is nearer to begin with
+_TRACKED_BANDS_MM = (3.0, 1.0)  # about the radius, of a column that moved by some mm since the last frame
 _LOOSE_FROM_MM = 2.0  # in narrower bands bores are found: what then stands far from its place is not to pull the others
 _WALL_FROM_MM = 1.15  # chamfers end before
 _WALL_MAX = 200  # of a bore, evenly taken: neighbours share their errors, more of them tell little
@@ -126,13 +128,16 @@ def fit_foot(
     floor_mm = float(np.hypot(_PUSH_FLOOR_PITCHES * _typical_pitch_mm(rays), _of_face_height_mm(face, state.centres)))
     believed = _with_push(believed, push, floor_mm)
     pattern = as_built(pattern, state, np.array([len(wall) >= _WALL_FEWEST for wall in walls]))
-    for _ in range(3):
+    for _ in range(_LAST_ROUNDS if before is None else _LAST_TRACKED_ROUNDS):
         state, _ = _system(views, walls, state, pattern, believed)[0].stepped(state)
-    covariance = _system(views, walls, state, pattern, believed)[0].covariance()[0]
+    system, _ = _own_system(views, walls, state, believed)
+    alone = deepcopy(system)
+    system.add_pattern(pattern, state)
+    covariance = system.covariance()[0]
     counts = np.array([len(wall) for wall in walls])
-    own_mm = np.sqrt(np.diag(covariance).reshape(-1, 2).max(axis=1))
+    variances = np.diag(covariance)
+    own_mm = np.sqrt(np.where(variances > 0.0, variances, np.inf)).reshape(-1, 2).max(axis=1)
     seen = (counts >= _WALL_FEWEST) & (own_mm < _SEEN_MM)
-    alone, _ = _own_system(views, walls, state, believed)
     return FootFit(
         centres=state.centres,
         covariance=covariance + _FLOOR_MM**2 * np.eye(len(covariance)),

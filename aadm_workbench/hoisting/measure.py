@@ -25,7 +25,7 @@ from aadm_workbench.hoisting.pairs import HungFit, report_pairs, unmeasured
 from aadm_workbench.hoisting.pattern_fit import Pattern
 from aadm_workbench.hoisting.sense import shown_sleeves, why_half, why_not_bars, why_not_foot
 from aadm_workbench.hoisting.sighting import SightedMeasurement, Sighting, with_sighting
-from aadm_workbench.hoisting.track import Found, follow, is_lost
+from aadm_workbench.hoisting.track import Found, follow, has_lost_bars, has_lost_foot
 from aadm_workbench.hoisting.turn_findings import held_while_ambiguous, with_turn_finding
 from aadm_workbench.hoisting.unseen import measured_labels
 from aadm_workbench.model import (
@@ -152,10 +152,15 @@ def _tracked(scan: Scan, column: _Column, after: Sighting) -> SightedMeasurement
     found = None if isinstance(frame, NoFrame) else follow(frame, after)
     if found is None or isinstance(frame, NoFrame):
         return None
-    measured = _measured(scan, frame, column, found, after.tracked + 1)
-    if isinstance(measured, SightedMeasurement) and not is_lost(measured.sighting.hung, after.hung):
-        return measured
-    return None
+    with np.errstate(all="ignore"):  # what is lost is fitted to nothing
+        foot = _foot(frame, found, column.as_far_as_oriented(after.orientation))
+        if has_lost_foot(foot, after.hung.foot):
+            return None
+        hung = _bars(frame, found, foot, column.as_far_as_oriented(after.orientation))
+    if has_lost_bars(hung, after.hung):
+        return None
+    measured = _measured(scan, frame, column, found, after.tracked + 1, hung)
+    return measured if isinstance(measured, SightedMeasurement) else None
 
 
 def _searched(frame: HoistingFrame, column: _Column) -> Found | str:
@@ -176,16 +181,19 @@ def _searched(frame: HoistingFrame, column: _Column) -> Found | str:
     return matched.reason if isinstance(matched, NoMatch) else Found(face, bars, matched)
 
 
-def _measured(scan: Scan, frame: HoistingFrame, column: _Column, found: Found, tracked: int) -> HoistingMeasurement:
+def _measured(
+    scan: Scan, frame: HoistingFrame, column: _Column, found: Found, tracked: int, fitted: HungFit | None = None
+) -> HoistingMeasurement:
+    """Fit what was found, unless that is done, test it against the scans from before hoisting, and report it."""
     design, settings, matched = column.design, column.settings, found.matched
     column = column.as_far_as_oriented(matched.orientation)
-    foot = _foot(frame, found, column)
+    foot = _foot(frame, found, column) if fitted is None else fitted.foot
     moved = moved_since(column.sleeves_before, _labels(design.sleeves), foot.centres, foot.covariance, foot.seen)
     if moved and column.sleeves_before is not None:
         known = still_known(column.sleeves_before, _labels(design.sleeves), foot.seen, moved)
         column = replace(column, sleeves_before=known)
-        foot = _foot(frame, found, column)
-    hung = _bars(frame, found, foot, column)
+        foot, fitted = _foot(frame, found, column), None
+    hung = _bars(frame, found, foot, column) if fitted is None else fitted
     fit = hung.bars
     bent = moved_since(column.rebars_before, _labels(design.rebars), fit.tops[:, :2], fit.covariance, fit.seen)
     if bent and column.rebars_before is not None:

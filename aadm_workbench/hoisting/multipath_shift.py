@@ -99,7 +99,7 @@ def find_push(rays: EdgeRays, radius_mm: float, sleeves: int, prior_mm: float, b
     steps = np.array([_PUSH_STEP_MM, _CHAMFER_STEP_MM])
     blurs: tuple[float, ...] = _FINE_BLURS
     if before is not None:
-        blurs, steps = _FINE_BLURS[-2:], _NARROWED ** (len(_FINE_BLURS) - 2) * steps
+        blurs, steps = _FINE_BLURS[-1:], _NARROWED ** (len(_FINE_BLURS) - 1) * steps
     for blur in blurs:
         seen = replace(rays, wall_sigma=blur * rays.wall_sigma)
         fixed = _fixed(seen)

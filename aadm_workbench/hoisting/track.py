@@ -15,6 +15,7 @@ from aadm_workbench.assembly.pose.eopa import wrap
 from aadm_workbench.extract.plane import refined_plane
 from aadm_workbench.hoisting.bars import SeenBars
 from aadm_workbench.hoisting.face import FootFace
+from aadm_workbench.hoisting.foot import FootFit
 from aadm_workbench.hoisting.frame import HoistingFrame
 from aadm_workbench.hoisting.match import Laid, Matched
 from aadm_workbench.hoisting.mouths import window_about
@@ -24,6 +25,7 @@ from aadm_workbench.model import Array, Plane
 
 _AFRESH_EVERY = 30  # frames: once a second at video rate all is searched again, for what came into the picture since
 _FACE_POINTS, _FACE_FEWEST = 6_000, 300  # as many as a search measures the face on; fewer carry no plane
+_FACE_PIXELS = 30_000  # of them: two of three look into mouths, past the foot, or are lost
 _FACE_MOVES_MM, _FACE_BIN_MM = 12.0, 0.5  # a hoist lowers by a centimetre from frame to frame; the scatter of a face
 _BAND_SIGMAS = 3.5  # as in face.py
 _MOVED_MAX_MM, _TURNED_MAX = 3.0, np.radians(1.0)  # of the foot from frame to frame: what a window still holds wholly
@@ -72,19 +74,22 @@ def follow(frame: HoistingFrame, last: Sighting) -> Found | None:
     return Found(face, bars, matched, hung)
 
 
-def is_lost(hung: HungFit, before: HungFit) -> bool:
-    """Whether a frame that followed another did not find what was there."""
-    moved_mm = float(np.hypot(*(hung.foot.pose - before.foot.pose)[:2]))
-    turned = abs(wrap(float(hung.foot.pose[2] - before.foot.pose[2])))
+def has_lost_foot(foot: FootFit, before: FootFit) -> bool:
+    """Whether a frame that followed another did not find the foot that was there."""
+    moved_mm = float(np.hypot(*(foot.pose - before.pose)[:2]))
+    turned = abs(wrap(float(foot.pose[2] - before.pose[2])))
+    enough = (foot.seen & before.seen).sum() >= _LOST_SHARE * before.seen.sum()
+    # what was fitted to nothing is no number, and no comparison holds for it
+    return not (moved_mm <= _MOVED_MAX_MM and turned <= _TURNED_MAX and enough)
+
+
+def has_lost_bars(hung: HungFit, before: HungFit) -> bool:
+    """Whether a frame that followed another did not find the bars that were there."""
     both = hung.bars.seen & before.bars.seen
+    if both.sum() < _LOST_SHARE * before.bars.seen.sum():
+        return True
     apart = hung.axes.to_frame(hung.bars.tops[both]) - before.axes.to_frame(before.bars.tops[both])
-    return bool(
-        moved_mm > _MOVED_MAX_MM
-        or turned > _TURNED_MAX
-        or (hung.foot.seen & before.foot.seen).sum() < _LOST_SHARE * before.foot.seen.sum()
-        or both.sum() < _LOST_SHARE * before.bars.seen.sum()
-        or float(np.median(np.linalg.norm(apart, axis=1))) > _BARS_MOVED_MM
-    )
+    return not float(np.median(np.linalg.norm(apart, axis=1))) <= _BARS_MOVED_MM
 
 
 def _face(frame: HoistingFrame, before: HungFit) -> FootFace | None:
@@ -110,16 +115,15 @@ def _face(frame: HoistingFrame, before: HungFit) -> FootFace | None:
 
 
 def _about_mouths(frame: HoistingFrame, before: HungFit) -> Array:
-    """Points (n, 3) mm about the mouths, as many as a face is measured on and some more."""
-    found = []
-    for centre in before.foot.centres:
-        window = window_about(frame, before.face, centre, before.foot.radius_mm)
-        if window is not None:
-            found.append(frame.points[window])
-    pixels = sum(part.shape[0] * part.shape[1] for part in found)
-    step = max(1, int(np.sqrt(pixels / (4 * _FACE_POINTS))))
-    thin = [part[::step, ::step].reshape(-1, 3) for part in found]
-    points = np.concatenate(thin or [np.empty((0, 3), np.float32)])
+    """Points (n, 3) mm of the foot between its mouths, as many as a face is measured on and some more."""
+    windows = [window_about(frame, before.face, centre, before.foot.radius_mm) for centre in before.foot.centres]
+    known = [window for window in windows if window is not None]
+    if not known:
+        return np.empty((0, 3))
+    rows, columns = (slice(min(w[k].start for w in known), max(w[k].stop for w in known)) for k in (0, 1))
+    pixels = (rows.stop - rows.start) * (columns.stop - columns.start)
+    step = max(1, int(np.sqrt(pixels / _FACE_PIXELS)))
+    points = frame.points[rows.start : rows.stop : step, columns.start : columns.stop : step].reshape(-1, 3)
     return np.asarray(points[np.isfinite(points[:, 2])], np.float64)
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Literal
 
-from aadm_workbench.model import Camera, ColumnDesign, ControlPoint, Profile, StackSettings, Vector3
+from aadm_workbench.model import Camera, CameraProfile, ColumnDesign, ControlPoint, Profile, StackSettings, Vector3
 
 _NO_FILES = ("id", "axes")
 
@@ -63,7 +63,8 @@ class Job:
     """A job, as its file says it; paths are relative to ``folder``.
 
     ``checks`` None: what each column's scans allow. ``sha256`` is of the file's bytes. ``stack`` None: the job does not
-    ask for the tower. ``lines`` says where columns stand in it, by id.
+    ask for the tower. ``lines`` says where columns stand in it, by id. ``camera_profile`` is what was learned of the
+    camera on a plate.
     """
 
     source: str
@@ -81,6 +82,7 @@ class Job:
     columns: tuple[JobColumn, ...]
     capture: dict[str, str] = field(default_factory=dict)
     stack: StackSettings | None = None
+    camera_profile: CameraProfile | None = None
     lines: dict[str, int] = field(default_factory=dict)
 
     @property

@@ -18,9 +18,11 @@ from aadm_workbench.assembly.findings.finding import with_same_scans
 from aadm_workbench.errors import DesignError, JobError, did_you_mean
 from aadm_workbench.inspection.check import CheckSettings
 from aadm_workbench.inspection.job import Job, JobColumn
+from aadm_workbench.inspection.learned import named_profile, notes_on_profile
 from aadm_workbench.model import (
     Array,
     Camera,
+    CameraProfile,
     ColumnDesign,
     ColumnReport,
     JobReport,
@@ -45,7 +47,7 @@ class ColumnTask:
 
     ``folder`` is where relative paths start; ``places`` says where files lie that are not found from there;
     ``design`` None means that the job's model gives none, for the reason ``no_design``. ``others`` are the designs of
-    the job that are unlike this one.
+    the job that are unlike this one. ``learned`` is the profile of its camera, and what speaks against using it.
     """
 
     column: JobColumn
@@ -58,6 +60,8 @@ class ColumnTask:
     no_design: str = ""
     places: Mapping[str, Path] = field(default_factory=dict)
     others: tuple[ColumnDesign, ...] = ()
+    learned: CameraProfile | None = None
+    learned_notes: tuple[str, ...] = ()
 
     def path_of(self, name: str) -> Path:
         """Where a file lies that the job names."""
@@ -71,7 +75,7 @@ class ColumnTask:
         ScanError
             Where it cannot be read.
         """
-        return read_scan(
+        scan = read_scan(
             path or self.path_of(name),
             units=self.units,
             camera=self.camera,
@@ -80,6 +84,7 @@ class ColumnTask:
             image=None if image is None else self.path_of(image),
             axes=self.column.axes,
         )
+        return replace(scan, learned=self.learned, notes=(*scan.notes, *self.learned_notes)) if self.learned else scan
 
     def at(self, places: Mapping[str, Path]) -> ColumnTask:
         """The same task where its files lie elsewhere."""
@@ -200,7 +205,11 @@ def _task(
         design, no_design = (found, "") if isinstance(found, ColumnDesign) else (None, found)
     # Workers have another working folder.
     folder = job.folder.absolute()
-    return ColumnTask(column, folder, design, settings, job.units, job.camera, job.depth_scale_mm, no_design)
+    learned = job.camera_profile
+    notes = () if learned is None else notes_on_profile(learned, job.camera, job.capture)
+    camera = job.camera if learned is None or job.camera is not None else learned.camera
+    task = ColumnTask(column, folder, design, settings, job.units, camera, job.depth_scale_mm, no_design)
+    return replace(task, learned=learned, learned_notes=notes)
 
 
 def _with_others(tasks: Sequence[ColumnTask]) -> Sequence[ColumnTask]:
@@ -240,7 +249,7 @@ def report_of(plan: JobPlan, columns: Sequence[ColumnReport]) -> JobReport:
     return JobReport(
         tool=tool_entry(),
         job=job_entry(plan),
-        capture=job.capture,
+        capture=job.capture | named_profile(job.camera_profile),
         model=None if model is None else model_entry(model),
         profile=job.profile,
         columns=columns,

@@ -16,6 +16,12 @@ from aadm_workbench.model.absolute import (
     ControlPoint,
     ControlResidual,
 )
+from aadm_workbench.model.camera import (
+    Camera,
+    CameraProfile,
+    LearnedEdges,
+    Measure,
+)
 from aadm_workbench.model.drift import (
     Capability,
     MouldDrift,
@@ -39,7 +45,6 @@ from aadm_workbench.model.measured import (
     Array,
     AssemblyPoint,
     BoolArray,
-    Camera,
     ColumnDesign,
     Extraction,
     Figure,
@@ -125,6 +130,7 @@ __all__ = [
     "BoolArray",
     "Camera",
     "CameraMove",
+    "CameraProfile",
     "Candidate",
     "Capability",
     "ColumnDesign",
@@ -149,6 +155,8 @@ __all__ = [
     "JobReport",
     "Json",
     "Kind",
+    "LearnedEdges",
+    "Measure",
     "MouldDrift",
     "MovedSince",
     "Orientation",

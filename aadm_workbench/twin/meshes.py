@@ -14,12 +14,25 @@ import numpy as np
 
 from aadm_workbench.model import Array
 from aadm_workbench.twin.blocks import block_of, broken_off
-from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose, SleeveAsBuilt, axis_of
-from aadm_workbench.twin.surface import BAR, CONCRETE, DARK, FLOOR, OBJECT, SLEEVE_WALL, TAPE, Surface, joined, one_kind
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose, PlateAsBuilt, SleeveAsBuilt, axis_of
+from aadm_workbench.twin.surface import (
+    BAR,
+    CONCRETE,
+    DARK,
+    FLOOR,
+    OBJECT,
+    SLEEVE_WALL,
+    TAPE,
+    Surface,
+    joined,
+    moved,
+    one_kind,
+)
 
 _RIB_INCLINATION = np.radians(60.0)  # of transverse ribs against the bar's axis; 45 to 70 degrees are usual
 _SHIFT_DEPTHS_MM = (1.5, 2.0)  # behind the face: over so much depth a wall goes aside that is shifted; its mouth stays
 _RING_WIDTH_MM, _RING_ROOT_MM = 4.0, 20.0  # a tube with a wall of 4 mm, cast in by 20 mm
+_PIN_ROOT_MM = -5.0  # height to which a pin goes into its plate: below the face it ends unseen
 _CAP_LENGTH_MM = 25.0  # of the caps that protect threads
 SEGMENTS = 256  # of a bore's outline: the chord stays within 0.003 mm of a 36 mm circle
 
@@ -30,8 +43,11 @@ _AROUND = 32  # corners of a hose's section
 _STEP_MM = 4.0  # of a hose's path: a choice by eye
 
 
-def surface_of(part: Foot | BarGroup) -> Surface:
-    """Mesh of a foot or of a group of bars."""
+def surface_of(part: Foot | BarGroup | PlateAsBuilt) -> Surface:
+    """Mesh of a foot, of a group of bars or of a plate."""
+    if isinstance(part, PlateAsBuilt):
+        pins = [_bar(pin, number, _PIN_ROOT_MM) for number, pin in enumerate(part.pins)]
+        return joined([moved(foot_surface(part.foot), np.diag([1.0, -1.0, -1.0, 1.0])), *pins])
     return foot_surface(part) if isinstance(part, Foot) else bars_surface(part)
 
 

@@ -22,14 +22,14 @@ from aadm_workbench.twin.camera import DEPTH_SCALE_MM, PRO_M, capture_tables
 from aadm_workbench.twin.filters import NO_FILTERS, Filters, filtered
 from aadm_workbench.twin.finite_pixel import FinitePixel
 from aadm_workbench.twin.noise import CameraNoise
-from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot, PlateAsBuilt
 from aadm_workbench.twin.scene import TrueScan, scan_of
 from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_foot, random_pose
 from aadm_workbench.twin.site import left_by_site
 from aadm_workbench.twin.slips import NO_SLIP, Slip, seen_with, told_camera
 from aadm_workbench.twin.truth import DECIMALS, section_truth, true_verdicts
 
-Shoot: TypeAlias = Callable[[Foot | BarGroup, Array, np.random.Generator], TrueScan]
+Shoot: TypeAlias = Callable[[Foot | BarGroup | PlateAsBuilt, Array, np.random.Generator], TrueScan]
 """From a part, the pose T_column_scan (4, 4) and a generator to a scan with its truth."""
 
 
@@ -217,7 +217,7 @@ def fringe_camera(distance: float) -> Shoot:
 def with_filters(shoot: Shoot, filters: Filters) -> Shoot:
     """A camera that filters its depth maps."""
 
-    def shot(part: Foot | BarGroup, pose: Array, rng: np.random.Generator) -> TrueScan:
+    def shot(part: Foot | BarGroup | PlateAsBuilt, pose: Array, rng: np.random.Generator) -> TrueScan:
         scan = shoot(part, pose, rng)
         return replace(scan, depth=filtered(scan.depth, filters, scan.brightness))
 

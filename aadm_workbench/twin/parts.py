@@ -203,6 +203,17 @@ class BarGroup:
     beside: tuple[Box | Hose, ...] = ()
 
 
+@dataclass(frozen=True)
+class PlateAsBuilt:
+    """A plate with holes and pins, in the plate's frame: z out of its face, towards the camera.
+
+    ``foot`` holds the bores, in a frame of its own, which is the plate's turned by 180 degrees about x.
+    """
+
+    foot: Foot
+    pins: tuple[BarAsBuilt, ...]
+
+
 def axis_of(lean: tuple[float, float]) -> Array:
     """Unit direction (3,) of an axis that leans by (lx, ly)."""
     direction = np.array([lean[0], lean[1], 1.0])

@@ -58,6 +58,11 @@ _JOBS = {
     "lab": "the laboratory model: clouds, truth.json and job.toml of two columns",
     "tower": "columns that will be set with known errors: scans, control points, truth.json, and a job for aadm stack",
 }
+_PLATE = "captures of a plate by a virtual camera whose scale is off by 0.05 %, and truth.json: for aadm camera learn"
+_PLATE_EXAMPLE = """\
+example:
+  aadm simulate plate --out plate --seed 7 --filter rings=1
+  aadm camera learn plate/plate.toml plate/plate-*.tiff --camera plate/camera.toml --out camera-0042.toml"""
 _PACKAGES = ("manifold3d", "open3d")
 
 
@@ -83,6 +88,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     pair.add_argument("--slip", action="append", default=[], metavar="NAME", help=_SLIP)
     add_switches(pair, prints_json=None)
     pair.set_defaults(run=_simulate_pair)
+    plate = kinds.add_parser("plate", help=_PLATE, description=f"Simulate {_PLATE}.", epilog=_PLATE_EXAMPLE)
+    plate.formatter_class = argparse.RawDescriptionHelpFormatter
+    plate.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the files")
+    plate.add_argument("--seed", type=int, default=0, metavar="N", help="another plate and camera (default: 0)")
+    plate.add_argument("--captures", type=whole_number, default=8, metavar="N", help="how many (default: 8)")
+    plate.add_argument("--camera", choices=("ray", "pixel", "fringe"), default="ray", help=_CAMERA)
+    plate.add_argument("--filter", action="append", default=[], metavar="NAME=AMOUNT", help=_FILTER)
+    add_switches(plate, prints_json=None)
+    plate.set_defaults(run=_simulate_plate)
     for name, summary in _JOBS.items():
         job = kinds.add_parser(
             name,
@@ -133,6 +147,27 @@ def _simulate_pair(options: argparse.Namespace) -> int:
     if not options.quiet:
         names = (f"foot.{options.format}", f"bars.{options.format}", "truth.json", "job.toml")
         show(f"Wrote {', '.join(names)} to {options.out}", f"Check it: aadm check {options.out / 'job.toml'}")
+    return ALL_PASS
+
+
+def _simulate_plate(options: argparse.Namespace) -> int:
+    _require_virtual_camera()
+    from aadm_workbench.calibration.plate.plate import drawn_plate
+    from aadm_workbench.twin.filters import filters_of
+    from aadm_workbench.twin.pair import Taken
+    from aadm_workbench.twin.plate import make_plate
+
+    from ..shown.terminal import say, show
+
+    taken = Taken(options.camera, filters_of(options.filter))
+    if options.camera == "fringe":
+        _require_renderer()
+    _prepare(options)
+    for line in make_plate(options.out, drawn_plate(12, 36.0, 160.0, 20.0), options.seed, options.captures, taken):
+        if not options.quiet:
+            say(line)
+    if not options.quiet:
+        show(f"Wrote plate.toml, plate.csv, camera.toml, truth.json and the captures to {options.out}")
     return ALL_PASS
 
 

@@ -14,7 +14,7 @@ from typing import Literal, cast
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.errors import CameraError, JobError, ScanError
 from aadm_workbench.inspection.job import Job, JobModel
-from aadm_workbench.model import Camera, Profile
+from aadm_workbench.model import Camera, CameraProfile, Profile
 from aadm_workbench.scan.file import load
 
 from ..shown.printable import steering_character
@@ -45,7 +45,7 @@ _TOP = (
     "columns",
 )
 _MODEL = ("path", "columns", "sleeves", "rebars", "units")
-_CAMERA = ("fx", "fy", "cx", "cy", "width", "height", "depth_scale_mm", "scale_error")
+_CAMERA = ("fx", "fy", "cx", "cy", "width", "height", "depth_scale_mm", "scale_error", "profile")
 _CAPTURE = ("date", "operator", "camera_serial", "calibration", "settings")
 
 
@@ -63,6 +63,7 @@ def read_job(path: Path) -> Job:
     top.allow(_TOP)
     _check_schema(top)
     camera, depth_scale_mm = _camera(top)
+    learned = _camera_profile(top, path.parent)
     model, units = _model(top), top.one_of("units", ("mm", "m"), "mm")
     return Job(
         source=str(path),
@@ -80,6 +81,7 @@ def read_job(path: Path) -> Job:
         columns=(columns := read_columns(top, units=units, has_model=model is not None)),
         capture=_capture(top),
         stack=read_stack(top),
+        camera_profile=learned,
         lines={column.id: top.line("columns", place, "id") for place, column in enumerate(columns)},
     )
 
@@ -179,6 +181,8 @@ def _camera(top: JobTable) -> tuple[Camera | None, float | None]:
     from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
 
     table.allow(_CAMERA)
+    if table.text("profile") is not None and not any(key in table.values for key in _CAMERA[:6]):
+        return None, table.length("depth_scale_mm")
     for key in _CAMERA[:6]:
         table.require(key, f"{key} = ...; the six intrinsics belong together")
     scale_error = table.number("scale_error")
@@ -191,6 +195,20 @@ def _camera(top: JobTable) -> tuple[Camera | None, float | None]:
         return checked_camera(found), table.length("depth_scale_mm")
     except CameraError as error:
         raise table.wrong(None, "jobfile.camera", why=error) from error
+
+
+def _camera_profile(top: JobTable, folder: Path) -> CameraProfile | None:
+    """What was learned of the camera, where the job names its file."""
+    table = top.table("camera", "[camera]")
+    name = None if table is None else table.path("profile")
+    if table is None or name is None:
+        return None
+    from aadm_workbench.scan.camera_profile import read_profile
+
+    try:
+        return read_profile(folder / name, name)
+    except (CameraError, ScanError) as error:
+        raise table.wrong("profile", str(error)) from error
 
 
 def _capture(top: JobTable) -> dict[str, str]:

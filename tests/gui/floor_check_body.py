@@ -9,6 +9,7 @@ import tomllib
 from aadm_workbench.document.job.floor import put_scans, save_job
 from aadm_workbench.document.job.opened import insert as insert_job
 from aadm_workbench.gui.panels.check_all import CheckAllPanel
+from aadm_workbench.gui.panels.import_scan import open_panel as open_import_of
 
 first_document = document
 FLOOR_IDS = [f"C-30{number}" for number in range(1, 9)]
@@ -110,5 +111,35 @@ insert_job(str(stranger), document.Name)
 result["said_for_strangers"] = sentences()
 panel(CheckAllPanel).reject()
 FreeCAD.closeDocument(document.Name)
+settle(0.1)
+
+# An IFC file that FreeCAD shows natively, of which only the project is loaded, and that is selected: its file is read.
+native = FreeCAD.newDocument("native")
+root = native.addObject("Part::Feature", "IfcObject")
+root.addProperty("App::PropertyString", "IfcFilePath")
+root.IfcFilePath = str(project / "floor3.ifc")
+Gui.Selection.clearSelection()
+Gui.Selection.addSelection(root)
+Gui.runCommand("AADM_SampleDesign")
+spin(lambda: panel(DesignPanel) is not None, 60)
+result["native_columns"] = sorted(one.ColumnId for one in api.columns_in(native))
+panel(DesignPanel).reject()
+FreeCAD.closeDocument(native.Name)
+
+# A scan alone: its model is asked for, then it is back, and its column is known by its name.
+alone = FreeCAD.newDocument("alone")
+lonely = project / "scans" / "C-305-bars.tiff"
+open_import_of(alone, [lonely]).start()
+offered = [box for box in window.findChildren(QtGui.QMessageBox) if box.isVisible()]
+QtGui.QFileDialog.getOpenFileName, asked_before = (
+    staticmethod(lambda *_: (str(project / "floor3.ifc"), "")), QtGui.QFileDialog.getOpenFileName
+)  # fmt: skip
+next(button for box in offered for button in box.buttons() if "IFC" in button.text()).click()
+spin(lambda: bool(api.columns_in(alone)) and panel(ImportPanel) is not None, 60)
+QtGui.QFileDialog.getOpenFileName = asked_before
+back = panel(ImportPanel)
+result["back_with_scan"] = [Path(back.file.text()).name, back.column.currentText(), back.kind.currentData()]
+back.reject()
+FreeCAD.closeDocument(alone.Name)
 settle(0.1)
 document = first_document

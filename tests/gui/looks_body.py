@@ -6,6 +6,7 @@ It finds what the earlier parts of the session have defined; the sample floor is
 # ruff: noqa: F821 - a script in the order of the session, with names that the runner puts in
 from aadm_workbench.gui.commands.about import AboutWindow
 from aadm_workbench.gui.hoisting.window import HoistingWindow
+from aadm_workbench.gui.panels.capture import open_panel as open_capture
 from aadm_workbench.gui.panels.check import open_panel as open_check
 from aadm_workbench.gui.panels.check_all import open_panel as open_check_all
 from aadm_workbench.gui.panels.design import open_panel as open_design
@@ -21,6 +22,7 @@ failing = next(one for one in api.columns_in(looked_at) if one.ColumnId == "C-30
 PANELS = {
     "design": lambda: open_design(failing),
     "import": lambda: open_import(looked_at, [Path(SAMPLES) / "floor" / "scans" / "C-307-foot.tiff"], failing),
+    "capture": lambda: open_capture(looked_at, failing),
     "check": lambda: open_check(failing),
     "check_all": lambda: open_check_all(looked_at),
     "job": lambda: open_job(str(Path(SAMPLES) / "floor" / "job.toml")),
@@ -68,7 +70,8 @@ window.resizeDocks(main_tools[:1], [300], QtCore.Qt.Horizontal)  # about what Fr
 result["looks"] = {}
 for theme in ("light", "dark"):
     put_on(theme)
-    for language in ("English", "Chinese Simplified"):
+    # Where texts are shown in both, styles are; a dark one differs from a light one in its colours alone.
+    for language in ("English", "Chinese Simplified") if theme == "light" else ("Chinese Simplified",):
         dress(language)
         round_name = f"{theme}-{'en' if language == 'English' else 'zh'}"
         for name, open_it in (PANELS | WINDOWS).items():

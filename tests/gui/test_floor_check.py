@@ -91,6 +91,14 @@ def test_columns_that_the_document_lacks_are_named(session: dict[str, Any]) -> N
     assert "C-999" in session["said_for_strangers"][0]
 
 
+def test_native_document_is_sampled_from_its_file(session: dict[str, Any]) -> None:
+    assert session["native_columns"] == [f"C-30{number}" for number in range(1, 9)]
+
+
+def test_scan_alone_comes_back_to_its_column(session: dict[str, Any]) -> None:
+    assert session["back_with_scan"] == ["C-305-bars.tiff", "AADM C-305", "rebars"]
+
+
 def test_verdicts_of_the_panel_are_those_of_the_command(session: dict[str, Any]) -> None:
     report = json.loads((Path(session["project"]) / "two-report" / "report.json").read_text(encoding="utf-8"))
     assert {one["id"]: one["verdict"] for one in report["columns"]} == {"C-301": "pass", "C-306": "error"}

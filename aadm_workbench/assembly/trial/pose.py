@@ -9,13 +9,13 @@ say. So the trial is made both ways, and only what both come to is decided.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from aadm_workbench.assembly.decision import Decision, DecisionRule, decide_radial, standard_uncertainty, verdict_radial
-from aadm_workbench.assembly.pairs import Pair
+from aadm_workbench.assembly.pairs import LEAN_U_RAD, Pair
 from aadm_workbench.assembly.pose.best_pose import BestFit
 from aadm_workbench.assembly.pose.eopa import planar_transform, turn
 from aadm_workbench.assembly.tolerances import describe_limit
@@ -30,6 +30,9 @@ _SIGMAS = 5.0
 
 _SMALLEST_RAD = math.radians(0.15)
 """Half of the usual lean of a single bar: less in common decides nothing over an embedded length."""
+
+_BENT_RAD = 10.0 * LEAN_U_RAD
+"""Ten times what bars lean by as cast: no chance. Such a bar was bent, at its foot or anywhere under its top."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,6 +225,28 @@ class CommonLean:
             if shift.any()
         ]
         return Reason("assembly.common_lean", found=found)
+
+
+def other_readings(pairs: Sequence[Pair], length_mm: float) -> Iterator[tuple[str, tuple[Pair, ...]]]:
+    """What else the axes may be, in words, and the pairs as they then are; lengths in mm."""
+    if shared := common_lean(pairs, length_mm):
+        yield shared.in_words(length_mm), shared.taken_off(pairs)
+    own_mm = np.array([pair.bar_shift for pair in pairs])
+    own_mm = np.hypot(*(own_mm - _shared(own_mm, length_mm)).T)
+    seen_mm = np.array([length_mm if pair.seen_length_mm is None else pair.seen_length_mm for pair in pairs])
+    bent = (own_mm > math.tan(_BENT_RAD) * length_mm) & (seen_mm < length_mm)
+    if bent.any():
+        said = Reason(
+            "assembly.bent",
+            rebars=[pair.rebar for pair, one in zip(pairs, bent.tolist(), strict=True) if one],
+            lean_deg=math.degrees(math.atan2(float(own_mm[bent].max()), length_mm)),
+            seen_mm=float(seen_mm[bent].min()),
+        )
+        parts = np.where(bent, seen_mm / length_mm, 1.0).tolist()
+        yield (
+            said,
+            tuple(replace(pair, bar_shift=part * pair.bar_shift) for pair, part in zip(pairs, parts, strict=True)),
+        )
 
 
 def common_lean(pairs: Sequence[Pair], length_mm: float) -> CommonLean:

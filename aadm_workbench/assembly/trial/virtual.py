@@ -29,7 +29,7 @@ from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.pose.minimax import fit_minimax
 from aadm_workbench.assembly.pose.pose_probability import SAMPLES, existence_of_a_pose
 from aadm_workbench.assembly.tolerances import applicable_rules, describe_limit
-from aadm_workbench.assembly.trial.pose import common_lean, evaluate_best_pose, evaluate_pose
+from aadm_workbench.assembly.trial.pose import evaluate_best_pose, evaluate_pose, other_readings
 from aadm_workbench.assembly.trial.verdict import collisions, judge_trial, judge_without_limits
 from aadm_workbench.model import (
     Array,
@@ -160,20 +160,21 @@ def _try_both_ways(
     samples: int,
     length_mm: float,
 ) -> TrialReport:
-    """The trial as measured; where all axes lean alike, it is decided only as far as it does not depend on that."""
-    report = _try_pairs(pairs, missing, profile, generator, decision, samples)
-    shared = common_lean(pairs, length_mm)
-    if not shared or report.best is None:
-        return report
-    said = shared.in_words(length_mm)
-    other = _try_pairs(shared.taken_off(pairs), missing, profile, generator, decision, samples)
-    if other.verdict is report.verdict:
-        return replace(report, notes=(*report.notes, said))
-    verdict = Verdict.NOT_MEASURED if missing else Verdict.INCONCLUSIVE
-    depends = Reason(
-        "assembly.depends_on_lean", said=said, as_measured=report.verdict.value, without=other.verdict.value
-    )
-    return replace(report, verdict=verdict, reasons=(depends, *report.reasons))
+    """The trial as measured; where axes may be otherwise, it is decided only as far as it does not depend on that."""
+    report = measured = _try_pairs(pairs, missing, profile, generator, decision, samples)
+    if measured.best is None:
+        return measured
+    for said, others in other_readings(pairs, length_mm):
+        other = _try_pairs(others, missing, profile, generator, decision, samples)
+        if other.verdict is measured.verdict:
+            report = replace(report, notes=(*report.notes, said))
+            continue
+        verdict = Verdict.NOT_MEASURED if missing else Verdict.INCONCLUSIVE
+        depends = Reason(
+            "assembly.depends_on_lean", said=said, as_measured=measured.verdict.value, without=other.verdict.value
+        )
+        report = replace(report, verdict=verdict, reasons=(depends, *report.reasons))
+    return report
 
 
 def _try_pairs(

@@ -9,8 +9,9 @@ from typing import Any
 import FreeCAD
 
 from aadm_workbench.document.asking import JOB_PANELS
-from aadm_workbench.document.column import columns_in, make_column
+from aadm_workbench.document.column import make_column
 from aadm_workbench.document.display.messages import complain
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.job.toml import read_job_table
 from aadm_workbench.errors import AadmError
 

@@ -13,6 +13,7 @@ from aadm_workbench.design.design_text import write_model
 from aadm_workbench.design.directions import UP_DEG, up_deg
 from aadm_workbench.document.column import column_design
 from aadm_workbench.document.display.reported_design import FROM_REPORT
+from aadm_workbench.document.job.toml import Table
 from aadm_workbench.document.scan_cloud import kind_of
 from aadm_workbench.errors import DesignError, ScanError
 from aadm_workbench.model import Camera, Kind
@@ -28,7 +29,7 @@ _UPS = ("up", "sleeves_up", "rebars_up")
 
 def job_table(
     columns: Sequence[Any], model: str, folder: Path | None = None, earlier: Mapping[str, Any] | None = None
-) -> dict[str, Any]:
+) -> Table:
     """The values of a job that checks columns of one document.
 
     Parameters
@@ -47,7 +48,7 @@ def job_table(
     """
     first, kept = columns[0], dict(earlier or {})
     scans = [cloud for column in columns for cloud in _scans_of(column)]
-    table: dict[str, Any] = {"schema": 1, "name": kept.get("name") or first.Document.Label}
+    table: Table = {"schema": 1, "name": kept.get("name") or first.Document.Label}
     table["units"] = _of_all(scans, "Units", first)
     table["tolerances"] = _alike(columns, _tolerances, "Tolerances")
     table["decision"] = _alike(columns, lambda column: str(column.Decision), "Decision")
@@ -64,7 +65,7 @@ def job_table(
     return {**table, **rest, "columns": entries}
 
 
-def _without_defaults(table: dict[str, Any], earlier: Mapping[str, Any]) -> dict[str, Any]:
+def _without_defaults(table: Table, earlier: Mapping[str, Any]) -> Table:
     """The same job without what it does not say and what holds anyway: it stays as its author wrote it."""
     silent = {key for key, value in _DEFAULTS.items() if key not in earlier and table[key] == value}
     camera = _dict(table.get("camera"))
@@ -73,9 +74,9 @@ def _without_defaults(table: dict[str, Any], earlier: Mapping[str, Any]) -> dict
     return {key: value for key, value in table.items() if key not in silent}
 
 
-def _entry(column: Any, folder: Path | None, earlier: Mapping[str, Any]) -> dict[str, Any]:
+def _entry(column: Any, folder: Path | None, earlier: Mapping[str, Any]) -> Table:
     replaced = {"id", *_UPS, *(kind.plural for kind in Kind), "design"}
-    entry: dict[str, Any] = {"id": column.ColumnId}
+    entry: Table = {"id": column.ColumnId}
     for kind in Kind:
         files = [seen_from(cloud.File, folder) for cloud in column.Scans if kind_of(cloud) is kind]
         if files:
@@ -147,7 +148,7 @@ def seen_from(file: str | Path, folder: Path | None) -> str:
     return os.fspath(file)
 
 
-def _camera(scans: list[Any], column: Any) -> dict[str, Any]:
+def _camera(scans: list[Any], column: Any) -> Table:
     """Intrinsics of the scans that were imported with some; a job has one camera."""
     with_camera = [cloud for cloud in scans if cloud.Camera]
     if not with_camera:
@@ -181,7 +182,7 @@ def _unlike(column: Any, name: str) -> str:
     return f"the scans of {column.Label} differ in {name}, and a check has one for all: import them again alike"
 
 
-def _dict(value: Any) -> dict[str, Any]:
+def _dict(value: Any) -> Table:
     return dict(value) if isinstance(value, Mapping) else {}
 
 

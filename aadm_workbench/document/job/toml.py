@@ -17,10 +17,13 @@ from aadm_workbench.errors import JobError
 LARGEST_JOB_BYTES = 16 * 2**20
 """As the command has it: a job of a thousand columns with designs of their own takes a megabyte."""
 
+Table = dict[str, object]
+"""A table of TOML: texts, numbers, flags, dates, lists and tables, by their keys."""
+
 _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
-def read_job_table(path: Path) -> dict[str, Any]:
+def read_job_table(path: Path) -> Table:
     """The values of a job file; whether they are a job is looked at by the command that runs it.
 
     Raises

@@ -33,7 +33,7 @@ _MOST_ASKEW_MM = 8.0  # from end to end: sections are cast to 5 mm, and what hid
 _MOST_OFF_MM = 8.0  # from its place by design: sections and patterns keep to 5 mm each
 _SETTLED_PITCHES = 1.0  # of a step of the line: places about it are then the same
 _BLIND_PITCHES = 1.0  # about an edge: places fill it where rows of pixels run across it at some angle
-_OWN_SHARE = 0.1  # of the overshoot: by so much it differs from edge to edge, for what is lit along it
+_OWN_SHARE = 0.06  # of the overshoot: by so much it differs from edge to edge, for what is lit along it
 _LEVEL_PITCHES = 4.0  # before an edge: farther than any sharp camera's blur
 _BLOCKS, _BLOCK_PLACES = 10, 20  # along an edge: what bends more often is no face that was cast
 _LEVEL_PLACES = 1200  # of which each block has a hundred, and a median a tenth of the noise
@@ -261,8 +261,10 @@ def _across(
     d = asked.xy @ line.normal - line.offset_mm - line.turn * s
     wanted = (np.abs(s) < half_mm) & (np.abs(d) < reach_mm)
     for centre, radius in zip(mouths.centres, mouths.radii.tolist(), strict=True):
-        if abs(float(centre @ line.normal) - line.offset_mm) < reach_mm + radius + _ABOUT_MOUTH_MM:
-            wanted &= np.hypot(*(asked.xy - centre).T) > radius + _ABOUT_MOUTH_MM
+        out, clear_mm = float(centre @ line.normal) - line.offset_mm, radius + _ABOUT_MOUTH_MM
+        if abs(out) < reach_mm + clear_mm:
+            beside, beyond = s - (float(centre @ line.along) - line.middle_mm), d - out + line.turn * s
+            wanted &= beside * beside + beyond * beyond > clear_mm**2
     return s[wanted], d[wanted], asked.height[wanted]
 
 

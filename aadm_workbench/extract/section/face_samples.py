@@ -97,8 +97,9 @@ def _by_lines_of_sight(scan: Scan, face: Plane, homography: Array) -> Ask:
 
     def ask(area: Area) -> Asked:
         row, column = _pixels_in(area, back, scan.points.shape[:2])
-        xy = _through(homography, np.column_stack([column, row]).astype(np.float64))
-        return Asked(xy, np.asarray(face.height(scan.points[row, column]), np.float64))
+        right, down = column.astype(np.float64), row.astype(np.float64)
+        x, y, w = (one * right + other * down + rest for one, other, rest in homography.tolist())
+        return Asked(np.column_stack([x / w, y / w]), np.asarray(face.height(scan.points[row, column]), np.float64))
 
     return ask
 

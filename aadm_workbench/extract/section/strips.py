@@ -21,10 +21,10 @@ _LEAST_CHANCE = 0.02  # flying pixels, lost ones: nothing is quite sure
 _FOUND_MIN, _FLUSH_MAX = 0.25, 0.15  # thinner is no face; denser is something that goes on beyond the edge
 _SEEN_MIN = 0.5  # of the strips of an edge: half of one may be out of the picture or behind something
 _TUKEY, _ROUNDS = 4.0, 8  # of the scatter; rounds settle in four
+_SETTLED_PITCHES = 0.002  # a micrometre: what a line still moves by from round to round
 _STARTS, _LIKE_PITCHES, _BEYOND_COST = 14, 1.5, 2.0  # some hundred lines are tried; of strips on a line; of one beyond
 _ROUGHEST_MM = 1.5  # of strips: an edge that is broken all along is none
-_LEAST_SCATTER_PITCHES = 0.05  # strips are never better than that
-_NEIGHBOURS = 1.5  # neighbouring strips share their errors: standard errors are so much larger
+_LEAST_SCATTER_PITCHES = 0.29  # 1/√12: a strip along rows of pixels ends anywhere between two of them
 _CHIP_MM, _CHIP_SIGMAS = 1.5, 5.0  # from which depth on a gap in an edge is a chip and no scatter
 OUT_OF_PICTURE = Reason("extract.section_out")
 
@@ -140,10 +140,12 @@ def line_through(strips: Strips, pitch_mm: float) -> StripLine | Reason:
         weight = np.maximum(1.0 - (residual / (_TUKEY * scatter)) ** 2, 0.0) ** 2
         normal = design.T @ (weight[:, None] * design)
         found = np.linalg.solve(normal, design.T @ (weight * strips.end))
-        residual = strips.end - design @ found
+        before, residual = residual, strips.end - design @ found
+        if np.abs(residual - before).max() < _SETTLED_PITCHES * pitch_mm:
+            break
     if np.mean(residual > -_TUKEY * scatter) < _SEEN_MIN or scatter > _ROUGHEST_MM:
         return Reason("extract.section_hidden")
-    covariance = (_NEIGHBOURS * scatter) ** 2 * np.linalg.inv(normal)
+    covariance = scatter**2 * np.linalg.inv(normal)
     return StripLine(float(found[0]), float(found[1]), covariance, scatter, residual)
 
 

@@ -11,6 +11,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from aadm_workbench.document.hoisting_state import (
+    BESIDE_CAMERA,
     SIDES,
     Guidance,
     Measurement,
@@ -44,6 +45,7 @@ class HoistingWindow(QtGui.QMainWindow):
         self.recorded = QtGui.QPushButton(translate("AADM_Hoisting", "Recorded result…"))
         self.recorded.clicked.connect(self._choose_recorded)
         self.standing = QtGui.QComboBox()
+        self.standing.addItem(translate("AADM_Hoisting", "I stand beside the camera"), BESIDE_CAMERA)
         for side in SIDES:
             self.standing.addItem(translate("AADM_Hoisting", "I stand at the side {side}").format(side=side), side)
         self.standing.currentIndexChanged.connect(lambda _: self._show())

@@ -10,14 +10,13 @@ from typing import Any
 import FreeCAD
 from PySide import QtCore, QtGui
 
-from aadm_workbench.document.display.colours import of_verdict, text_on
 from aadm_workbench.document.job.floor import Assigned
 from aadm_workbench.document.words import in_words
 from aadm_workbench.gui.resources import icon
 from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, TABLES
 
 translate = FreeCAD.Qt.translate
-_COLUMN, _SLEEVES, _REBARS, _UP = range(4)
+_COLUMN, _SLEEVES, _REBARS, _UP = range(4)  # places in the table, from left to right
 _FILES = QtCore.Qt.UserRole
 _FORMATS = " ".join(f"*{suffix}" for suffix in (*DEPTH_MAPS, *CLOUDS, *TABLES))
 
@@ -97,17 +96,14 @@ class AssignedTable(QtGui.QTableWidget):
             self.item(place, _UP).setText(up)
 
     def show_verdicts(self, verdicts: Sequence[str]) -> None:
-        """Show what the last check found, by colour, icon and word."""
+        """Show what the last check found, by icon and word."""
         for place, verdict in enumerate(verdicts):
             item = self.item(place, _COLUMN)
             item.setText(f"{self._ids[place]}  {in_words(verdict)}" if verdict else self._ids[place])
             item.setIcon(icon(f"verdict-{verdict}") if verdict else QtGui.QIcon())
-            if verdict and verdict != "pass":
-                item.setBackground(QtGui.QColor.fromRgbF(*of_verdict(verdict)))
-                item.setForeground(QtGui.QColor.fromRgbF(*text_on(of_verdict(verdict))))
-            else:
-                item.setData(QtCore.Qt.BackgroundRole, None)
-                item.setData(QtCore.Qt.ForegroundRole, None)
+            font = item.font()
+            font.setBold(verdict not in {"", "pass"})
+            item.setFont(font)
         self.resizeColumnsToContents()
 
     def _put_files(self, place: int, column: int, files: Sequence[Path]) -> None:

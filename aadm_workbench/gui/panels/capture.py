@@ -10,8 +10,8 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
-from aadm_workbench.document.column import columns_in
 from aadm_workbench.document.display.messages import tell
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.scan_cloud import KINDS
 from aadm_workbench.document.scan_reading import AskedScan, take_scan

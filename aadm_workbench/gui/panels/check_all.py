@@ -11,8 +11,8 @@ from PySide import QtGui
 
 from aadm_workbench.design.directions import UP_DEG
 from aadm_workbench.document.checking import CHECKED, check_unchanged
-from aadm_workbench.document.column import columns_in
 from aadm_workbench.document.display.messages import tell
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.job.floor import (
     Assigned,
     assigned_by_job,

@@ -11,8 +11,8 @@ import FreeCADGui
 from PySide import QtGui
 
 from aadm_workbench.design.directions import UP_DEG
-from aadm_workbench.document.column import columns_in
 from aadm_workbench.document.display.messages import tell
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.job.floor import owner_by_name
 from aadm_workbench.document.job.scan_names import guessed_kind
 from aadm_workbench.document.scan_cloud import KINDS, UNITS

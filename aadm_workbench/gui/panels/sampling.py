@@ -17,9 +17,9 @@ from aadm_workbench.document.report.annotate import global_ids_of
 from aadm_workbench.document.sampling import columns_work, file_work, take_columns
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError, NoEnvironmentError
-from aadm_workbench.gui.chosen import look_at, select
+from aadm_workbench.gui.chosen import NoColumnError, look_at, select
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, close_panel, show_panel
-from aadm_workbench.gui.sentences import sentences, show_error
+from aadm_workbench.gui.sentences import WAYS_ON, Offer, sentences, show_error
 from aadm_workbench.gui.settings import decision, method, tolerances
 from aadm_workbench.gui.view_camera import active_view
 from aadm_workbench.private.answers import FoundColumns
@@ -86,7 +86,6 @@ def sample(document: Any, objects: Sequence[Any] | None = None, file: Path | Non
     return panel
 
 
-Offer = tuple[str, Callable[[], object]]
 After = Callable[[list[Any]], object]
 
 
@@ -127,3 +126,6 @@ def _open_design(columns: list[Any]) -> None:
     from aadm_workbench.gui.panels.design import open_panel
 
     open_panel(columns[0])
+
+
+WAYS_ON[NoColumnError] = ways_to_columns

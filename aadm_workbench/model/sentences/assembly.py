@@ -37,6 +37,11 @@ SENTENCES: dict[str, Sentence] = {
         "{what} (the best that was found; fewer bars might do)",
         "{what}（已找到的最佳方案；或许更少的钢筋即可）",
     ),
+    "assembly.bent": Sentence(
+        "{rebars}: a lean of up to {lean_deg:.1f}° in what was seen, from {seen_mm:.0f} mm below the top on down they "
+        "may stand upright: scan them further down",
+        "{rebars}：可见部分倾斜达 {lean_deg:.1f}°，顶端以下 {seen_mm:.0f} mm 起可能是直立的：请扫描到更低处",
+    ),
     "assembly.beyond": Sentence("{how}, limit {upper:g} mm ({clause})", "{how}，限值 {upper:g} mm（{clause}）"),
     "assembly.close": Sentence(
         "{what}: too close to it for an uncertainty of {u_mm:.2f} mm",

@@ -157,6 +157,7 @@ def _audit(report: JobReport) -> _Told:
     yield "Decision", _LABEL, report.job.get("decision")
     yield "CaptureDate", _LABEL, report.capture.get("date") or None
     yield "Operator", _TEXT, report.capture.get("operator") or None
+    yield "CameraProfile", _TEXT, report.capture.get("camera_profile") or None
     yield "Job", _TEXT, report.job["name"]
     yield "JobSha256", _LABEL, report.job["sha256"]
     yield "Tool", _LABEL, f"{report.tool['name']} {report.tool['version']}"

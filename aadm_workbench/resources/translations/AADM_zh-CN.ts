@@ -532,6 +532,10 @@
    <translation>我站在 {side} 侧</translation>
   </message>
   <message>
+   <source>I stand beside the camera</source>
+   <translation>我站在相机旁</translation>
+  </message>
+  <message>
    <source>RECORDED, not live</source>
    <translation>历史记录，非实时</translation>
   </message>

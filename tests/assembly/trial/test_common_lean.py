@@ -68,3 +68,24 @@ def test_leans_of_their_own_are_no_common_one(build: Any, square: Array) -> None
         report = tried(build, square, 26.5, bars, rng.normal(0.0, 0.005, (12, 2)))
         assert not any("alike" in text for text in (*report.reasons, *report.notes))
         assert report.verdict is Verdict.FAIL, "9.6 mm over its length, and 2 × 1.5 mm are there"
+
+
+@pytest.mark.parametrize(
+    ("degrees", "sleeve_mm", "verdict"), [(4.0, 36.0, Verdict.INCONCLUSIVE), (8.0, 26.0, Verdict.FAIL)]
+)
+def test_a_bar_that_was_bent_fails_no_column_by_what_was_not_seen_of_it(
+    degrees: float, sleeve_mm: float, verdict: Verdict, build: Any, square: Array
+) -> None:
+    """R4 leans in its upper 60 mm: kinked there it needs 4.2 mm of 6.2, leaning on 11.2; the steep one has no room."""
+    design = build.column(square, sleeve_mm=sleeve_mm, outer_mm=23.5)
+    still = np.zeros((12, 2))
+    mouths, tops = (leaning(build.moved(points, still, 0.05), still) for points in (design.sleeves, design.rebars))
+    lean = np.array([np.tan(np.radians(degrees)), 0.0])
+    tops[3] = replace(leaning([tops[3]], lean[None])[0], seen_length_mm=60.0)
+    report = try_assembly(design, mouths, tops, CN, np.random.default_rng(0))
+    assert report.verdict is verdict
+    said = [text for text in (*report.reasons, *report.notes) if text.startswith(f"R4: a lean of up to {degrees:.1f}°")]
+    assert said
+    whole = replace(tops[3], seen_length_mm=160.0)
+    seen = try_assembly(design, mouths, [*tops[:3], whole, *tops[4:]], CN, np.random.default_rng(0))
+    assert seen.verdict is Verdict.FAIL
