@@ -35,7 +35,7 @@ _FARTHEST_MM = 40.0  # half of the room between two bars: further off it is anot
 _FIRST = 301  # the columns are called as those of the sample floor
 _STAND = Stand(distance=1000.0)  # so far away a foot of 600 mm and the bars under it fill the picture
 _HANG_MM, _HANG_DEG = 4.0, 0.4  # spread of how a crane holds a column over its bars
-_HEIGHT_MM = 90.0
+_HEIGHT_MM = 90.0  # as in the reference scene of the hoisting studies
 _RANGE_MM = 65_000 * DEPTH_SCALE_MM  # the steps that a depth map of 16 bits has
 
 

@@ -17,6 +17,7 @@ _HEIGHT = 0.82  # of the size: from the foot of a letter to its head
 _SMALLER = (1.0, 0.85, 0.7, 0.58)  # of the wanted size; four units at the least are still read on a screen
 _FURTHER = (0.0, 3.0, 7.0, 12.0, 18.0, 26.0)  # beyond the nearest place, units of the drawing
 _LED = 7.0  # from there on a line leads from the point to its name
+# from the wanted direction, alternately to either side: twelve ways round
 _TURNS_DEG = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)
 _GAP = 0.8  # units: between any two things
 

@@ -16,7 +16,7 @@ from aadm_workbench.report.words.reasons import in_both_languages
 
 SIZE = 7.0
 """Of the letters, points: the smallest that is read on paper."""
-_LEADING = 1.25 * SIZE
+_LEADING = 1.25 * SIZE  # points: lines of a cell do not touch
 _PADDING = 2.6  # points: between text and line
 _ABOVE, _BELOW = 1.4, 1.8  # points: between a text and the lines of its row
 _NARROWEST = 30.0  # points: a column of a word of five letters
