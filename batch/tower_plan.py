@@ -51,15 +51,15 @@ def plan_of(report: JobReport, model: Path | None) -> StackPlan | None:
     JobError
         Where somebody has changed the report's [stack] to what is none.
     """
-    from aadm_workbench.assembly.tolerances import load_profile
-    from aadm_workbench.report.words.reasons import in_both_languages
-    from aadm_workbench.stack.result import NotFound
-
     from .job.stack import carried_settings
 
     settings = carried_settings(report.job)
     if settings is None:
         return None
+    from aadm_workbench.assembly.tolerances import load_profile
+    from aadm_workbench.report.words.reasons import in_both_languages
+    from aadm_workbench.stack.result import NotFound
+
     profile = load_profile(PROFILE)
     named = model if model is not None and model.suffix.lower() == ".ifc" else None
     try:
@@ -71,26 +71,30 @@ def plan_of(report: JobReport, model: Path | None) -> StackPlan | None:
 
 def tower_of(report: JobReport, model: Path | None) -> TowerShown | None:
     """What the reports of a check show of its tower; None where its job has no [stack]; errors as :func:`plan_of`."""
-    from aadm_workbench.stack.shown import tower_shown
-
     plan = plan_of(report, model)
-    return None if plan is None else tower_shown(plan)
+    if plan is None:
+        return None
+    from aadm_workbench.stack.shown import tower_shown  # as below: most jobs have no tower to load it for
+
+    return tower_shown(plan)
 
 
 def setting_of(report: JobReport, model: Path | None) -> dict[str, list[Property]]:
     """What the model is told of the tower; empty where the job has no [stack]; errors as :func:`plan_of`."""
+    plan = plan_of(report, model)
+    if plan is None:
+        return {}
     from aadm_workbench.stack.setting import setting_properties
 
-    plan = plan_of(report, model)
-    return {} if plan is None else setting_properties(plan)
+    return setting_properties(plan)
 
 
 def with_setting(report: JobReport, model: Path | None) -> JobReport:
     """The report with the setting of each column, where the job has [stack]; errors as :func:`plan_of`."""
-    from aadm_workbench.stack.setting import setting_report
-
     plan = plan_of(report, model)
     if plan is None:
         return report
+    from aadm_workbench.stack.setting import setting_report
+
     found = {one.measured.id: setting_report(one) for one in plan.columns}
     return replace(report, columns=tuple(replace(one, setting=found[one.id]) for one in report.columns))

@@ -52,19 +52,19 @@ class _Holder:
     def __init__(self, library: Any) -> None:
         self._library, self._camera = library, library.Camera()
 
-    def devices(self) -> tuple[dict[str, Any], bytes]:
+    def devices(self) -> tuple[dict[str, object], bytes]:
         """The cameras that answer a broadcast."""
         found = self._library.Camera.discover_cameras(_DISCOVER_WITHIN_MS)
         return {"devices": [_info(one) for one in found]}, b""
 
-    def open(self, ip: str) -> tuple[dict[str, Any], bytes]:
+    def open(self, ip: str) -> tuple[dict[str, object], bytes]:
         """Connect, and say what was connected to."""
         _check(self._camera.connect(ip, _CONNECT_WITHIN_MS))
         info = self._library.CameraInfo()
         _check(self._camera.get_camera_info(info))
         return _info(info), b""
 
-    def capture(self, within_ms: int) -> tuple[dict[str, Any], bytes]:
+    def capture(self, within_ms: int) -> tuple[dict[str, object], bytes]:
         """A depth map, its intrinsics, and the settings in force."""
         frame, intrinsics = self._library.Frame3D(), self._library.CameraIntrinsics()
         _check(self._camera.capture_3d(frame, within_ms))
@@ -82,11 +82,11 @@ class _Holder:
         }, content
 
 
-def _info(info: Any) -> dict[str, str]:
+def _info(info: Any) -> dict[str, object]:
     return {"ip": info.ip_address, "model": info.model, "serial": info.serial_number}
 
 
-def _settings(user_set: Any) -> dict[str, Any]:
+def _settings(user_set: Any) -> dict[str, object]:
     """What is set, by the maker's names; what has no single value (regions, sequences) is left out."""
     status, names = user_set.get_available_parameter_names()
     _check(status)
@@ -105,7 +105,7 @@ def _check(status: Any) -> None:
         raise _SaidNoError(status)
 
 
-def _send(answers: IO[bytes], answer: dict[str, Any], content: bytes = b"") -> None:
+def _send(answers: IO[bytes], answer: dict[str, object], content: bytes = b"") -> None:
     answers.write(json.dumps(answer).encode() + b"\n" + content)
     answers.flush()
 

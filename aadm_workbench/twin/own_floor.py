@@ -11,7 +11,6 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -97,7 +96,7 @@ def make_own_floor(
         if defect.column not in ids:
             raise AadmError(Reason("run.defect_column", column=defect.column, ids=ids))
     (folder / "scans").mkdir(parents=True, exist_ok=True)
-    truth: dict[str, Any] = {}
+    truth: dict[str, object] = {}
     tables = [_head()]
     for number, name in enumerate(ids):
         own = [defect for defect in defects if defect.column == name]
@@ -111,7 +110,7 @@ def make_own_floor(
 
 def _column(
     folder: Path, name: str, defects: Sequence[Defect], rng: np.random.Generator, *, hoisting: bool
-) -> tuple[dict[str, Any], list[str]]:
+) -> tuple[dict[str, object], list[str]]:
     """The scans of a column; its truth, and the names of its hoisting frames."""
     foot, bars = _with(defects, calm_foot(FIELD, rng), calm_bars(FIELD, rng))
     noise, design = CameraNoise.drawn(rng), sample_design(FIELD)
@@ -122,7 +121,7 @@ def _column(
     for part, scan in scans.items():
         write_depth_tiff(folder / "scans" / f"{name}-{part}.tiff", scan.depth, DEPTH_SCALE_MM)
     true = true_verdicts(design, foot, bars)
-    truth = {
+    truth: dict[str, object] = {
         "verdict": true.verdict.value,
         "goes_on": true.goes_on.value,
         "sleeves": scan_truth(scans["foot"], design.sleeves),
@@ -139,7 +138,7 @@ def _column(
     return truth | {"hoisting": _of_frame(frame)}, [file]
 
 
-def _of_frame(frame: HoistingScan) -> list[dict[str, Any]]:
+def _of_frame(frame: HoistingScan) -> list[dict[str, object]]:
     return [
         {"sleeve": pair.sleeve, "rebar": pair.rebar, "offset_mm": np.round(pair.offset_mm, 4).tolist()}
         for pair in frame.pairs

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -137,7 +137,7 @@ def design_table(setting: Setting) -> dict[str, float | list[float] | list[list[
     }
 
 
-def _truth(pair: Pair, seed: int) -> dict[str, Any]:
+def _truth(pair: Pair, seed: int) -> dict[str, object]:
     true = true_verdicts(pair.design, pair.foot, pair.bars)
     column = {
         "verdict": true.verdict.value,
