@@ -72,7 +72,7 @@ class _Book:
 
     def add(self, blocks_of: Callable[[float], list[Block]]) -> None:
         """A chapter, from the head of a page on; with smaller sketches where its last page is but a remnant."""
-        for page in _without_remnant(blocks_of) if blocks_of(1.0) else ():
+        for page in _without_remnant(blocks_of):
             self._number += 1
             for placed in page:
                 placed.block.draw(self._canvas, _MARGIN, A4[1] - 14.0 * MM - placed.below)
@@ -84,6 +84,8 @@ class _Book:
 def _without_remnant(blocks_of: Callable[[float], list[Block]]) -> list[Page]:
     """Pages whose last one is no remnant: by smaller sketches, else by fuller ones before it."""
     first = paginate(blocks_of(1.0), _HEIGHT)
+    if first == [[]]:
+        return []
     found = first
     for share in _SMALLER:
         found = found if share == 1.0 else paginate(blocks_of(share), _HEIGHT)
