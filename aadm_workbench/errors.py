@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Self
 
 PRIVATE_ENVIRONMENT = "AADM_PRIVATE_ENVIRONMENT"
 """Variable that is set in a process of FreeCAD's private environment, for which pip on the PATH does nothing."""
@@ -21,6 +22,13 @@ class AadmError(Exception):
     def reason(self) -> str:
         """What is wrong, where, and what to do: a reason of the table of sentences, or a text."""
         return self.args[0] if self.args and isinstance(self.args[0], str) else str(self)
+
+    @classmethod
+    def because(cls, code: str, /, **values: object) -> Self:
+        """The error whose reason is a sentence of the table (:class:`aadm_workbench.model.reason.Reason`)."""
+        from aadm_workbench.model.reason import Reason  # not before it is needed: it loads numpy
+
+        return cls(Reason(code, **values))
 
 
 class JobError(AadmError):
@@ -115,8 +123,9 @@ PACKAGES = (
     Package("pye57", "pye57", "E57 files", "formats"),
     Package("tifffile", "tifffile", "TIFF of half floats and of X, Y, Z", "formats"),
     Package("imagecodecs", "imagecodecs", "TIFF packed with ZSTD, LZMA or LERC", "formats"),
-    Package("genicam", "genicam", "gentl: cameras", "camera"),
-    Package("harvesters", "harvesters", "gentl: cameras", "camera"),
+    Package("genicam", "genicam", "gentl:, gige: cameras", "camera"),
+    Package("harvesters", "harvesters", "gentl:, gige: cameras", "camera"),
+    Package("mecheye", "mecheyeapi", "mecheye: cameras", "mecheye"),
     Package("asyncua", "asyncua", "link --opcua", "link"),
     Package("pymodbus", "pymodbus", "link --modbus", "link"),
     Package("paho", "paho-mqtt", "link --mqtt", "link"),

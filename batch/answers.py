@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.errors import DesignError
-from aadm_workbench.private.answers import FoundColumns, ReadScan
+from aadm_workbench.private.answers import FoundColumns, ReadCamera, ReadScan
 
 _SHOWN = 6  # reasons in a message; more say no more
+_DIGITS_OF_BODY = 1  # of what is drawn as a ghost, mm
 _DIGITS = 4  # of a point that is drawn, mm
 
 
@@ -28,9 +29,9 @@ def columns(question: Mapping[str, Any]) -> FoundColumns:
         Where there is none; says what was looked at.
     """
     from aadm_workbench.design.design_text import write_design
-    from aadm_workbench.inspection.as_designed import read_design
 
-    model, designs = (read_design(question["path"]), None) if "path" in question else _sampled(question)
+    bodies: dict[str, list[Any]] = {}
+    model, designs = (_read(question["path"], bodies), None) if "path" in question else _sampled(question)
     found = model.columns if designs is None else designs
     if not found:
         reasons = list(dict.fromkeys(f"{one.name}: {one.reason}" for one in model.not_taken))[:_SHOWN]
@@ -41,9 +42,29 @@ def columns(question: Mapping[str, Any]) -> FoundColumns:
         "source": model.source,
         "sha256": model.sha256,
         "schema": model.schema,
+        "project": model.project,
         "warnings": list(model.warnings),
         "columns": [write_design(design) for design in found],
+        "bodies": [_in_column_frame(bodies.get(design.global_id or "", ()), design) for design in found],
     }
+
+
+def _read(path: str, bodies: dict[str, list[Any]]) -> Any:
+    """The model in a file; of an IFC file ``bodies`` gets what encloses its columns, too."""
+    if Path(path).suffix.lower() == ".ifc":
+        from aadm_workbench.design.ifc.model import read_ifc
+
+        return read_ifc(path, bodies=bodies)
+    from aadm_workbench.inspection.as_designed import read_design
+
+    return read_design(path)
+
+
+def _in_column_frame(faces: Sequence[Any], design: Any) -> list[list[list[float]]]:
+    T = design.T_model_column
+    if T is None:
+        return []
+    return [((face - T[:3, 3]) @ T[:3, :3]).round(_DIGITS_OF_BODY).tolist() for face in faces]
 
 
 def _sampled(question: Mapping[str, Any]) -> tuple[Any, Sequence[Any] | None]:
@@ -72,7 +93,7 @@ def _check_one(model: Any, label: str) -> None:
         raise DesignError(f"{label} has no grouting sleeves in its foot face. {said}".strip())
     if len(model.columns) > 1:
         called = ", ".join(column.id for column in model.columns[:_SHOWN])
-        raise DesignError(f"{label} holds {len(model.columns)} columns: {called}. Select one of them.")
+        raise DesignError.because("command.several_columns", model=label, count=len(model.columns), called=called)
 
 
 def scan(question: Mapping[str, Any]) -> ReadScan:
@@ -118,5 +139,25 @@ def scan(question: Mapping[str, Any]) -> ReadScan:
     }
 
 
-ANSWERS: dict[str, Callable[[Mapping[str, Any]], FoundColumns | ReadScan]] = {"columns": columns, "scan": scan}
+def camera(question: Mapping[str, Any]) -> ReadCamera:
+    """A camera for all scans of a job.
+
+    Parameters
+    ----------
+    question
+        ``file`` with its intrinsics.
+
+    Raises
+    ------
+    CameraError
+        Where there are none in it.
+    """
+    from aadm_workbench.scan.camera import read_camera, read_depth_scale_mm
+
+    file = Path(question["file"])
+    return {"camera": asdict(read_camera(file)), "depth_scale_mm": read_depth_scale_mm(file)}
+
+
+Answer = FoundColumns | ReadScan | ReadCamera
+ANSWERS: dict[str, Callable[[Mapping[str, Any]], Answer]] = {"columns": columns, "scan": scan, "camera": camera}
 """By what is asked."""

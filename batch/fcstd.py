@@ -48,7 +48,7 @@ def write_fcstd(report: JobReport, path: Path) -> None:
                 raise AadmError(str(problem).replace(str(made), str(path)))
             write_atomically(path, made.read_bytes())
     except OSError as error:
-        raise AadmError(f"{path}: cannot be written ({error.strerror}); check its folder") from error
+        raise AadmError.because("command.cannot_write", file=path, why=error.strerror) from error
 
 
 def model_of(model: Mapping[str, str] | None, path: Path) -> Path | None:

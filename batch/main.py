@@ -46,6 +46,8 @@ COMMANDS = MappingProxyType(
         "report": "make HTML, PDF, XLSX, CSV, BCF, crew pages and scan cards from a report",
         "diff": "say what changed between two inspections",
         "stack": "say what set columns do to beams and to the next storey",
+        "camera": "draw a plate, learn a camera from captures of it, verify it later",
+        "gauge": "study repeat captures: what the camera repeats, and whether its u is to be believed",
         "writeback": "write the results of a check into the IFC model",
         "profiles": "list tolerance profiles and their rules",
         "doctor": "say what is installed and what is missing",

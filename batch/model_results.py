@@ -29,10 +29,10 @@ def ifc_model_of(job: Job) -> Path:
         Where the job has no model, or one that is no IFC file.
     """
     if job.model is None:
-        raise JobError(f"{job.source}: --write-ifc needs a [model], for results are written into the model's elements")
+        raise JobError.because("command.write_without_model", job=job.source)
     path = job.folder / job.model.path
     if path.suffix.lower() != ".ifc":
-        raise JobError(f"{job.source}: --write-ifc writes into IFC models (.ifc), but [model] path is {job.model.path}")
+        raise JobError.because("command.write_into_other", job=job.source, model=job.model.path)
     return path
 
 
@@ -45,9 +45,15 @@ def write_results(
     force: bool = False,
     setting: Mapping[str, Sequence[Property]] | None = None,
 ) -> WriteBack:
-    """Write a report into a model and link the columns to the report's file; arguments and errors as ``write_ifc``."""
+    """Write a report into a model and link the columns to the report's file; arguments and errors as ``write_ifc``.
+
+    ``setting`` None: that of the report's own job, where it has [stack].
+    """
     from aadm_workbench.report.ifc.model import write_ifc
 
+    from .tower_plan import setting_of
+
+    setting = setting_of(report, model) if setting is None else setting
     return write_ifc(report, model, out, report_location=_link(report_folder, out), force=force, setting=setting)
 
 

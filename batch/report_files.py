@@ -3,26 +3,37 @@
 from __future__ import annotations
 
 import argparse
+import traceback
 from collections.abc import Sequence
+from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from aadm_workbench.errors import AadmError
+
+from .shown.told import told
+
 if TYPE_CHECKING:
     from aadm_workbench.model import JobReport
+    from aadm_workbench.model.reason import Language
+    from aadm_workbench.report.bcf.forms import Version
 
 FORMATS = {
     "html": ("report.html", "one page to read in a browser, offline; prints well"),
     "pdf": ("report.pdf", "the same on A4, to sign and to file"),
     "xlsx": ("report.xlsx", "a workbook with a sheet for each question"),
     "csv": ("report.csv", "all values with their limits, a line each"),
-    "bcf": ("report.bcf", "a BCF 2.1 topic for each column that is not a pass"),
+    "bcf": ("report.bcf", "a BCF topic for each column that is not a pass"),
     "bcf_pairs": ("report-pairs.bcf", "the same with a topic for each pair of sleeve and bar"),
     "crew": ("crew.pdf", "a page for the crew for each column: what to do"),
     "scan_card": ("scan-card.pdf", "a card for each column: how to scan it"),
     "fcstd": ("report.FCStd", "a FreeCAD document with the results on the columns"),
 }
 """By the name of their switch: file, and what it is."""
+
+_WITH_TOWER = ("html", "pdf")
+"""Formats that show the tower of a job with [stack]."""
 
 _PACKAGES = {
     "html": ("jinja2", "fonttools"),
@@ -45,6 +56,12 @@ def add_format_switches(parser: argparse.ArgumentParser, *, also: str = "") -> N
         choices=("en", "zh"),
         metavar="LANGUAGE",
         help="en or zh: of reports and errors (default: en; crew pages and scan cards have both, Chinese first)",
+    )
+    parser.add_argument(
+        "--bcf-version",
+        choices=("2.1", "3.0"),
+        metavar="VERSION",
+        help="2.1 or 3.0: of BCF files (default: that of the file that is there, 2.1 for a new one)",
     )
 
 
@@ -69,34 +86,76 @@ def require_packages(formats: Sequence[str]) -> None:
                 raise MissingDependencyError(package.pip_name, FORMATS[name][0])
 
 
-def write_reports(
-    report: JobReport, formats: Sequence[str], folder: Path, language: Literal["en", "zh"] | None = None
-) -> dict[str, Path]:
-    """Write reports into a folder; the files by the names of their formats.
+@dataclass(frozen=True)
+class HowReports:
+    """In which language reports are made, and of which version a BCF file; None for what each has by itself.
 
-    Raises
-    ------
-    MissingDependencyError
-        Where a package is missing.
-    AadmError
-        Where a file cannot be written.
+    ``model`` is where beams and heights of the tower are taken from, of a job with [stack].
     """
-    files = {name: folder / FORMATS[name][0] for name in formats}
-    for name, path in files.items():
-        _write(name, report, path, language)
-    return files
+
+    language: Language | None = None
+    bcf_version: Version | None = None
+    model: Path | None = None
+
+    @classmethod
+    def asked(cls, options: argparse.Namespace, model: Path | None) -> HowReports:
+        """As the switches say."""
+        return cls(options.language, options.bcf_version, model)
 
 
-def _write(name: str, report: JobReport, path: Path, language: Literal["en", "zh"] | None) -> None:
-    """One report; the packages of a format are imported only where it is asked for."""
+@dataclass(frozen=True)
+class Written:
+    """The files that were written, and what kept others from it, by the names of their formats."""
+
+    files: dict[str, Path]
+    failed: dict[str, Exception]
+
+    def say(self, options: argparse.Namespace) -> None:
+        """Tell of each format that failed, on stderr."""
+        from .shown.terminal import say
+
+        for name, error in self.failed.items():
+            known = isinstance(error, AadmError)
+            said = told(error, options) if known else f"{FORMATS[name][0]}: {type(error).__name__}: {error}"
+            say(f"aadm: {said}")
+            if options.debug and not known:
+                say("".join(traceback.format_exception(error)))
+
+
+def write_reports(report: JobReport, formats: Sequence[str], folder: Path, how: HowReports | None = None) -> Written:
+    """Write reports into a folder, one after the other; one that fails does not cost the others."""
+    files: dict[str, Path] = {}
+    failed: dict[str, Exception] = {}
+    for name in formats:
+        path = folder / FORMATS[name][0]
+        try:
+            _write(name, report, path, how or HowReports())
+        except Exception as error:  # noqa: BLE001 - whatever breaks one report, the night's others are wanted
+            failed[name] = error
+        else:
+            files[name] = path
+    return Written(files, failed)
+
+
+def _write_with_tower(name: str, report: JobReport, path: Path, language: Language, model: Path | None) -> None:
+    from .tower_plan import tower_of
+
+    tower = tower_of(report, model)
     if name == "html":
         from aadm_workbench.report.pages.html import write_html
 
-        write_html(report, path, language or "en")
-    elif name == "pdf":
+        write_html(report, path, language, tower=tower)
+    else:
         from aadm_workbench.report.pages.pdf import write_pdf
 
-        write_pdf(report, path, language or "en")
+        write_pdf(report, path, language, tower=tower)
+
+
+def _write(name: str, report: JobReport, path: Path, how: HowReports) -> None:
+    """One report; the packages of a format are imported only where it is asked for."""
+    language = how.language
+    if name in _WITH_TOWER:
+        _write_with_tower(name, report, path, language or "en", how.model)
     elif name == "xlsx":
         from aadm_workbench.report.sheets.xlsx import write_xlsx
 
@@ -114,12 +173,13 @@ def _write(name: str, report: JobReport, path: Path, language: Literal["en", "zh
         from aadm_workbench.report.bcf.topics import write_bcf
 
         per: Literal["column", "pair"] = "pair" if name == "bcf_pairs" else "column"
-        write_bcf(report, path, existing=path if is_there(path) else None, per=per)
+        existing = path if is_there(path) else None
+        write_bcf(report, path, existing=existing, per=per, version=how.bcf_version, language=language or "en")
     else:
         _write_pages(name, report, path, language)
 
 
-def _write_pages(name: str, report: JobReport, path: Path, language: Literal["en", "zh"] | None) -> None:
+def _write_pages(name: str, report: JobReport, path: Path, language: Language | None) -> None:
     if name == "crew":
         from aadm_workbench.report.pages.crew_page import write_crew_pages
 

@@ -28,13 +28,20 @@ def add_loop_study(kinds: Any, prepare: Callable[[argparse.Namespace], None]) ->
         help=_ABOUT,
         description=f"{_ABOUT[0].upper()}{_ABOUT[1:]}. All parts are the real ones but for the camera's light and the "
         "crane's ropes, which are calculated. Frames, state and job stay in --out.",
-        epilog="example:\n  aadm study loop --out loop --seed 3",
+        epilog="examples:\n  aadm study loop --out loop --seed 3\n  aadm study loop --loops 200",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--seed", type=int, default=0, metavar="S", help="another seed, another column (default: 0)")
     parser.add_argument(
         "--frames", type=whole_number, default=_MOST_FRAMES, metavar="N", help=f"at most (default: {_MOST_FRAMES})"
     )
+    parser.add_argument(
+        "--loops",
+        type=whole_number,
+        metavar="N",
+        help="N columns that swing, with frames drawn by the errors of rendered ones: counts, in minutes",
+    )
+    parser.add_argument("--arm", action="store_true", help="with --loops: a robot's arm in place of the crane")
     parser.add_argument("--quick", action="store_true", help="a camera of half the resolution")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder for frames, state and job")
     add_switches(parser, prints_json="how it ended")
@@ -43,11 +50,32 @@ def add_loop_study(kinds: Any, prepare: Callable[[argparse.Namespace], None]) ->
 
 def _study(options: argparse.Namespace) -> int:
     """Run the loop: 0 where the column stands within the limit, 10 where not, 11 where it never came down."""
+    if options.loops:
+        return _loops(options)
     _check_packages()
     folder, options.out = options.out, None  # no plots
     options.prepare(options)
     with tempfile.TemporaryDirectory() as scratch:
         return _loop(options, folder or Path(scratch))
+
+
+def _loops(options: argparse.Namespace) -> int:
+    """Run many: 0 where every column that was let down stands within the limit, 10 where not."""
+    from aadm_workbench.report.json import encode
+
+    from .shown.terminal import say, show_json
+    from .study_loops import run_loop, summary_of
+
+    seeds = range(options.seed, options.seed + options.loops)
+    found = summary_of([run_loop(seed, options.frames, arm=options.arm) for seed in seeds])
+    if options.json:
+        show_json(encode(found))
+    elif not options.quiet:
+        say(
+            f"{found['ready']} of {found['loops']} columns ready within {options.frames} frames (median "
+            f"{found['median_frames']}); {found['beyond_after_ready']} of them beyond the limit in the period after"
+        )
+    return FAILS if found["beyond_after_ready"] else ALL_PASS
 
 
 def _check_packages() -> None:

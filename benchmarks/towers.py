@@ -144,7 +144,7 @@ def let_down(
     turned = Rotation.from_euler("z", yaw) * body
     shift = bars.mean(axis=0) - body.apply([*(sleeves + told).mean(axis=0), 0.0])[:2]
     shift = shift + rng.normal(0.0, settings.fit_u_mm, 2)
-    top = shift + rng.normal(0.0, settings.plumb_u_mm, 2)
+    top = shift + rng.normal(0.0, settings.plumb_at(HEIGHT_MM), 2)
     angle = float(turned.as_rotvec()[2]) + rng.normal(0.0, settings.bars_u_mm / RADIUS_MM)
     return top + rng.normal(0.0, settings.bars_u_mm, 2), angle, top
 
@@ -178,7 +178,7 @@ def towers(number: int, storeys: int, seed: int) -> list[dict[str, Any]]:
 def storey(folder: Path) -> dict[str, Any]:
     """How many tops and turns of a simulated storey lie in their regions of 95 %."""
     truth = json.loads((folder / "truth.json").read_text(encoding="utf-8"))
-    settings = read_job(folder / "job.toml").stack
+    settings = read_job(folder / "job.toml").stack or StackSettings()
     measured = measured_floor(read_report(folder / "job-report" / "report.json"))
     stacked = Tower(settings, Limits(load_profile("cn-gbt51231-2016"), "guarded"), {}).stacked(measured.columns)
     known = [one for one in stacked if one.placed is not None and one.basis == "control_points"]

@@ -39,11 +39,15 @@ for version in 3.11 3.12 3.13 3.14; do
         --python-version "$version" --target "$tools/none" --requirement requirements/test.txt
 done
 
+# uv, since pip holds markers against the machine that it runs on. macOS: 14, for which OpenCV is built; Linux: glibc
+# 2.31, that of Debian 11.
 missing=''
-for platform in win_amd64 macosx_14_0_arm64 macosx_14_0_x86_64 manylinux_2_28_aarch64; do
-    echo "wheels of the private environment for $platform"
-    "$tools/bin/python" -m pip install --quiet --dry-run --ignore-installed --no-deps --only-binary=:all: \
-        --python-version 3.11 --platform "$platform" --target "$tools/none" \
-        --requirement requirements/freecad.txt || missing="$missing $platform"
+for platform in x86_64-pc-windows-msvc aarch64-apple-darwin x86_64-apple-darwin aarch64-manylinux_2_31; do
+    for version in 3.11 3.14; do
+        echo "wheels of the private environment for $platform, Python $version"
+        MACOSX_DEPLOYMENT_TARGET=14.0 "$tools/bin/uv" pip install --quiet --dry-run --no-deps --only-binary :all: \
+            --python-platform "$platform" --python-version "$version" --target "$tools/none" \
+            --requirement requirements/freecad.txt || missing="$missing $platform"
+    done
 done
 [ -z "$missing" ] || { echo "FreeCAD's private environment cannot be installed on:$missing" >&2; exit 1; }

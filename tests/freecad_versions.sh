@@ -26,6 +26,7 @@ inside() {
     shift
     env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive \
         PIP_CERT=/etc/ssl/certs/ca-certificates.crt AADM_ENVIRONMENTS=/opt/environments AADM_DOCUMENTS=/opt/documents \
+        AADM_FREECAD_PACKAGES=/opt/ifc:/opt/packages \
         PYTHONPATH=/opt/aadm:/opt/packages chroot "$place" "$@"
 }
 
@@ -50,6 +51,9 @@ set_up() {
         # shellcheck disable=SC2086
         inside "$place" python3 -m pip install --quiet --disable-pip-version-check --target /opt/packages \
             --constraint /opt/pins.txt $wheels
+        # The newest with which FreeCAD's native opening works, as its user may have put it there.
+        inside "$place" python3 -m pip install --quiet --disable-pip-version-check --target /opt/ifc --no-deps \
+            ifcopenshell==0.8.4
         : >"$place/opt/ready"
     fi
 }

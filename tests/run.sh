@@ -18,6 +18,8 @@ has_library libEGL.so.1 || missing="$missing libegl1"
 has_library libGL.so.1 || missing="$missing libgl1"
 has_library libusb-1.0.so.0 || missing="$missing libusb-1.0-0"
 has_library libX11.so.6 || missing="$missing libx11-6"
+# What gige:// cameras are reached with; it brings a simulated one.
+has_library libaravis-0.8.so.0 || missing="$missing libaravis-0.8-0"
 # What Mitsuba compiles with; without it the tests of the fringe camera are skipped.
 has_renderer() { "$venv/bin/python" -c 'from aadm_workbench.twin.fringe.renderer import mitsuba_ready; mitsuba_ready()' 2>/dev/null; }
 has_renderer || missing="$missing libllvm19"
@@ -30,6 +32,11 @@ if [ "${AADM_SKIP_FREECAD:-0}" != 1 ]; then
 fi
 # shellcheck disable=SC2086  # names of packages hold no spaces
 install_packages $missing
+
+# The library of Mech-Eye's maker has wheels for few systems; without it its tests are skipped.
+has_mecheye() { "$venv/bin/python" -c 'import mecheye' >/dev/null 2>&1; }
+has_mecheye || "$venv/bin/python" -m pip install --no-deps --only-binary=:all: \
+    --requirement "$root/requirements/mecheye.txt" >>"$log" 2>&1 || say "no mecheyeapi for this Python"
 
 # Matplotlib, Dask, FreeCAD and others keep their settings at home, and read them there.
 unset XDG_CACHE_HOME XDG_CONFIG_HOME XDG_DATA_HOME XDG_STATE_HOME

@@ -14,7 +14,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "aadm_workbench"
-STAGES = ("design", "camera", "scan", "extract", "assembly", "hoisting", "report", "inspection", "stack")
+STAGES = ("design", "camera", "scan", "extract", "assembly", "hoisting", "report", "inspection", "stack", "calibration")
 NOUNS = {"errors", "model", "atomic", "bounded", "own_files"}
 
 Finding: TypeAlias = tuple[int, str]

@@ -1,6 +1,7 @@
-"""Each number at the head of a module says why it has its value, or where it comes from.
+"""Each number at the head of a module says why it has its value, or where it comes from; so do those that measure.
 
-A comment on its line or on the line above, or a docstring under it. Whether what is said is true no test can tell; what
+A comment on its line or on the line above, or a docstring under it; inside functions, a comment there or above.
+Whether what is said is true no test can tell; what
 "±30 %" in a comment was, ``benchmarks/constants.py`` repeats.
 """
 
@@ -14,6 +15,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = ("aadm_workbench", "batch")
+MEASURING = ("aadm_workbench/extract", "aadm_workbench/assembly")
+"""Where a number inside a function decides what is measured or judged."""
 SAYS_ITSELF = {"array", "eye", "ones", "zeros"}  # of noughts and ones: a direction, a matrix that does nothing
 
 
@@ -44,6 +47,59 @@ def holds_numbers(value: ast.expr) -> bool:
 def is_docstring(following: list[ast.stmt]) -> bool:
     """Whether the statement after a constant is a text."""
     return any(isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) for node in following)
+
+
+def silent_numbers(text: str) -> Iterator[tuple[int, float]]:
+    """Line and value of each number inside a function that stands without a word.
+
+    Halves, powers of ten, what keeps a division from zero, whole numbers that index, and angles of a circle say it.
+    """
+    lines = text.splitlines()
+    plain = {0.5, 16.0, 90.0, 180.0, 255.0, 360.0}  # half, of a turn, of a byte
+    for function in (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef)):
+        for node in ast.walk(function):
+            if not isinstance(node, ast.Constant) or type(node.value) not in {int, float}:
+                continue
+            value = float(node.value)
+            whole = value.is_integer() and 0 <= value <= (9 if isinstance(node.value, int) else 4)
+            power = value > 0 and f"{value:e}".startswith("1.000000e") and (value <= 1e-6 or value >= 1e-3)
+            said = "#" in lines[node.lineno - 1] or comment_above(lines, node.lineno - 1)
+            if not (whole or power or value in plain or said):
+                yield node.lineno, value
+
+
+def comment_above(lines: list[str], place: int) -> bool:
+    """Whether a comment stands over the statement that a line, counted from 0, is a part of."""
+    deep = len(lines[place]) - len(lines[place].lstrip())
+    above = lines[place - 1]
+    return above.lstrip().startswith("#") and len(above) - len(above.lstrip()) == deep
+
+
+@pytest.mark.parametrize("folder", MEASURING)
+def test_no_number_that_measures_stands_without_a_word(folder: str) -> None:
+    found = [
+        f"{path.relative_to(ROOT)}:{line}: {value}"
+        for path in sorted((ROOT / folder).rglob("*.py"))
+        for line, value in silent_numbers(path.read_text(encoding="utf-8"))
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    ("line", "values"),
+    [
+        ("a = 1.2 * b", [1.2]),
+        ("a = 1.2 * b  # a fifth more", []),
+        ("# a fifth more\n    a = 1.2 * b", []),
+        ("a = 0.5 * b[5] + 2 * c + 100.0", []),
+        ("a = b > 12", [12.0]),
+        ("a = b / max(c, 1e-9)", []),
+        ("a = f(c, 2e-9)", [2e-9]),
+        ("if a:\n        # a fifth\n        b = 1\n    a = 1.2", [1.2]),
+    ],
+)
+def test_a_silent_number_is_noticed(line: str, values: list[float]) -> None:
+    assert [value for _, value in silent_numbers(f"def f():\n    {line}\n")] == values
 
 
 @pytest.mark.parametrize("folder", FOLDERS)

@@ -12,6 +12,7 @@ pytest.importorskip("manifold3d")
 
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.hoisting.contradiction import contradiction_of
+from aadm_workbench.hoisting.joint import measure_jointly, shapes_agree
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
 from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.model import HoistingMeasurement, Verdict
@@ -113,3 +114,25 @@ def test_far_and_flat_pairs_are_as_sure_as_they_say() -> None:
     joined = measure_hoisting(truth.frame.scan(), design, near=scenes.NEAR, **before)
     assert scenes.distance_errors(joined, truth, seen=False).mean() < 0.11  # all twenty, from one frame
     assert joined.report.moved_since == ()
+
+
+def test_two_corners_together_know_what_one_of_them_hides() -> None:
+    first, second = scenes.from_corner(scenes.NEAR), scenes.from_corner(OTHER)
+    here, there = measured(first, scenes.NEAR), measured(second, OTHER)
+    joint = measure_jointly([here, there], DESIGN, load_profile("cn"), "simple")
+    assert joint is not None
+    assert joint.report.joined == ("frame.tiff", "frame.tiff")
+    hidden = [k for k, pair in enumerate(there.report.pairs) if not pair.seen and joint.report.pairs[k].seen]
+    assert len(hidden) >= 2
+    alone, together = (np.hypot(*scenes.offset_errors(found, second)[hidden].T) for found in (there, joint))
+    assert together.max() < 0.35
+    assert together.mean() < 0.5 * alone.mean()
+    errors, covariances = scenes.offset_errors(joint, second), joint.covariances
+    squares = [error @ np.linalg.solve(spread, error) for error, spread in zip(errors, covariances, strict=True)]
+    assert max(squares) < 18.4  # one in ten thousand
+    assert push(joint) == pytest.approx(push(there), abs=0.6)  # over more pairs
+    assert shapes_agree(here, there) is True
+    wrong = measured(second, scenes.NEAR)
+    assert shapes_agree(here, wrong) is False
+    assert measure_jointly([here, wrong], DESIGN, load_profile("cn"), "simple") is None
+    assert measure_jointly([here, measured(second, None)], DESIGN, load_profile("cn"), "simple") is None

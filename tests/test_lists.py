@@ -14,7 +14,7 @@ import pytest
 from aadm_workbench import errors
 from aadm_workbench.design.model_units import MM_PER_UNIT
 from aadm_workbench.design.read import SUPPORTED
-from aadm_workbench.extract.method import METHODS
+from aadm_workbench.extract.method import BY_DESIGN, METHODS
 from aadm_workbench.extract.published import hoisting
 from aadm_workbench.model import SUMMED, WORST_FIRST, Verdict, worst
 from aadm_workbench.report.drawing.sketch import STYLES
@@ -99,7 +99,8 @@ def test_the_command_names_the_models_and_units_that_are_read() -> None:
 
 def test_all_name_the_same_methods() -> None:
     assert tuple(METHODS) == job_command.METHODS
-    assert tuple(METHODS)[1:] == hoisting.METHODS
+    assert job_command.BY_DESIGN == BY_DESIGN
+    assert job_command.SCAN_METHODS[1:] == hoisting.METHODS
 
 
 def test_the_order_of_verdicts_is_that_of_their_sums_and_exit_codes() -> None:

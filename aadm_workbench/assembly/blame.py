@@ -6,7 +6,7 @@ would put right, and what stands off the place that the others give it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -33,8 +33,10 @@ def _why(step: RepairStep) -> str:
     return Reason("assembly.off_own_place", off_mm=step.off_mm, others=others)
 
 
-def blame_of_group(labels: Sequence[str], measured: Array, design: Array, failing: set[str], rule: Rule) -> str:
-    """A sentence on who is really off where least squares lets others fail; empty where it blames nobody else.
+def blamed_of_group(
+    labels: Sequence[str], measured: Array, design: Array, failing: set[str], rule: Rule
+) -> dict[str, float]:
+    """Who is really off where least squares lets others fail, and how far, mm, the worst first; empty for nobody else.
 
     Parameters
     ----------
@@ -47,8 +49,14 @@ def blame_of_group(labels: Sequence[str], measured: Array, design: Array, failin
     """
     off_mm = np.hypot(*robust_offsets(measured, design).T)
     blamed = [(label, off) for label, off in zip(labels, off_mm.tolist(), strict=True) if off > rule.upper]
-    if not blamed or {label for label, _ in blamed} >= failing:
-        return ""
-    others = "bars" if labels[0].startswith("R") else "sleeves"
-    blamed.sort(key=lambda one: -one[1])
-    return in_one(Reason("assembly.stands_off", label=label, off_mm=off, others=others) for label, off in blamed)
+    if {label for label, _ in blamed} >= failing:
+        return {}
+    return dict(sorted(blamed, key=lambda one: -one[1]))
+
+
+def said_of_blamed(blamed: Mapping[str, float]) -> str:
+    """One sentence on them; empty for nobody."""
+    return in_one(
+        Reason("assembly.stands_off", label=label, off_mm=off, others="bars" if label[0] == "R" else "sleeves")
+        for label, off in blamed.items()
+    )

@@ -6,8 +6,8 @@ Two different checks: the position of each centre after the fit, and the spacing
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -56,7 +56,7 @@ class _Inspected:
     points: tuple[PointResult, ...]
     spacing: tuple[SpacingResult, ...]
     rules: tuple[RuleResult, ...]
-    blame: str = ""
+    blamed: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def verdict(self) -> Verdict:
@@ -118,6 +118,7 @@ def inspect_group(
         reasons=_reasons(match, inspected[0], verdict),
         notes=_notes(extraction, match),
         quality=extraction.quality,
+        blamed=() if len(inspected) > 1 else tuple(inspected[0].blamed),
     )
 
 
@@ -148,21 +149,21 @@ def _inspect(
         rules.append(inspect_exposed_length(design, placed, rule, design_exposed_mm))
     rules += [not_assessed(rule, NO_ABSOLUTE_POSITION) for rule in (*skipped, *more_skipped)]
     rules += [not_assessed(rule, NO_ABSOLUTE_POSITION) for rule in rules_for(profile, "group_position")]
-    blame = _blame(design, by_position[0], position_rules[0]) if position_rules else ""
-    return _Inspected(by_position[0], by_spacing[0], tuple(rules), blame)
+    blamed = _blamed(design, by_position[0], position_rules[0]) if position_rules else {}
+    return _Inspected(by_position[0], by_spacing[0], tuple(rules), blamed)
 
 
-def _blame(design: Sequence[AssemblyPoint], points: Sequence[PointResult], rule: Rule) -> str:
-    """Who is really off, where the fit of all points lets others fail."""
+def _blamed(design: Sequence[AssemblyPoint], points: Sequence[PointResult], rule: Rule) -> dict[str, float]:
+    """Who is really off, and how far, mm, where the fit of all points lets others fail."""
     failing = {point.label for point in points if point.verdict is Verdict.FAIL}
     known = [(target, point.aligned_mm) for target, point in zip(design, points, strict=True) if point.aligned_mm]
     if not failing or len(known) < _FEWEST_TO_BLAME:
-        return ""
-    from aadm_workbench.assembly.blame import blame_of_group
+        return {}
+    from aadm_workbench.assembly.blame import blamed_of_group
 
     measured = np.array([aligned for _, aligned in known])[:, :2]
     places = np.array([target.centre for target, _ in known])[:, :2]
-    return blame_of_group([target.label for target, _ in known], measured, places, failing, rule)
+    return blamed_of_group([target.label for target, _ in known], measured, places, failing, rule)
 
 
 def _agreed_rules(inspected: Sequence[_Inspected]) -> tuple[RuleResult, ...]:
@@ -188,7 +189,7 @@ def _fit(design: Sequence[AssemblyPoint], match: Match, verdicts: Sequence[Verdi
 def direction_name(angle: float) -> str:
     """A direction of the column frame, radians from +x, as jobs declare it: ``+y``, or degrees."""
     degrees = math.degrees(angle) % 360.0
-    named = {0: "+x", 90: "+y", 180: "-x", 270: "-y"}
+    named = {0: "+x", 90: "+y", 180: "-x", 270: "-y"}  # degrees
     return named.get(round(degrees), f"{degrees:.0f}°") if abs(degrees - round(degrees)) < 1e-6 else f"{degrees:.1f}°"
 
 
@@ -225,7 +226,10 @@ def _reasons(match: Match, first: _Inspected, verdict: Verdict) -> tuple[str, ..
         for rule in first.rules
         if rule.rule.endswith("exposed_length") and rule.verdict is Verdict.FAIL and rule.counted
     ]
-    reasons = [first.blame, *reasons] if first.blame else reasons
+    if first.blamed:
+        from aadm_workbench.assembly.blame import said_of_blamed
+
+        reasons = [said_of_blamed(first.blamed), *reasons]
     if match.orientation != "ambiguous":
         return tuple(reasons)
     if verdict is Verdict.PASS:

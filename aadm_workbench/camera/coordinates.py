@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.errors import CaptureError
-from aadm_workbench.model import Array, Camera, FloatArray
+from aadm_workbench.model import Array, Camera, FloatArray, Reason
 
 MM_PER_UNIT = {
     "Micrometer": 1e-3,
@@ -108,9 +108,7 @@ def measured(parts: Sequence[Part], coding: Coding) -> Measured:
     if "C" in found:
         return _of_depths(found["C"], coding, mm_per_unit)
     sent = ", ".join(part.format for part in parts) or "nothing"
-    raise CaptureError(
-        f"the frame holds no coordinates ({sent}); set the camera's pixel format to one of {', '.join(BEST_FORMATS)}"
-    )
+    raise CaptureError(Reason("camera.frame_without", sent=sent, formats=BEST_FORMATS))
 
 
 def _axes_of(pixel_format: str) -> str:
@@ -121,21 +119,17 @@ def _axes_of(pixel_format: str) -> str:
 def _mm_per_unit(coding: Coding) -> float:
     if coding.unit in MM_PER_UNIT:
         return MM_PER_UNIT[coding.unit]
-    said = f"is {coding.unit}" if coding.unit else "is not said by the camera"
-    raise CaptureError(f"the unit of the coordinates (Scan3dDistanceUnit) {said}; set it to Millimeter")
+    raise CaptureError(Reason("camera.unit", unit=coding.unit) if coding.unit else Reason("camera.unit_unsaid"))
 
 
 def _check_frame(coding: Coding) -> None:
     if coding.system not in ("Cartesian", ""):
-        raise CaptureError(f"the coordinates are {coding.system}; set Scan3dCoordinateSystem to Cartesian")
+        raise CaptureError(Reason("camera.axes_system", system=coding.system))
     if coding.reference not in ("Anchor", ""):
-        raise CaptureError(
-            f"the coordinates are in the system {coding.reference}, not in the camera's own; set "
-            "Scan3dCoordinateSystemReference to Anchor"
-        )
+        raise CaptureError(Reason("camera.reference", reference=coding.reference))
     if coding.mode in (*_WHOLE_MODES, *_DEPTH_MODES, _REGULAR_MODE):
         return
-    raise CaptureError(f"Scan3dOutputMode is {coding.mode}, which is no distance; set it to {BEST_MODE}")
+    raise CaptureError(Reason("camera.mode", mode=coding.mode, best=BEST_MODE))
 
 
 def _in_rows(part: Part) -> Pixels:
@@ -149,8 +143,8 @@ def _in_rows(part: Part) -> Pixels:
 def _joined(parts: Sequence[Part]) -> Pixels:
     """Return the values of three parts, a coordinate each, as (h, w, 3)."""
     if len({(part.width, part.height) for part in parts}) > 1:
-        sizes = ", ".join(f"{part.width} x {part.height}" for part in parts)
-        raise CaptureError(f"the coordinates of one frame come in different sizes ({sizes})")
+        sizes = [f"{part.width} x {part.height}" for part in parts]
+        raise CaptureError(Reason("camera.sizes_differ", sizes=sizes))
     return np.stack([_plane(part) for part in parts], axis=-1)
 
 
@@ -162,10 +156,8 @@ def _filled(part: Part, per_pixel: int) -> Pixels:
     """Return the values of a part, if they are as many as its size needs."""
     wanted = part.width * part.height * per_pixel
     if part.values.size != wanted or wanted == 0:
-        raise CaptureError(
-            f"the frame is not whole: {part.values.size} values of {part.format} where {part.width} x {part.height} "
-            f"pixels take {wanted}"
-        )
+        size = {"width": part.width, "height": part.height, "wanted": wanted}
+        raise CaptureError(Reason("camera.short", found=part.values.size, format=part.format, **size))
     return part.values
 
 
@@ -186,16 +178,12 @@ def _of_depths(part: Part, coding: Coding, mm_per_unit: float) -> Measured:
     if coding.mode == _REGULAR_MODE:
         return Measured(_some(_on_even_grid(depth_mm, coding, mm_per_unit)))
     if any(coding.distortion):
-        raise CaptureError(
-            f"the lens is not straightened (distortion {list(coding.distortion)}), so depths alone are no points; set "
-            "the pixel format to Coord3D_ABC32f, or let the camera straighten its pictures"
-        )
-    if coding.camera is not None and (coding.camera.width, coding.camera.height) != (part.width, part.height):
-        raise CaptureError(
-            f"the frame has {part.width} x {part.height} pixels, the intrinsics of the camera are for "
-            f"{coding.camera.width} x {coding.camera.height}"
-        )
-    return Measured(depth_mm=_some(depth_mm), camera=coding.camera)
+        raise CaptureError(Reason("camera.lens", coefficients=list(map(str, coding.distortion))))
+    camera = coding.camera
+    if camera is not None and (camera.width, camera.height) != (part.width, part.height):
+        of_camera = {"camera_width": camera.width, "camera_height": camera.height}
+        raise CaptureError(Reason("camera.intrinsics_size", width=part.width, height=part.height, **of_camera))
+    return Measured(depth_mm=_some(depth_mm), camera=camera)
 
 
 def _on_even_grid(depth_mm: FloatArray, coding: Coding, mm_per_unit: float) -> FloatArray:
@@ -225,5 +213,5 @@ def _scaled(values: Pixels, axis: Axis, mm_per_unit: float) -> FloatArray:
 
 def _some(measured_mm: FloatArray) -> FloatArray:
     if not np.isfinite(measured_mm).any():
-        raise CaptureError("the frame holds no return at all: is the lens covered, or everything out of its range?")
+        raise CaptureError(Reason("camera.no_return"))
     return measured_mm

@@ -69,6 +69,18 @@ class Features:
         except (GenericException, AttributeError, TypeError, ValueError):
             return False
 
+    def execute(self, name: str) -> bool:
+        """Run a command; whether the device took it."""
+        from genicam.genapi import GenericException
+
+        try:
+            if not self._nodes.has_node(name):
+                return False
+            getattr(self._nodes, name).execute()
+        except (GenericException, AttributeError):
+            return False
+        return True
+
     def choices(self, name: str) -> tuple[str, ...]:
         """Return what an enumeration may be set to now."""
         from genicam.genapi import GenericException

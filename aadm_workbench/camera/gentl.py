@@ -9,22 +9,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from aadm_workbench.camera.coordinates import BEST_FORMATS, BEST_MODE, Part, measured
-from aadm_workbench.camera.features import Features, coding_of
+from aadm_workbench.camera.coordinates import Part
+from aadm_workbench.camera.features import Features
 from aadm_workbench.camera.frame import Closing, Device, Frame
-from aadm_workbench.camera.pinhole import camera_of
-from aadm_workbench.camera.settings import warnings_of
+from aadm_workbench.camera.genicam_frame import FRAME_WITHIN_S, first_line, frame_of, prepare
 from aadm_workbench.errors import CameraError, CameraGoneError, CaptureError, MissingDependencyError
+from aadm_workbench.model.reason import said_of
 
 SCHEME = "gentl"
-FRAME_WITHIN_S = 15.0
-"""Cameras of this kind project, decode and send in half a second to five; then something is wrong."""
-
-_LUMA = (0.299, 0.587, 0.114)  # of R, G, B: ITU-R BT.601
-_CHANNELS = {"RGB8": (0, 1, 2, 3), "BGR8": (2, 1, 0, 3), "RGBa8": (0, 1, 2, 4), "BGRa8": (2, 1, 0, 4)}
-"""Place of R, G and B among the values of a pixel, and how many these are."""
 
 
 def devices(address: str) -> list[Device]:
@@ -82,7 +75,7 @@ class GentlCamera(Closing):
         self._features = Features(acquirer.remote_device.node_map)
         self._lost = False
         acquirer.add_callback(acquirer.Events.INCOMPLETE_BUFFER, _Lost(self._note_loss))
-        self._prepare()
+        prepare(self._features)
 
     def capture(self) -> Frame:
         """Take one frame now; its time is that of the request, never later than the exposure."""
@@ -100,7 +93,7 @@ class GentlCamera(Closing):
             finally:
                 self._acquirer.stop()
         except GenericException as error:
-            raise CameraGoneError(f"{self.device.address}: the camera went away ({_first_line(error)})") from error
+            raise CameraGoneError(said_of(self.device.address, "camera.gone", why=first_line(error))) from error
 
     def close(self) -> None:
         """Let go of the camera; once more does no harm."""
@@ -112,48 +105,15 @@ class GentlCamera(Closing):
 
     def _why_none(self) -> str:
         if self._lost:
-            return (
-                f"{self.device.address}: packets of the frame were lost, so it is not used; look at the cable, the "
-                "switch and the size of packets"
-            )
-        return f"{self.device.address}: no frame came within {self._within_s:g} s; is it waiting for a trigger?"
-
-    def _prepare(self) -> None:
-        """Ask for all coordinates, in the camera's own system, and for what each frame says of them."""
-        features = self._features
-        features.set("ChunkModeActive", True)
-        for chunk in features.choices("ChunkSelector"):
-            if chunk.startswith("Scan3d") and features.set("ChunkSelector", chunk):
-                features.set("ChunkEnable", True)
-        if features.set("ComponentSelector", "Range"):
-            features.set("ComponentEnable", True)
-        if BEST_MODE in features.choices("Scan3dOutputMode"):
-            features.set("Scan3dOutputMode", BEST_MODE)
-        offered = features.choices("PixelFormat")
-        best = next((name for name in BEST_FORMATS if name in offered), None)
-        if best is not None:
-            features.set("PixelFormat", best)
+            return said_of(self.device.address, "camera.packets_lost")
+        return said_of(self.device.address, "camera.no_frame", within_s=self._within_s)
 
     def _frame(self, buffer: Any, captured_s: float) -> Frame:
         try:
             parts = [_part(component) for component in buffer.payload.components]
-            width, height = next(((p.width, p.height) for p in parts if p.format.startswith("Coord3D")), (0, 0))
-            coding = coding_of(self._features, width, height)
-            found = measured(parts, coding)
-        except (CaptureError, ValueError) as error:
-            raise CaptureError(f"{self.device.address}: {error}") from error
-        settings = self._features.settings()
-        camera = found.camera if found.points is None else camera_of(found.points)
-        return Frame(
-            self.device,
-            captured_s,
-            found.points,
-            found.depth_mm,
-            camera,
-            _grey(parts, width, height),
-            settings,
-            warnings_of(settings),
-        )
+        except ValueError as error:
+            raise CaptureError(said_of(self.device.address, "camera.not_whole")) from error
+        return frame_of(self.device, captured_s, parts, self._features)
 
 
 class _Lost:
@@ -170,7 +130,7 @@ def _split(address: str) -> tuple[Path, str]:
     """File and serial number of ``gentl:FILE.cti#SERIAL``; the number is empty where none is given."""
     file, _, serial = address.partition(":")[2].partition("#")
     if not file:
-        raise CameraError(f"{address}: names no producer; write gentl:FILE.cti, or gentl:FILE.cti#SERIAL")
+        raise CameraError(said_of(address, "camera.no_producer_named"))
     return Path(file), serial
 
 
@@ -187,20 +147,20 @@ def _harvester(file: Path) -> Any:
         harvester.update()
     except GenericException as error:
         harvester.reset()
-        raise CameraError(f"{file}: the GenTL producer does not start ({_first_line(error)})") from error
+        raise CameraError(said_of(file, "camera.producer_unstarted", why=first_line(error))) from error
     return harvester
 
 
 def _check_producer(file: Path) -> None:
     """Say why a file is no producer: harvesters takes anything, and then sees no camera."""
     if not file.is_file():
-        raise CameraError(f"{file}: there is no such file; name the .cti file that came with the camera's program")
+        raise CameraError(said_of(file, "camera.no_producer_file"))
     try:
         library = ctypes.CDLL(str(file.resolve()))
     except OSError as error:
-        raise CameraError(f"{file}: cannot be loaded ({error}); take the .cti file for this system") from error
+        raise CameraError(said_of(file, "camera.library_not_loaded", why=str(error))) from error
     if not hasattr(library, "GCInitLib"):
-        raise CameraError(f"{file}: is a library, but no GenTL producer")
+        raise CameraError(said_of(file, "camera.no_producer"))
 
 
 def _device(file: Path, found: Any) -> Device:
@@ -212,15 +172,15 @@ def _device(file: Path, found: Any) -> Device:
 def _chosen(file: Path, serial: str, found: Sequence[Device]) -> int:
     """Place of the camera that is meant among those that a producer sees."""
     if not found:
-        raise CameraGoneError(f"{SCHEME}:{file}: the producer sees no camera; is it on, and in this network?")
+        raise CameraGoneError(said_of(f"{SCHEME}:{file}", "camera.none_seen"))
     serials = [device.serial for device in found]
     if serial in serials:
         return serials.index(serial)
-    listed = ", ".join(f"{SCHEME}:{file}#{one}" for one in serials)
+    listed = [f"{SCHEME}:{file}#{one}" for one in serials]
     if serial:
-        raise CameraGoneError(f"{SCHEME}:{file}#{serial}: no such camera; there are {listed}")
+        raise CameraGoneError(said_of(f"{SCHEME}:{file}#{serial}", "camera.not_there_among", listed=listed))
     if len(found) > 1:
-        raise CameraError(f"{SCHEME}:{file}: several cameras are there; name one of {listed}")
+        raise CameraError(said_of(f"{SCHEME}:{file}", "camera.several", listed=listed))
     return 0
 
 
@@ -230,30 +190,9 @@ def _acquirer(harvester: Any, index: int, device: Device) -> Any:
     try:
         return harvester.create(index)
     except (GenericException, ValueError) as error:
-        raise CameraGoneError(
-            f"{device.address}: cannot be opened ({_first_line(error)}); does another program have it?"
-        ) from error
-
-
-def _first_line(error: BaseException) -> str:
-    return (str(error).splitlines() or [type(error).__name__])[0]
+        raise CameraGoneError(said_of(device.address, "camera.busy", why=first_line(error))) from error
 
 
 def _part(component: Any) -> Part:
     """Return a part of a buffer with values of its own: those of the buffer are gone with it."""
     return Part(component.data_format, component.width, component.height, np.array(component.data))
-
-
-def _grey(parts: Sequence[Part], width: int, height: int) -> npt.NDArray[np.uint8] | None:
-    """Return the picture of the same view, pixel for pixel; None where there is none."""
-    for part in parts:
-        if (part.width, part.height) != (width, height):
-            continue
-        if part.format == "Mono8" and part.values.size == width * height:
-            return part.values.reshape(height, width).astype(np.uint8)
-        channels = _CHANNELS.get(part.format)
-        if channels is not None and part.values.size == width * height * channels[-1]:
-            colours = part.values.reshape(height, width, channels[-1])[..., channels[:3]]
-            grey: npt.NDArray[np.uint8] = np.rint(colours @ np.array(_LUMA)).astype(np.uint8)
-            return grey
-    return None

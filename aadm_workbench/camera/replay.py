@@ -16,6 +16,7 @@ from pathlib import Path
 from aadm_workbench.camera.frame import RECORD_NAME, Closing, Device, Frame
 from aadm_workbench.camera.record import Record, record_of
 from aadm_workbench.errors import CameraError, CaptureError, EndOfFramesError
+from aadm_workbench.model.reason import said_of
 
 SCHEME = "replay"
 LARGEST_CAPTURE_BYTES = 2**30
@@ -40,10 +41,10 @@ def open_camera(address: str, repeat: bool = False) -> ReplayCamera:
     """
     folder = Path(address.partition(":")[2])
     if not folder.is_dir() or not address.partition(":")[2]:
-        raise CameraError(f"{address}: there is no such folder; write replay:FOLDER, with captures in it")
+        raise CameraError(said_of(address, "camera.no_folder"))
     captures = captures_in(folder)
     if not captures:
-        raise CameraError(f"{address}: holds no capture: no folder with a scan in it, and no scan")
+        raise CameraError(said_of(address, "camera.no_capture"))
     return ReplayCamera(Device(address), captures, repeat)
 
 
@@ -101,7 +102,7 @@ class ReplayCamera(Closing):
         """Give the next capture, byte for byte."""
         if self._next >= len(self._captures):
             if not self._repeat:
-                raise EndOfFramesError(f"{self.device.address}: all {len(self._captures)} captures were played")
+                raise EndOfFramesError(said_of(self.device.address, "camera.all_played", count=len(self._captures)))
             self._next = 0
         paths = self._captures[self._next]
         self._next += 1
@@ -116,7 +117,7 @@ class ReplayCamera(Closing):
     def _content(self, path: Path) -> bytes:
         try:
             if path.stat().st_size > LARGEST_CAPTURE_BYTES:
-                raise CaptureError(f"{path}: is larger than any capture; it is left out")
+                raise CaptureError(said_of(path, "camera.too_large"))
             return path.read_bytes()
         except OSError as error:
-            raise CaptureError(f"{path}: cannot be read ({error.strerror}); this capture is left out") from error
+            raise CaptureError(said_of(path, "camera.unread", why=error.strerror)) from error

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 
 from aadm_workbench.camera.frame import Setting
+from aadm_workbench.model import Reason
 
 _SMOOTHS = re.compile(
     r"smooth|gauss|median|bilateral|denois|noise_?reduc|spatial_?filter|temporal_?filter", re.IGNORECASE
@@ -17,17 +18,12 @@ _PART_OF_IT = re.compile(r"(?:size|kernel|radius|strength|threshold|sigma|window
 _OFF = frozenset({"off", "none", "no", "false", "disable", "disabled", "sharp", "0", "inactive", "bypass"})
 _NO_FILTER = re.compile(r"edge_?preserv", re.IGNORECASE)  # of Mech-Eye: what smoothing leaves of edges
 
-SMOOTHED = "smoothing is on in the camera ({name} = {value}): it moves the edges of sleeves; set it to off"
-FILLED = "holes are filled in the camera ({name} = {value}): what was not measured looks measured; set it to off"
-
 
 def warnings_of(settings: Mapping[str, Setting]) -> tuple[str, ...]:
     """What of a camera's settings moves edges or invents points, one sentence each, with the vendor's name for it."""
-    return tuple(
-        sentence.format(name=name, value=settings[name])
-        for sentence, words in ((SMOOTHED, _SMOOTHS), (FILLED, _FILLS))
-        for name in _in_force(settings, words)
-    )
+    smoothed = [Reason("camera.smoothed", name=name, value=settings[name]) for name in _in_force(settings, _SMOOTHS)]
+    filled = [Reason("camera.filled", name=name, value=settings[name]) for name in _in_force(settings, _FILLS)]
+    return (*smoothed, *filled)
 
 
 def _in_force(settings: Mapping[str, Setting], words: re.Pattern[str]) -> list[str]:

@@ -15,6 +15,7 @@ from aadm_workbench.errors import DesignError
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Json, Kind, Reason
 from aadm_workbench.model.reason import said_of
 
+_ORIGIN = ("source", "sha256", "schema", "project")
 _PLAIN = ("id", "global_id", "piece_mark", "storey", "grid", "rebar_outer_diameter_mm", "embedded_length_mm")
 
 
@@ -74,7 +75,7 @@ def write_model(origin: Mapping[str, Any], columns: Mapping[str, ColumnDesign]) 
     Parameters
     ----------
     origin
-        ``source``, ``sha256`` and ``schema`` of the model that they were taken from, as far as known.
+        ``source``, ``sha256``, ``schema`` and ``project`` of the model that they were taken from, as far as known.
     columns
         By the ids that the job calls them by.
     """
@@ -96,13 +97,13 @@ def read_designs(path: Path) -> ModelDesign:
     try:
         written = json.loads(path.read_text(encoding="utf-8"))
         origin, entries = written["taken_from"], written["columns"]
-        source, sha256, schema = (str(origin.get(key) or "") for key in ("source", "sha256", "schema"))
+        source, sha256, schema, project = (str(origin.get(key) or "") for key in _ORIGIN)
         columns = tuple(read_design(json.dumps(entry), str(path)) for entry in entries)
     except OSError as error:
         raise DesignError(said_of(path, "design.unread", why=error.strerror)) from error
     except (ValueError, LookupError, TypeError, AttributeError) as error:
         raise DesignError(said_of(path, "design.not_handed", why=error)) from error
-    return ModelDesign(source or str(path), sha256, schema, columns)
+    return ModelDesign(source or str(path), sha256, schema, columns, project=project)
 
 
 def _point_entry(point: AssemblyPoint) -> dict[str, Json]:

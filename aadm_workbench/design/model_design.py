@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.errors import DesignError
-from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Reason
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, GridAxis, Reason
 from aadm_workbench.model.reason import listed
 
 _GLOBAL_ID_LENGTH = 22  # 22 characters (IFC): a name that long is one
@@ -80,6 +80,10 @@ class ModelDesign:
         Where there is no column with sleeves: what was found instead, and how to say what is what.
     T_model_file
         (4, 4): the world coordinate system of the file, which moves its placements into the model frame.
+    grid
+        Straight axes of its grids.
+    project
+        GlobalId of the project of an IFC model.
     seconds, parse_seconds
         What finding the points took, and opening the file before; no part of any result.
     """
@@ -95,6 +99,8 @@ class ModelDesign:
     holdings: str = ""
     hint: str = ""
     T_model_file: Array = field(default_factory=lambda: np.eye(4))
+    grid: tuple[GridAxis, ...] = ()
+    project: str = ""
     seconds: float = 0.0
     parse_seconds: float = 0.0
 

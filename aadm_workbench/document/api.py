@@ -27,7 +27,8 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.document.checking import check_work, keep
-from aadm_workbench.document.column import column_design, columns_in, make_column, set_design
+from aadm_workbench.document.column import column_design, make_column, set_design
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.private_process import run
 from aadm_workbench.document.report.annotate import show_report, write_fcstd
 from aadm_workbench.document.report.file import load_report

@@ -12,7 +12,8 @@ import numpy as np
 
 from aadm_workbench.document.cloud import distance_from_design
 from aadm_workbench.document.column import column_design
-from aadm_workbench.document.job_text import DESIGN_FILE, design_text, job_text
+from aadm_workbench.document.job.table import DESIGN_FILE, design_text, job_table
+from aadm_workbench.document.job.toml import job_toml
 from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.result import make_result
 from aadm_workbench.document.scan_cloud import kind_of, lay_on_design
@@ -31,9 +32,9 @@ def check_work(column: Any) -> Work:
     AadmError
         Where there is nothing to check, or a scan is no longer what was imported.
     """
-    files = {"job.toml": job_text(column), DESIGN_FILE: design_text(column)}
+    files = {"job.toml": job_toml(job_table([column], DESIGN_FILE)), DESIGN_FILE: design_text([column])}
     for cloud in column.Scans:
-        _check_unchanged(cloud)
+        check_unchanged(cloud)
     arguments = ("check", "job.toml", "--out", "out", "--method", column.Method, "--json")
     return Work(arguments, files, "out/report.json", CHECKED)
 
@@ -49,28 +50,35 @@ def keep(column: Any, report: Mapping[str, Any], *, checked_at: str | None = Non
     found, report = report["columns"][0], {**report, "model": _model_of(column)}
     when = datetime.now(UTC).isoformat(timespec="seconds") if checked_at is None else checked_at
     result = make_result(column, report, found, when)
+    lay_scans(column, found)
+    return result
+
+
+def lay_scans(column: Any, found: Mapping[str, Any]) -> None:
+    """Put the scans of a column where a check has found that they lie; ``found`` is its entry of report.json."""
     design = column_design(column)
     for kind in Kind:
         clouds = [cloud for cloud in column.Scans if kind_of(cloud) is kind]
         fit = (found.get(kind.plural) or {}).get("fit")
         # Of several views the report keeps the pose of the first.
-        if fit is not None and clouds:
+        if fit is not None and clouds and clouds[0].Points:
             T_design_scan = np.array(fit["T_design_scan"], dtype=np.float64)
             points = np.array([tuple(point) for point in clouds[0].Points]).reshape(-1, 3)
             placed = points @ T_design_scan[:3, :3].T + T_design_scan[:3, 3]
             distances_mm = distance_from_design(placed, design, kind)
             lay_on_design(clouds[0], T_design_scan, distances_mm, column.Placement)
-    return result
 
 
 def _model_of(column: Any) -> dict[str, str] | None:
     """The model as reports name it: that which the design was taken from, not the file that handed it over."""
     if not column.ModelSha256:
         return None
-    return {"source": Path(column.ModelFile).name, "sha256": column.ModelSha256}
+    project = {"ifc_project": column.ModelProject} if column.ModelProject else {}
+    return {"source": Path(column.ModelFile).name, "sha256": column.ModelSha256, **project}
 
 
-def _check_unchanged(cloud: Any) -> None:
+def check_unchanged(cloud: Any) -> None:
+    """Raise ScanError where a scan is no longer what was imported."""
     if not cloud.File:
         raise ScanError(f"{cloud.Label} names no file: import the scan again")
     file = Path(cloud.File)

@@ -12,7 +12,8 @@ import FreeCAD
 import numpy as np
 
 from aadm_workbench.design.design_text import read_design, write_design
-from aadm_workbench.document.groups import put_into_group
+from aadm_workbench.document.belongings import own_up, watch_belongings
+from aadm_workbench.document.groups import COLUMN_TYPE, put_into_group
 from aadm_workbench.document.places import global_placement, move_to, placement_of, transform_of
 from aadm_workbench.document.properties import HIDDEN, READ_ONLY, Property, apply_properties
 from aadm_workbench.document.schema import SCHEMA, SCHEMA_PROPERTY, bring_up_to_date
@@ -33,6 +34,13 @@ PROPERTIES = (
         "ColumnId",
         _IDENTITY,
         QT_TRANSLATE_NOOP("App::Property", "What jobs and reports call it"),
+    ),
+    Property(
+        "App::PropertyString",
+        "MadeAs",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "Name of this object when it was made: a copy has another"),
+        mode=HIDDEN,
     ),
     Property(
         "App::PropertyLinkGlobal",
@@ -88,7 +96,35 @@ PROPERTIES = (
         mode=HIDDEN,
     ),
     Property(
+        "App::PropertyString",
+        "ModelProject",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "GlobalId of the project in that file, where it is IFC"),
+        mode=HIDDEN,
+    ),
+    Property(
+        "App::PropertyString",
+        "Body",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "Body of the column, as its model draws it: thin, in the column frame"),
+        mode=HIDDEN,
+    ),
+    Property(
+        "App::PropertyString",
+        "SampledSha256",
+        _IDENTITY,
+        QT_TRANSLATE_NOOP("App::Property", "Hash of the design points as they were sampled"),
+        mode=HIDDEN,
+    ),
+    Property(
         "App::PropertyString", "Design", _IDENTITY, QT_TRANSLATE_NOOP("App::Property", "Design points"), mode=HIDDEN
+    ),
+    Property(
+        "App::PropertyString",
+        "JobFile",
+        _CHECK,
+        QT_TRANSLATE_NOOP("App::Property", "Job file that it was last checked by, together with others"),
+        mode=HIDDEN,
     ),
     Property("App::PropertyLinkList", "Scans", _CHECK, QT_TRANSLATE_NOOP("App::Property", "Its scans")),
     Property("App::PropertyLink", "Result", _CHECK, QT_TRANSLATE_NOOP("App::Property", "Its last result")),
@@ -138,11 +174,13 @@ PROPERTIES = (
 class Column(Stateless):
     """Proxy of a column: keeps it, its scans and its result where the model's object stands."""
 
-    Type = "AADM::Column"
+    Type = COLUMN_TYPE
 
     def onDocumentRestored(self, obj: Any) -> None:
         """Bring a column of an earlier version up to date, and give it its view."""
-        bring_up_to_date(obj, PROPERTIES)
+        if bring_up_to_date(obj, PROPERTIES):
+            own_up(obj)
+        watch_belongings()
         show_restored(obj, "column_view", "ColumnView")
 
     def execute(self, obj: Any) -> None:
@@ -160,9 +198,11 @@ def make_column(document: Any, design: ColumnDesign, model: Any = None) -> Any:
     model
         The object of the model that it is, if it is in the document.
     """
+    watch_belongings()
     column = document.addObject("App::GeometryPython", "AADM_Column")
     column.Proxy = Column()
     apply_properties(column, PROPERTIES)
+    column.MadeAs = column.Name
     column.Schema = SCHEMA
     column.ColumnId = design.id
     column.Label = f"AADM {design.id}"
@@ -205,24 +245,6 @@ def follow_model(column: Any) -> None:
     for part in (*column.Scans, column.Result):
         if part is not None and hasattr(part.Proxy, "follow"):
             part.Proxy.follow(part, column.Placement)
-
-
-def columns_in(document: Any) -> list[Any]:
-    """All columns of this workbench in a document, in its order."""
-    # Asked for often, and a model has many objects: FreeCAD itself leaves out those of other types.
-    return [obj for obj in document.findObjects("App::GeometryPython") if is_column(obj)]
-
-
-def is_column(obj: Any) -> bool:
-    """Whether an object is a column of this workbench."""
-    return getattr(getattr(obj, "Proxy", None), "Type", "") == Column.Type
-
-
-def owner_of(part: Any) -> Any:
-    """The column that an object is, or that a scan or a result belongs to; None for anything else."""
-    if is_column(part):
-        return part
-    return next((parent for parent in getattr(part, "InList", ()) if is_column(parent)), None)
 
 
 def attach_view(obj: Any, module: str, name: str) -> None:

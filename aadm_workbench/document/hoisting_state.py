@@ -22,6 +22,9 @@ DEFAULT_LIMIT_MM = 3.0
 SIDES = {"-y": 0.0, "+x": 90.0, "+y": 180.0, "-x": -90.0}
 """Where the reader stands, seen from the column; the turn of what is ahead of them against +y, degrees."""
 
+BESIDE_CAMERA = ""
+"""Where the reader stands who looks as the camera does: what crews know without a drawing."""
+
 _LOOKED_AT = 20  # of the files of a folder that many people write into, several times a second
 _STILL_MM = 0.3  # less than a crane can move by: a tenth of the limit
 _STILL_DEG = 0.03  # 0.2 mm at the corner of a column of 600 mm
@@ -144,7 +147,7 @@ def guidance_of(measurement: Measurement, standing: str, now_s: float | None = N
     Parameters
     ----------
     standing
-        One of :data:`SIDES`.
+        One of :data:`SIDES`, or :data:`BESIDE_CAMERA`: then nothing is shown of which nobody knows where the camera is.
     now_s
         Seconds since 1970; None for what is looked at as a record: it never says ``go``.
     """
@@ -155,12 +158,22 @@ def guidance_of(measurement: Measurement, standing: str, now_s: float | None = N
     if move is None or not fitness.shows_move or measurement.frame.get("verdict") == "not_measured":
         return Guidance(None, None, None, largest_mm, margin_mm, "hold", fitness.reason)
     dx, dy, turn = (number(move.get(key)) or 0.0 for key in ("dx_mm", "dy_mm", "yaw_deg"))
-    angle = math.radians(SIDES[standing])
-    right_mm = dx * math.cos(angle) + dy * math.sin(angle)
-    ahead_mm = -dx * math.sin(angle) + dy * math.cos(angle)
+    right_mm, ahead_mm = _as_seen(move, dx, dy, standing)
+    if right_mm is None or ahead_mm is None:
+        return Guidance(None, None, None, largest_mm, margin_mm, "hold", fitness.reason)
     is_beyond = measurement.frame.get("verdict") == "fail" or (margin_mm is not None and margin_mm < 0.0)
     light = "go" if fitness.ready else "push" if is_beyond else "hold"
     return Guidance(right_mm, ahead_mm, turn, largest_mm, margin_mm, light, fitness.reason)
+
+
+def _as_seen(move: Mapping[str, Any], dx: float, dy: float, standing: str) -> tuple[float | None, float | None]:
+    """A move to the right and ahead, mm, of somebody who stands there; None where that is not told."""
+    if standing == BESIDE_CAMERA:
+        camera = move.get("camera")  # of a frame in report.json; a state file tells it beside the move
+        told = camera if isinstance(camera, Mapping) else move
+        return number(told.get("right_mm")), number(told.get("away_mm"))
+    angle = math.radians(SIDES[standing])
+    return dx * math.cos(angle) + dy * math.sin(angle), -dx * math.sin(angle) + dy * math.cos(angle)
 
 
 def _frame_of(document: Mapping[str, Any]) -> tuple[str, Mapping[str, Any] | None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from aadm_workbench.document.column import columns_in
+from aadm_workbench.document.groups import columns_in
 
 _SUFFIX = ".ifc"
 _PROPERTIES = ("IfcFilePath", "FilePath")

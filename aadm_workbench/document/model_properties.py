@@ -6,7 +6,7 @@ from typing import Any
 
 import FreeCAD
 
-from aadm_workbench.document.column import columns_in
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.properties import READ_ONLY, Property, apply_properties
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP

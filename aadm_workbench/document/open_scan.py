@@ -12,10 +12,12 @@ from typing import Any
 import FreeCAD
 
 from aadm_workbench.document.asking import SCAN_PANELS
-from aadm_workbench.document.column import columns_in
 from aadm_workbench.document.display.messages import complain, tell
+from aadm_workbench.document.groups import columns_in
+from aadm_workbench.document.job.scan_names import guessed_kind
 from aadm_workbench.document.private_process import run
-from aadm_workbench.document.scan_reading import AskedScan, guessed_kind, take_scan
+from aadm_workbench.document.scan_cloud import KINDS
+from aadm_workbench.document.scan_reading import AskedScan, take_scan
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError, ScanError
 
@@ -42,7 +44,7 @@ def insert(file: str, docname: str) -> Any:
         return document
     try:
         column = _column_of(document)
-        asked = AskedScan(guessed_kind(file), Path(file))
+        asked = AskedScan(guessed_kind(Path(file).name) or KINDS[0], Path(file))
         read = run(asked.work())
         with undo_step(document, translate("AADM_Import", "Import scan")):
             take_scan(column, asked, read)

@@ -12,6 +12,7 @@ from typing import Any
 import FreeCAD
 
 from aadm_workbench.document.column import attach_view, show_restored
+from aadm_workbench.document.display.setting import setting_said
 from aadm_workbench.document.places import move_to
 from aadm_workbench.document.properties import HIDDEN, READ_ONLY, Property, apply_properties
 from aadm_workbench.document.schema import SCHEMA, SCHEMA_PROPERTY, bring_up_to_date
@@ -20,7 +21,16 @@ from aadm_workbench.document.words import in_words
 from aadm_workbench.report.shown_pose import shown_pose
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
-_RESULT = "AADM result"
+_RESULT, _SETTING = "AADM result", "AADM setting"
+_SETTING_TEXTS = (
+    ("Top", QT_TRANSLATE_NOOP("App::Property", "Where the top comes to, against what, with its standard uncertainty")),
+    ("TopVerdict", QT_TRANSLATE_NOOP("App::Property", "Verdict on the top of the set column")),
+    (
+        "SetPose",
+        QT_TRANSLATE_NOOP("App::Property", "Pose in the play that leads the tower back to the grid, for the job"),
+    ),
+)
+"""Of a job with [stack]; texts, so that what is not predicted is empty and never 0 mm."""
 PROPERTIES = (
     SCHEMA_PROPERTY,
     Property(
@@ -67,6 +77,7 @@ PROPERTIES = (
         ),
         mode=READ_ONLY,
     ),
+    *(Property("App::PropertyString", name, _SETTING, text, mode=READ_ONLY) for name, text in _SETTING_TEXTS),
     Property(
         "App::PropertyString",
         "CheckedAt",
@@ -134,6 +145,8 @@ def make_result(column: Any, report: Mapping[str, Any], found: Mapping[str, Any]
     result.LargestRebarDeviation = _largest(found.get("rebars"), "points", "deviation_mm")
     best = shown_pose(found.get("trial_assembly"))
     result.LargestPairDistance = _largest(best, "pairs", "distance_mm")
+    said = setting_said(found.get("setting"))
+    result.Top, result.TopVerdict, result.SetPose = said.top, said.verdict, said.set_pose
     tool = report.get("tool") or {}
     result.Tool = f"{tool.get('name', 'aadm')} {tool.get('version', '')}".strip()
     result.CheckedAt = checked_at

@@ -8,7 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.design.design_text import read_design
-from aadm_workbench.document.column import columns_in, make_column, set_design
+from aadm_workbench.document.column import make_column, set_design
+from aadm_workbench.document.groups import columns_in
+from aadm_workbench.document.job.table import sha256_of
 from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.report.annotate import objects_by_global_id
 from aadm_workbench.document.sample.columns import sampled_shapes
@@ -52,7 +54,16 @@ def take_columns(
     origin = (str(file.resolve()) if file is not None else document.FileName, answer["sha256"])
     models = list(objects or [None] * len(answer["columns"]))
     designs = [read_design(text, answer["source"]) for text in answer["columns"]]
-    return [_taken(document, design, model, origin) for design, model in zip(designs, models, strict=True)]
+    columns = [
+        _taken(document, design, model, origin, answer["project"])
+        for design, model in zip(designs, models, strict=True)
+    ]
+    by_id = dict(zip((design.id for design in designs), answer["bodies"], strict=False))
+    for column, design in zip(columns, designs, strict=True):
+        # Where the document shows the body itself there is nothing to add.
+        faces = by_id.get(design.id, []) if column.Model is None else []
+        column.Body = json.dumps(faces, separators=(",", ":")) if faces else ""
+    return columns
 
 
 def _asked(question: Mapping[str, Any]) -> Work:
@@ -60,7 +71,7 @@ def _asked(question: Mapping[str, Any]) -> Work:
     return Work(("ask", "question.json", "answer.json"), {"question.json": text}, "answer.json")
 
 
-def _taken(document: Any, design: ColumnDesign, model: Any, origin: tuple[str, str]) -> Any:
+def _taken(document: Any, design: ColumnDesign, model: Any, origin: tuple[str, str], project: str) -> Any:
     known = {column.GlobalId or column.ColumnId: column for column in columns_in(document)}
     column = known.get(design.global_id or design.id)
     if column is None:
@@ -68,6 +79,8 @@ def _taken(document: Any, design: ColumnDesign, model: Any, origin: tuple[str, s
     else:
         set_design(column, design)
     column.ModelFile, column.ModelSha256 = origin
+    column.ModelProject = project
+    column.SampledSha256 = sha256_of(column.Design)
     return column
 
 

@@ -138,6 +138,14 @@ def make_scan(column: Any, file: Path, kind: str, units: str, read: ReadScan) ->
     cloud.Kind = kind
     cloud.File = str(file)
     cloud.Units = units
+    column.Scans = [*column.Scans, cloud]
+    fill_scan(cloud, column, read)
+    attach_view(cloud, "scan_view", "ScanView")
+    return cloud
+
+
+def fill_scan(cloud: Any, column: Any, read: ReadScan) -> None:
+    """Give a scan of a column what was read of its file."""
     cloud.Camera = json.dumps(read["camera"]) if read["camera"] else ""
     cloud.DepthScale = float(read["depth_scale_mm"] or 0.0)
     cloud.Sha256 = read["sha256"]
@@ -145,10 +153,7 @@ def make_scan(column: Any, file: Path, kind: str, units: str, read: ReadScan) ->
     cloud.Points = [FreeCAD.Vector(*point) for point in read["points"]]
     points = np.array(read["points"], dtype=np.float64).reshape(-1, 3)
     cloud.InColumn = placement_of(_guessed_place(points, kind_of(cloud), np.array(read["R_file_scan"])))
-    column.Scans = [*column.Scans, cloud]
     cloud.Proxy.follow(cloud, column.Placement)
-    attach_view(cloud, "scan_view", "ScanView")
-    return cloud
 
 
 def kind_of(cloud: Any) -> Kind:

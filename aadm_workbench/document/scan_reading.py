@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -13,14 +14,6 @@ from aadm_workbench.document.scan_cloud import KINDS, UNITS, make_scan
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Camera
 from aadm_workbench.private.answers import ReadScan
-
-_IN_NAMES_OF_BARS = ("bar", "rebar", "steel", "筋", "钢")
-
-
-def guessed_kind(file: str | Path) -> str:
-    """``rebars`` where a file is called so, else ``sleeves``."""
-    name = Path(file).stem.lower()
-    return "rebars" if any(word in name for word in _IN_NAMES_OF_BARS) else "sleeves"
 
 
 @dataclass(frozen=True)
@@ -56,6 +49,26 @@ class AskedScan:
             "most_points": self.most_points,
         }
         return Work(("ask", "question.json", "answer.json"), {"question.json": json.dumps(question)}, "answer.json")
+
+
+def asked_again(cloud: Any, most_points: int) -> AskedScan:
+    """A scan of a document as it was asked for, to be read now."""
+    camera = Camera(**json.loads(cloud.Camera)) if cloud.Camera else None
+    return AskedScan(cloud.Kind, Path(cloud.File), cloud.Units, camera, cloud.DepthScale or None, most_points)
+
+
+def unread(camera: Mapping[str, float] | None, depth_scale_mm: float | None) -> ReadScan:
+    """A scan that nobody has looked into yet: the check reads it, the view shows nothing of it."""
+    straight = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    return ReadScan(
+        sha256="",
+        count=0,
+        points=[],
+        R_file_scan=straight,
+        camera=camera,
+        depth_scale_mm=depth_scale_mm,
+        notes=[],
+    )
 
 
 def take_scan(column: Any, asked: AskedScan, read: ReadScan, *, up: str | None = None) -> Any:

@@ -63,6 +63,7 @@ def _level(points: FloatArray, vertical: Array, centres: Array, radius_mm: float
     x, y, heights = local.T
     tops = []
     for centre in centres.astype(points.dtype):
+        # Four fifths of the radius: what flies at the edge of a top is no part of it.
         inside = heights[(x - centre[0]) ** 2 + (y - centre[1]) ** 2 < (0.8 * radius_mm) ** 2]
         if len(inside):
             place = int(_HIGH * (len(inside) - 1))
@@ -87,7 +88,7 @@ def _floors(sample: Thinned, viewpoint: Array | None, radius_mm: float, rng: np.
 def _covered(points: FloatArray, plane: Plane, cell_mm: float) -> float:
     """Share of the rectangle about points (n, 3) of a plane in which they lie: tops of bars leave most of it empty."""
     some = points[:: len(points) // _ENOUGH + 1] @ axes_on(plane)[:2].T.astype(points.dtype)
-    sides_mm = np.ptp(np.percentile(some, (1.0, 99.0), axis=0), axis=0)
+    sides_mm = np.ptp(np.percentile(some, (1.0, 99.0), axis=0), axis=0)  # one stray in a hundred stretches nothing
     return float(len(counts_in_cells(some, cell_mm)) * cell_mm**2 / max(float(np.prod(sides_mm + cell_mm)), 1e-9))
 
 
@@ -107,11 +108,12 @@ def _discs(points: FloatArray, vertical: Array, radius_mm: float) -> Array:
         return np.empty((0, 2))
     plan = points @ axes_on(Plane(vertical, 0.0))[:2].T
     spacing_mm = _spacing(plan, radius_mm)
+    # Ten cells to a radius place a disc well enough to begin; finer than the points lie, cells would be empty.
     raster = rastered(plan, max(radius_mm / 10, 1.2 * spacing_mm), 3 * radius_mm)
     return find_discs(raster, radius_mm, holes=False)[0]
 
 
 def _spacing(plan: Array, radius_mm: float) -> float:
     """Typical distance of neighbours in the plan where it is well filled."""
-    filled = float(np.percentile(counts_in_cells(plan, radius_mm), 80))
+    filled = float(np.percentile(counts_in_cells(plan, radius_mm), 80))  # most cells hold a part of a top alone
     return float(radius_mm / np.sqrt(max(filled, 1.0)))

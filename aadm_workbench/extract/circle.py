@@ -41,7 +41,7 @@ def circles_through(shape: Outlines, centre: Array, radius_mm: float) -> tuple[A
     an outline hardly pulls it. Outlines of less than five points stay where they are.
     """
     radius = np.full(len(centre), radius_mm)
-    enough = shape.seen.sum(axis=1) >= 5
+    enough = shape.seen.sum(axis=1) >= 5  # three fix a circle, two more tell whether it is one
     for _ in range(_STEPS):
         about = shape.xy - centre[:, None]
         distance = np.maximum(np.sqrt(np.einsum("kmi,kmi->km", about, about)), 1e-9)

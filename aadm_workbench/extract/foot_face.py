@@ -18,6 +18,7 @@ from aadm_workbench.extract.patches import Patches
 from aadm_workbench.extract.plane import facing, find_planes, in_plane, refined_plane
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm
 from aadm_workbench.model import Array, FloatArray, Plane, Scan
+from aadm_workbench.model.scatter import TO_SIGMA
 
 FACE_BAND_MM = 1.5
 """About the plane of a face that is smooth."""
@@ -40,6 +41,7 @@ _RING = (1.15, 1.6)  # of the radius: this part around a hole holds face points
 _DISC_FILL_MAX = 0.45
 _RING_FILL_MIN = 0.55  # a mouth at an edge of the face has half a ring (a choice: ±30 % moves nothing on sound scans)
 _MOST_FOUND = 400  # no foot has so many: they are noise, and what is further sought in it takes minutes
+_MOST_CELLS = 4_000_000  # 16 MB, whatever the points are said to reach over
 _EXTENT_FROM = 20_000  # points
 
 
@@ -68,6 +70,7 @@ def face_with_holes(
         local = in_plane(sample.points[_on_face(sample, face)], face.plane)[:, :2]
         pitch_mm = point_pitch_mm(sample, local)
         spacing_mm = pitch_mm / np.sqrt(sample.share)
+        # Twelve cells to a radius place a mouth well enough to begin; finer than the points lie, cells would be empty.
         raster = rastered(local, max(radius_mm / 12, 1.3 * spacing_mm), 3 * radius_mm)
         centres, _ = find_discs(raster, radius_mm, holes=True)
         if best is None or len(centres) > len(best[1]):
@@ -111,7 +114,7 @@ def _noise_mm(scan: Scan) -> float:
     depth = scan.points[:: 4 * _EVERY, :, 2]
     bend = np.abs(depth[:, :-2] - 2.0 * depth[:, 1:-1] + depth[:, 2:])
     bend = bend[np.isfinite(bend)]
-    return float(1.4826 * np.median(bend) / np.sqrt(6.0)) if len(bend) else 0.0
+    return float(TO_SIGMA * np.median(bend) / np.sqrt(6.0)) if len(bend) else 0.0  # 6 = 1² + 2² + 1²
 
 
 def level_with_rings(patches: Patches, radius_mm: float) -> tuple[Patches, bool]:
@@ -144,12 +147,15 @@ class Raster:
         return np.asarray(self.origin + (np.column_stack([columns, rows]) + 0.5) * self.cell_mm)
 
 
-def rastered(xy: Array, cell_mm: float, margin_mm: float, cells_max: int = 4_000_000) -> Raster:
-    """Raster of the cells that hold any of the points (n, 2) mm, with an empty margin around them."""
+def rastered(xy: Array, cell_mm: float, margin_mm: float) -> Raster:
+    """Raster of the cells that hold any of the points (n, 2) mm, with an empty margin around them.
+
+    Cells grow where there would be too many.
+    """
     some = xy[:: len(xy) // _EXTENT_FROM + 1]
-    low, high = np.percentile(some, (0.1, 99.9), axis=0)
+    low, high = np.percentile(some, (0.1, 99.9), axis=0)  # one stray in a thousand stretches nothing
     low, high = low - margin_mm, high + margin_mm
-    cell_mm = max(cell_mm, float(np.sqrt(np.prod(high - low) / cells_max)))
+    cell_mm = max(cell_mm, float(np.sqrt(np.prod(high - low) / _MOST_CELLS)))
     columns, rows = (np.ceil((high - low) / cell_mm)).astype(int) + 1
     x, y = (np.floor((xy[:, axis] - low[axis]) / cell_mm).astype(np.int32) for axis in (0, 1))
     inside = (x >= 0) & (x < columns) & (y >= 0) & (y < rows)
@@ -169,9 +175,10 @@ def find_discs(raster: Raster, radius_mm: float, *, holes: bool) -> tuple[Array,
     ring = _fill(filled, raster.cell_mm, _RING[0] * radius_mm, _RING[1] * radius_mm, border)
     score = ring - disc
     score[(disc > _DISC_FILL_MAX) | (ring < _RING_FILL_MIN)] = 0.0
+    # One place within nearly a radius: discs that lie closer would overlap.
     reach = 2 * int(np.ceil(0.9 * radius_mm / raster.cell_mm)) + 1
     highest = cv2.dilate(score, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
-    rows, columns = np.nonzero((score >= highest) & (score > 0.2))
+    rows, columns = np.nonzero((score >= highest) & (score > 0.2))  # less is the grain of the raster itself
     return _merged(raster, score, rows, columns, radius_mm)
 
 
@@ -204,9 +211,10 @@ def _merged(
     free = np.ones(len(centres), bool)
     while free.any() and len(found) < _MOST_FOUND:
         best = int(free.argmax())
+        # Of a plateau: nearer than another disc could be, and within what single cells change of a score.
         alike = (np.hypot(*(centres - centres[best]).T) < 0.8 * radius_mm) & (scores > scores[best] - 0.03)
         found.append(np.average(centres[alike], axis=0, weights=scores[alike]))
         kept.append(float(scores[best]))
         free[best] = False
-        free &= np.hypot(*(centres - found[-1]).T) >= 1.2 * radius_mm
+        free &= np.hypot(*(centres - found[-1]).T) >= 1.2 * radius_mm  # others would overlap it
     return np.array(found).reshape(-1, 2), np.array(kept)

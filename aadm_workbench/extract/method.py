@@ -6,12 +6,12 @@ Feet and groups of bars that hold more than one size: each size is found and mea
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
 
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Scan, in_one
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Extraction, Kind, Scan, in_one
 
 Recipe: TypeAlias = Callable[..., Extraction]
 
@@ -47,13 +47,34 @@ def _image(kind: Kind) -> Recipe:
     return image.extract_sleeves if kind is Kind.SLEEVE else image.extract_rebars
 
 
+def _corners(kind: Kind) -> Recipe:
+    from aadm_workbench.extract.published import corners
+
+    return corners.extract_sleeves if kind is Kind.SLEEVE else _refined(kind)
+
+
 METHODS: dict[str, Callable[[Kind], Recipe]] = {
     "refined": _refined,
     "fusion": _fusion,
     "pointcloud": _pointcloud,
     "image": _image,
+    "corners": _corners,
 }
 """What each method is called; the value imports it and gives its recipe for one kind of point."""
+
+BY_DESIGN = ("corners",)
+"""Methods that lay the sleeves of a design into a scan and measure none of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """What is known of a scan beforehand; methods of :data:`BY_DESIGN` need it.
+
+    ``up_deg``: column-frame direction at the top of the picture, degrees from +x, counter-clockwise from above.
+    """
+
+    design: ColumnDesign
+    up_deg: float | None = None
 
 
 def extract(
@@ -64,6 +85,7 @@ def extract(
     rng: np.random.Generator,
     places: Array | None = None,
     others_mm: tuple[float, ...] = (),
+    known: Known | None = None,
 ) -> Extraction:
     """Find the sleeves, or the bars, of one diameter in a scan with the method of a name.
 
@@ -83,6 +105,8 @@ def extract(
         (k, 3) mm, scan frame: where else to look for a point that the search did not find; ``refined`` alone does.
     others_mm
         Diameters of other points in the same scan: ``refined`` leaves out what is nearer to one of these.
+    known
+        Design and turn; without it methods of ``BY_DESIGN`` find no sleeves, and say so.
 
     Raises
     ------
@@ -94,7 +118,9 @@ def extract(
     if method not in METHODS:
         raise ValueError(f"unknown method {method!r}; write one of: {', '.join(METHODS)}")
     recipe = METHODS[method](kind)
-    if method == "refined":
+    if method in BY_DESIGN and kind is Kind.SLEEVE:
+        return recipe(scan, None if known is None else known.design, rng, None if known is None else known.up_deg)
+    if method == "refined" or method in BY_DESIGN:
         return recipe(scan, diameter_mm, rng, places, others_mm)
     return recipe(scan, diameter_mm, rng, places)
 
@@ -118,6 +144,7 @@ def extract_sizes(
     method: str,
     rng: np.random.Generator,
     places: Array | None = None,
+    known: Known | None = None,
 ) -> Extraction:
     """Find the points of all sizes in a scan.
 
@@ -127,7 +154,7 @@ def extract_sizes(
         Points in mm, scan frame.
     diameters_mm
         Nominal diameters of the points that are expected, in any order.
-    method, rng, places
+    method, rng, places, known
         As :func:`~aadm_workbench.extract.method.extract` has them, errors too.
 
     Returns
@@ -136,6 +163,8 @@ def extract_sizes(
         Plane, vertical and quality are those of the size that most points were found of.
     """
     sizes_mm = distinct_sizes(diameters_mm)
+    if method in BY_DESIGN and kind is Kind.SLEEVE:
+        return extract(scan, kind, sizes_mm[0], method, rng, known=known)
     found = [
         extract(scan, kind, size, method, rng, places, tuple(other for other in sizes_mm if other != size))
         for size in sizes_mm

@@ -34,9 +34,10 @@ def explain_missing(
 
 def _explain_sleeve(sample: Thinned, local: Array, place: Array, radius_mm: float) -> str:
     on_face = local[np.abs(local[:, 2]) < _FACE_BAND_MM, :2]
-    closed = _filled(sample, on_face, place, 0.0, 0.7 * radius_mm)
-    around = _filled(sample, on_face, place, 1.2 * radius_mm, 1.8 * radius_mm)
-    if around < 0.3:
+    # Clear of the rim on both sides: the mouth may lie a quarter of a radius beside its place.
+    within, without = (0.0, 0.7 * radius_mm), (1.2 * radius_mm, 1.8 * radius_mm)
+    closed, around = (_filled(sample, on_face, place, *ring) for ring in (within, without))
+    if around < 0.3:  # less than a third of the face around it is in the picture
         return Reason("extract.foot_out_of_view")
     if closed > 0.5:
         return Reason("extract.plugged")
@@ -49,7 +50,7 @@ def _explain_bar(sample: Thinned, local: Array, place: Array, radius_mm: float) 
     tops = (np.abs(near[:, 2]) < 4.0 * _BAR_HEIGHT_MM) & (np.hypot(*(near[:, :2] - place).T) < radius_mm)
     if len(near) == 0:
         return Reason("extract.out_of_view")
-    if tops.sum() < 8:
+    if tops.sum() < 8:  # strays; a top that is seen has more points than that
         return Reason("extract.no_bar")
     return Reason("extract.top_unseen")
 

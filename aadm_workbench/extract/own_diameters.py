@@ -17,6 +17,7 @@ from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.sample import thinned
 from aadm_workbench.extract.top_planes import top_planes
 from aadm_workbench.model import Array, Plane, Scan
+from aadm_workbench.model.scatter import TO_SIGMA
 
 _SAMPLE = 30_000  # pixels: they say where to look, within a stride
 _CORE_SHARE = 0.7  # of the nominal radius: the plane of a top two sizes smaller is found in it
@@ -64,7 +65,7 @@ def own_diameters(
         return OwnDiameters(np.full(len(places), np.nan), 0.0)
     beyond = own_mm[known] - shared_mm[known]
     usual_mm = float(np.median(beyond))
-    scatter_mm = 1.4826 * float(np.median(np.abs(beyond - usual_mm)))
+    scatter_mm = TO_SIGMA * float(np.median(np.abs(beyond - usual_mm)))
     least_mm = _LEAST_U_MM if known.sum() >= _ENOUGH else _UNKNOWN_U_MM
     u_mm = max(scatter_mm, least_mm) * float(np.sqrt(1.0 + _OF_MEDIAN / known.sum()))
     return OwnDiameters(own_mm - usual_mm, u_mm)

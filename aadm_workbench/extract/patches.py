@@ -102,11 +102,12 @@ class Patches:
         answer = np.ones(self.x.shape, bool)
         for k, eye in enumerate(self.eye):
             there = np.flatnonzero(np.isfinite(self.x[k]))
-            if len(there) < 10:
+            if len(there) < 10:  # too few to say how close they lie
                 continue
             local = np.column_stack([self.x[k, there], self.y[k, there], self.height[k, there]]).astype(np.float64)
             seen = eye[:2] + (local[:, :2] - eye[:2]) * (eye[2] / np.maximum(eye[2] - local[:, 2], 1e-6))[:, None]
             pitch_mm = float(np.sqrt(np.prod(np.ptp(seen, axis=0)) / len(local)))
+            # As far as the diagonal neighbours of a square grid, and a little farther for one that is uneven.
             scaled = np.column_stack([seen / (1.8 * pitch_mm), local[:, 2] / _BORNE_WITHIN_MM])
             near = cKDTree(scaled).query_ball_point(scaled, 1.0, p=np.inf, return_length=True)
             answer[k, there] = near > _BORNE_BY

@@ -11,9 +11,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane
+from aadm_workbench.model.scatter import TO_SIGMA
 
 INLIER_DISTANCE_MM = 1.2
 """Three standard deviations of the reference camera's noise at 2 m (0.4 mm): a wider band takes in walls."""
+WIDEST_BAND = 2.5
+"""Inlier distances in which a plane's own points are searched first: the plane of three of them is off by as much."""
+BAND_SIGMAS, LEAST_BAND_MM = 3.5, 0.1
+"""The band that a plane is fitted in: one point in 2,000 of a normal law lies outside, and steps of depth within."""
 _HYPOTHESES = 400  # a plane that a quarter of the points lie on is missed once in 500 searches
 # that plane has 75 ± 8 of the first 300, which puts it among the likely ones; all points then decide
 _SCORED, _SCORED_AT_FIRST, _LIKELY = 2000, 300, 24
@@ -32,7 +37,7 @@ def find_plane(
 
     Its normal has no preferred side yet: see :func:`facing`.
     """
-    if len(points) < 50:
+    if len(points) < 50:  # fewer agree on a plane by chance
         return None
     scored = points[rng.integers(0, len(points), _SCORED)] if len(points) > _SCORED else points
     middle = scored.mean(axis=0, dtype=np.float64)
@@ -61,19 +66,20 @@ def _counted(points: FloatArray, normals: Array, offsets: Array, within_mm: floa
 
 def refined_plane(points: FloatArray, start: Plane, inlier_distance_mm: float = INLIER_DISTANCE_MM) -> Plane:
     """Least squares on the inliers of a plane, repeated with a band that narrows to three robust sigmas."""
-    plane, band = start, 2.5 * inlier_distance_mm
+    widest_mm = WIDEST_BAND * inlier_distance_mm
+    plane, band = start, widest_mm
     few = points[:: len(points) // _ENOUGH_AT_FIRST + 1]
     for part in (few,) * _ROUNDS_AT_FIRST + (points,) * _ROUNDS:
         inliers = part[np.abs(plane.height(part)) < band]
-        if len(inliers) < 20:
+        if len(inliers) < 20:  # nothing to average
             return plane
         centre = inliers.mean(axis=0, dtype=np.float64)
         about = inliers - centre
         normal = np.linalg.eigh(about.T @ about)[1][:, 0]
         normal = normal if normal @ plane.normal > 0 else -normal
-        residual = 1.4826 * float(np.median(np.abs(about @ normal)))
+        residual = TO_SIGMA * float(np.median(np.abs(about @ normal)))
         plane = Plane(normal, float(normal @ centre), residual)
-        band = min(2.5 * inlier_distance_mm, max(3.5 * residual, 0.1))
+        band = min(widest_mm, max(BAND_SIGMAS * residual, LEAST_BAND_MM))
     return plane
 
 
@@ -87,7 +93,7 @@ def find_planes(points: FloatArray, rng: np.random.Generator, count: int) -> Ite
             return
         yield plane
         left = left[np.abs(plane.height(left)) > 3.0 * INLIER_DISTANCE_MM]
-        if len(left) < 0.02 * all_of_them:
+        if len(left) < 0.02 * all_of_them:  # strays
             return
 
 

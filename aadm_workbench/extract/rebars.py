@@ -44,6 +44,12 @@ _USUAL_SPOILT, _SPOILT_U_MM = 0.13, 1.5
 # u and u by 6 %)
 _BEYOND_TAIL_MM, _FLYING = 1.2, 0.05
 _FOREIGN = 0.3  # share of outline points that are ribs
+# of an edge, in pitches; over which outline points thin out inwards (a choice: ±30 % moves centres by up to 0.3 and 1.0
+# u, and u by 1 and 6 %)
+_SOFTNESS, _RIM_TAIL_PITCHES = 0.08, 1.2
+_SIDE_LAW = BracketLaw(0.08, 0.8)  # most of a side's points lie on ribs
+# outline points so far out, or in, are no part of a sound disc (a choice: ±30 % moves u of single tops by up to 46 %)
+_INSIDE_MM, _FAR_MM = 0.3, 1.0
 # leans of bars that were bent, too; cores of a group are alike; a side is not pushed; an edge and a side are one
 # radius
 _BAR_PRIORS = Priors(
@@ -195,16 +201,17 @@ def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -
 
 def _fit(tops: Tops, radius_mm: float, priors: Priors) -> PooledFit:
     pitch_mm = float(np.median(tops.pitch_mm))
-    beyond = Rims(tops.beyond.xy, tops.beyond.seen, 1.0, RimLaw(pitch_mm, _BEYOND_TAIL_MM, _FLYING, softness=0.08))
-    rims = Rims(tops.rims.xy, tops.rims.seen, -1.0, RimLaw(pitch_mm, 1.2 * pitch_mm, _FOREIGN, softness=0.08))
-    side_law = BracketLaw(0.08, 0.8)
+    beyond = Rims(tops.beyond.xy, tops.beyond.seen, 1.0, RimLaw(pitch_mm, _BEYOND_TAIL_MM, _FLYING, softness=_SOFTNESS))
+    rims = Rims(
+        tops.rims.xy, tops.rims.seen, -1.0, RimLaw(pitch_mm, _RIM_TAIL_PITCHES * pitch_mm, _FOREIGN, softness=_SOFTNESS)
+    )
     shown = [
         CircleEvidence(beyond.xy, beyond.seen, beyond.law, beyond.side),
         CircleEvidence(rims.xy, rims.seen, rims.law, rims.side),
-        CircleEvidence(tops.side_xy, tops.side_seen & (tops.side_depth < _START_DEPTH_MM), side_law, -1.0),
+        CircleEvidence(tops.side_xy, tops.side_seen & (tops.side_depth < _START_DEPTH_MM), _SIDE_LAW, -1.0),
     ]
     start, radius_mm = likeliest_circles(shown, tops.centre, radius_mm)
-    walls = Walls(tops.side_xy, tops.side_depth, np.zeros_like(tops.side_xy), tops.side_seen, side_law)
+    walls = Walls(tops.side_xy, tops.side_depth, np.zeros_like(tops.side_xy), tops.side_seen, _SIDE_LAW)
     return fit_pooled(Evidence(beyond, rims, walls, radius_mm, priors), State(start, radius_mm))
 
 
@@ -305,8 +312,8 @@ def _shape_u_mm(tops: Tops, fit: PooledFit) -> Array:
     """What each top's departure from a disc may hide (k,): ribs, and more where a burr or a broken piece spoils it."""
     count = np.maximum(tops.rims.seen.sum(axis=1), 1)
     behind = np.where(tops.rims.seen, fit.outline_radius[:, None] - tops.rims.distance(fit.centre), 0.0)
-    spoilt = np.maximum((behind < -0.3).sum(axis=1) / count - _USUAL_SPOILT, 0.0)
-    spoilt += 0.5 * (behind > 1.0).sum(axis=1) / count + 0.5 * (1.0 - tops.rims.coverage)
+    spoilt = np.maximum((behind < -_INSIDE_MM).sum(axis=1) / count - _USUAL_SPOILT, 0.0)
+    spoilt += 0.5 * (behind > _FAR_MM).sum(axis=1) / count + 0.5 * (1.0 - tops.rims.coverage)
     held = tops.beyond.seen.sum(axis=1) > 0.5 * count
     ribs = np.where(held, *_SHAPE_U_PITCHES) * tops.pitch_mm
     burrs = burr_u_mm(tops.rims, fit.centre, float(np.median(fit.outline_radius)))

@@ -78,10 +78,10 @@ def point_pitch_mm(sample: Thinned, on_plane: FloatArray) -> float:
 
     ``on_plane`` (k, 2) are the thinned points that lie on it, in its own coordinates.
     """
-    if len(on_plane) < 50:
+    if len(on_plane) < 50:  # nothing to count: what most cameras see at 1.5 m
         return 1.0
     every = len(on_plane) // _ENOUGH + 1
-    filled = every * np.percentile(counts_in_cells(on_plane[::every], _CELL_MM), 75)
+    filled = every * np.percentile(counts_in_cells(on_plane[::every], _CELL_MM), 75)  # cells at edges are half empty
     return float(_CELL_MM * np.sqrt(sample.share / max(filled, 1.0)))
 
 

@@ -243,6 +243,7 @@ def _fit_of_sharp(mouths: Mouths, diameter_mm: float, pitch_mm: float) -> Pooled
 def _are_round(mouths: Mouths, fit: PooledFit, pitch_mm: float) -> BoolArray:
     """Whether enough (k,) of what each outline shows lies on its circle: a gap between things is no mouth."""
     behind = mouths.rims.distance(fit.centre) - fit.radius[:, None]
+    # Rim points thin out over a few pixels behind the edge.
     on_circle = (behind > -AGREES_MM / 2) & (behind < max(AGREES_MM, 2.5 * pitch_mm)) & mouths.rims.seen
     runs_on = np.where(mouths.wall_count() >= _WALL_COUNT_MIN, (~mouths.rims.seen).mean(axis=1), 0.0)
     return np.asarray(on_circle.mean(axis=1) + runs_on > _SOUND_SHARE)
@@ -270,6 +271,7 @@ def _tails(mouths: Mouths, state: State, pitch_mm: float) -> Array:
     count = np.bincount(side[seen], minlength=_SIDES)
     first = np.bincount(side[seen], inset[seen] < pitch_mm, minlength=_SIDES)
     kept = np.where(count >= _SIDE_COUNT_MIN, first / np.maximum(count, 1), _USUALLY_KEPT)
+    # A side that keeps less than a seventh is no rim; counting noise makes of all kept a little more than one.
     return np.asarray(_TAIL_TO_KEPT * pitch_mm / np.clip(kept, 0.15, 1.2))[side]
 
 

@@ -8,7 +8,9 @@ import numpy as np
 
 from aadm_workbench.extract.circle import in_rows, thinned_rows
 from aadm_workbench.extract.patches import Patches
+from aadm_workbench.extract.plane import BAND_SIGMAS, LEAST_BAND_MM, WIDEST_BAND
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
+from aadm_workbench.model.scatter import TO_SIGMA
 
 _TOP_ZONE_MM = 8.0  # a cut of 15 degrees over a 28 mm bar
 _CORE = 0.95  # of the radius
@@ -103,7 +105,7 @@ def _ransac(points: Array, seen: BoolArray, rng: np.random.Generator) -> tuple[A
 
 def _least_squares(points: Array, seen: BoolArray, normal: Array, offset: Array) -> tuple[Array, Array, Array]:
     """Planes through the inliers of others, repeated with a band that narrows to three robust sigmas."""
-    widest_mm = 2.5 * _INLIER_DISTANCE_MM
+    widest_mm = WIDEST_BAND * _INLIER_DISTANCE_MM
     band_mm, residual_mm = np.full(len(points), widest_mm), np.zeros(len(points))
     for _ in range(_ROUNDS):
         inside = seen & (np.abs(np.einsum("kmi,ki->km", points, normal) - offset[:, None]) < band_mm[:, None])
@@ -117,8 +119,8 @@ def _least_squares(points: Array, seen: BoolArray, normal: Array, offset: Array)
         offset = np.where(enough, np.einsum("ki,ki->k", normal, centre), offset)
         off = np.abs(np.einsum("kmi,ki->km", about, normal))
         spread = np.array(
-            [1.4826 * float(np.median(o[i])) if i.any() else 0.0 for o, i in zip(off, inside, strict=True)]
+            [TO_SIGMA * float(np.median(o[i])) if i.any() else 0.0 for o, i in zip(off, inside, strict=True)]
         )
         residual_mm = np.where(enough, spread, residual_mm)
-        band_mm = np.clip(3.5 * residual_mm, 0.1, widest_mm)
+        band_mm = np.clip(BAND_SIGMAS * residual_mm, LEAST_BAND_MM, widest_mm)
     return normal, offset, residual_mm

@@ -7,10 +7,15 @@ from typing import Any
 import FreeCAD
 import FreeCADGui
 
-from aadm_workbench.document.column import columns_in, owner_of
+from aadm_workbench.document.groups import columns_in, owner_of
 from aadm_workbench.errors import AadmError
+from aadm_workbench.gui.view_camera import active_view
 
 translate = FreeCAD.Qt.translate
+
+
+class NoColumnError(AadmError):
+    """There is no column to work on yet: what leads to one is offered."""
 
 
 def chosen_columns() -> list[Any]:
@@ -31,12 +36,6 @@ def chosen_columns() -> list[Any]:
     return known if not selected and len(known) == 1 else found
 
 
-def has_columns() -> bool:
-    """Whether the document in front has a column."""
-    document = FreeCAD.ActiveDocument
-    return document is not None and bool(columns_in(document))
-
-
 def the_column() -> Any:
     """The one column to work on.
 
@@ -52,12 +51,17 @@ def the_column() -> Any:
         raise AadmError(translate("AADM", "Several columns are selected: select one."))
     document = FreeCAD.ActiveDocument
     if document is None:
-        raise AadmError(translate("AADM", "No document is open: open the model first."))
+        raise NoColumnError(translate("AADM", "No document is open: open the model first."))
+    check_columns(document)
+    raise AadmError(translate("AADM", "Select an AADM column, or the object of the model that it belongs to."))
+
+
+def check_columns(document: Any) -> None:
+    """Raise NoColumnError where a document has no column of this workbench."""
     if not columns_in(document):
-        raise AadmError(
+        raise NoColumnError(
             translate("AADM", "This document has no AADM column yet: select a column of the model, then Sample design.")
         )
-    raise AadmError(translate("AADM", "Select an AADM column, or the object of the model that it belongs to."))
 
 
 def model_objects() -> list[Any]:
@@ -73,3 +77,14 @@ def select(objects: list[Any]) -> None:
     FreeCADGui.Selection.clearSelection()
     for obj in objects:
         FreeCADGui.Selection.addSelection(obj)
+
+
+def look_at(objects: list[Any]) -> None:
+    """Turn the view to these objects, and to no others; what is selected stays."""
+    view = active_view()
+    if view is None or not objects:
+        return
+    selected = FreeCADGui.Selection.getSelection()
+    select(objects)
+    FreeCADGui.SendMsgToActiveView("ViewSelection")
+    select(selected)

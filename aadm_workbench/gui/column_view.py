@@ -5,20 +5,22 @@ The module path and the class name are written into users' files: neither may ch
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import FreeCAD
 import numpy as np
 
 from aadm_workbench.document.column import column_design
-from aadm_workbench.document.display.colours import DESIGN
+from aadm_workbench.document.display.colours import BAR, DESIGN, GHOST
 from aadm_workbench.document.display.marks import ring
 from aadm_workbench.document.properties import Property
 from aadm_workbench.gui import coin_shapes
 from aadm_workbench.gui.view_provider import MarksView
-from aadm_workbench.model import Array, ColumnDesign
+from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
+_SIDES = 12  # of what is drawn round: twenty-four of them a column, thirty columns a floor
 
 
 class ColumnView(MarksView):
@@ -32,14 +34,23 @@ class ColumnView(MarksView):
             QT_TRANSLATE_NOOP("App::Property", "Draw over everything: the foot is inside the column's own concrete"),
             True,
         ),
+        Property(
+            "App::PropertyBool",
+            "ShowBody",
+            "AADM",
+            QT_TRANSLATE_NOOP("App::Property", "Show the body of the column as its model draws it"),
+            True,
+        ),
     )
-    REDRAWN_BY = frozenset({"Design"})
+    REDRAWN_BY = frozenset({"Design", "Body"})
 
     def draw(self, obj: Any, vobj: Any, root: Any) -> None:
         """Outline and circles, thin: what was measured is drawn over them."""
         if not obj.Design:
             return
         design = column_design(obj)
+        if obj.Body and vobj.ShowBody:
+            self._draw_body([np.array(face) for face in json.loads(obj.Body)], design, root)
         group = coin_shapes.in_front() if vobj.OnTop else root
         outline = foot_outline(design)
         rings = [ring(_on_foot(point.centre), point.diameter_mm / 2.0) for point in (*design.sleeves, *design.rebars)]
@@ -47,6 +58,17 @@ class ColumnView(MarksView):
         group.addChild(coin_shapes.lines(rings, [DESIGN] * len(rings), 1.0))
         if group is not root:
             root.addChild(group)
+
+    def _draw_body(self, faces: list[Array], design: ColumnDesign, root: Any) -> None:
+        """The concrete as a ghost; its sleeves and bars in it as tubes, as far as their lengths are known."""
+        tubes = [tube(point, 1.0) for point in design.sleeves]
+        bars = [tube(point, -1.0) for point in design.rebars]
+        sides = [side for one in tubes for side in one]
+        bar_sides = [side for one in bars for side in one]
+        root.addChild(coin_shapes.areas(sides, [DESIGN] * len(sides), 0.6))
+        root.addChild(coin_shapes.areas(bar_sides, [BAR] * len(bar_sides), 0.3))
+        root.addChild(coin_shapes.lines([np.vstack([face, face[:1]]) for face in faces], [GHOST] * len(faces), 1.0))
+        root.addChild(coin_shapes.areas(faces, [GHOST] * len(faces), 0.85))
 
     def icon_name(self, obj: Any) -> str:
         """The icon says the verdict, by shape and by colour."""
@@ -69,6 +91,21 @@ class ColumnView(MarksView):
 
         open_panel(vobj.Object)
         return True
+
+
+def tube(point: AssemblyPoint, rises: float) -> list[Array]:
+    """Sides (4, 3) mm of a sleeve or a bar, column frame, along its axis; none where its length is not known.
+
+    A sleeve's centre is its mouth, a bar's its top: one ``rises`` from there (1), the other goes down (-1).
+    """
+    if point.length_mm is None:
+        return []
+    axis = np.asarray(point.axis) * np.sign(point.axis[2] or 1.0) * rises
+    end = np.asarray(point.centre) + point.length_mm * axis
+    turn = np.linspace(0.0, 2.0 * np.pi, _SIDES + 1)
+    across = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(_SIDES + 1)]) * point.diameter_mm / 2.0
+    low, high = np.asarray(point.centre) + across, end + across
+    return list(np.stack([low[:-1], low[1:], high[1:], high[:-1]], axis=1))
 
 
 def foot_outline(design: ColumnDesign) -> Array:

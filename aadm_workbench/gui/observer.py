@@ -7,7 +7,8 @@ from typing import Any
 import FreeCAD
 from PySide import QtCore
 
-from aadm_workbench.document.column import columns_in, follow_model
+from aadm_workbench.document.column import follow_model
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.result import is_result
 from aadm_workbench.gui.panels.task_panel import close_orphans
 

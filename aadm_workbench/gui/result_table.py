@@ -9,7 +9,7 @@ from typing import Any
 import FreeCAD
 from PySide import QtCore, QtGui
 
-from aadm_workbench.document.display.colours import of_verdict
+from aadm_workbench.document.display.colours import of_verdict, text_on
 from aadm_workbench.document.display.result_rows import (
     ABSOLUTE,
     DISTANCE,
@@ -21,7 +21,7 @@ from aadm_workbench.document.display.result_rows import (
 )
 from aadm_workbench.document.words import in_words, length_text
 from aadm_workbench.gui.language import in_language
-from aadm_workbench.gui.resources import icon_path
+from aadm_workbench.gui.resources import icon
 
 translate = FreeCAD.Qt.translate
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
@@ -100,14 +100,15 @@ class ResultTable(QtGui.QTableWidget):
                 item.setTextAlignment(QtCore.Qt.AlignRight | QtCore.Qt.AlignVCenter)
             self.setItem(place, column, item)
         first = self.item(place, 0)
-        first.setIcon(QtGui.QIcon(icon_path(f"verdict-{row.verdict}")))
+        first.setIcon(icon(f"verdict-{row.verdict}"))
         first.setData(_ROW, place)
         if row.verdict not in {"pass", "not_assessed"}:
-            colour = QtGui.QColor.fromRgbF(*of_verdict(row.verdict))
-            font = self.item(place, 2).font()
+            colour, value = of_verdict(row.verdict), self.item(place, 2)
+            font = value.font()
             font.setBold(True)
-            self.item(place, 2).setFont(font)
-            self.item(place, 2).setForeground(colour)
+            value.setFont(font)
+            value.setBackground(QtGui.QColor.fromRgbF(*colour))
+            value.setForeground(QtGui.QColor.fromRgbF(*text_on(colour)))
 
     def _tell(self) -> None:
         places = {index.row() for index in self.selectedIndexes()}

@@ -13,7 +13,7 @@ import FreeCADGui
 import numpy as np
 from pivy import coin
 
-from aadm_workbench.document.column import column_design, owner_of
+from aadm_workbench.document.column import column_design
 from aadm_workbench.document.display.colours import of_verdict
 from aadm_workbench.document.display.marks import (
     SHOWN,
@@ -26,6 +26,7 @@ from aadm_workbench.document.display.marks import (
     ring,
 )
 from aadm_workbench.document.display.reported_design import design_of_report
+from aadm_workbench.document.groups import owner_of
 from aadm_workbench.document.places import transform_of
 from aadm_workbench.document.properties import Property
 from aadm_workbench.document.result import found_of

@@ -16,6 +16,9 @@ from aadm_workbench.gui.language import in_language
 
 translate = FreeCAD.Qt.translate
 WINDOW_NAME = "AADM_Sentence"
+Offer = tuple[str, Callable[[], object]]
+WAYS_ON: dict[type[AadmError], Callable[[], tuple[Offer, ...]]] = {}
+"""What is offered about errors of a kind, where who shows one offers nothing; panels say what they lead out of."""
 
 
 @contextmanager
@@ -27,7 +30,7 @@ def sentences(title: str) -> Iterator[None]:
         show_error(title, error)
 
 
-def show_error(title: str, error: BaseException, *offers: tuple[str, Callable[[], object]]) -> None:
+def show_error(title: str, error: BaseException, *offers: Offer) -> None:
     """Say what went wrong in a window that does not block, and in the report view.
 
     ``offers``: buttons with what they do about it.
@@ -44,6 +47,9 @@ def show_error(title: str, error: BaseException, *offers: tuple[str, Callable[[]
         from aadm_workbench.gui.panels.environment import install
 
         offers = ((translate("AADM", "Install now"), install), *offers)
+    for kind, ways in WAYS_ON.items():
+        if isinstance(error, kind) and not offers:
+            offers = ways()
     for text, act in offers:
         button = box.addButton(text, QtGui.QMessageBox.ActionRole)
         button.clicked.connect(lambda checked=False, act=act: act())

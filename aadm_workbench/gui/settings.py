@@ -44,6 +44,16 @@ def remember_camera_file(path: str) -> None:
     _kept().SetString("CameraFile", path)
 
 
+def camera_address() -> str:
+    """The live camera that was used last."""
+    return _kept().GetString("CameraAddress", "")
+
+
+def remember_camera_address(address: str) -> None:
+    """Offer this camera the next time, too."""
+    _kept().SetString("CameraAddress", address)
+
+
 def most_points() -> int:
     """Points of a scan that the view shows at most."""
     return max(1000, _kept().GetInt("MostPoints", 60_000))

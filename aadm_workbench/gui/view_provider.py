@@ -14,7 +14,7 @@ from aadm_workbench.document.display.messages import complain
 from aadm_workbench.document.properties import Property, apply_properties
 from aadm_workbench.document.stateless import Stateless
 from aadm_workbench.errors import AadmError
-from aadm_workbench.gui.resources import icon_path
+from aadm_workbench.gui.resources import icon, icon_path
 
 _MODE = "Marks"
 
@@ -83,4 +83,6 @@ class MarksView(Stateless):
 
     def getIcon(self) -> str:
         """Path of the icon in the tree."""
-        return icon_path(self.icon_name(self.Object) if hasattr(self, "Object") else "aadm")
+        name = self.icon_name(self.Object) if hasattr(self, "Object") else "aadm"
+        icon(name)  # FreeCAD 1.1 shows in the tree what it has drawn before; Qt alone may not draw SVG
+        return icon_path(name)

@@ -9,7 +9,7 @@ from typing import Any
 import FreeCAD
 import FreeCADGui
 
-from aadm_workbench.document.asking import SCAN_PANELS
+from aadm_workbench.document.asking import JOB_PANELS, SCAN_PANELS
 from aadm_workbench.gui.resources import FORMS, ICONS, TRANSLATIONS, icon_path
 
 translate = FreeCAD.Qt.translate  # a module without a place on disk: it cannot be imported from
@@ -39,7 +39,10 @@ class AADMWorkbench(FreeCADGui.Workbench):
         from aadm_workbench.gui.chosen import chosen_columns
 
         if chosen_columns():
-            self.appendContextMenu("AADM", ["AADM_ImportScan", "AADM_CheckColumn", "AADM_WriteResults"])
+            self.appendContextMenu(
+                "AADM",
+                ["AADM_ImportScan", "AADM_CaptureScan", "AADM_CheckColumn", "AADM_CheckAll", "AADM_WriteResults"],
+            )
 
     def GetClassName(self) -> str:
         """Name of FreeCAD's own class behind a workbench that is written in Python."""
@@ -54,9 +57,16 @@ def set_up() -> None:
     FreeCADGui.addPreferencePage(str(FORMS / "preferences.ui"), "AADM")
     FreeCADGui.addWorkbench(AADMWorkbench())
     SCAN_PANELS[:] = [_open_import_panel]
+    JOB_PANELS[:] = [_open_job_panel]
 
 
 def _open_import_panel(document: Any, files: list[Path]) -> None:
     from aadm_workbench.gui.panels.import_scan import open_panel
 
     open_panel(document, files)
+
+
+def _open_job_panel(document: Any, job: Path) -> None:
+    from aadm_workbench.gui.panels.check_all import open_job
+
+    open_job(document, job)

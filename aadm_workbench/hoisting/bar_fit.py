@@ -16,6 +16,7 @@ from aadm_workbench.hoisting.frame import HoistingFrame, LocalAxes
 from aadm_workbench.hoisting.pattern_fit import (
     OWN,
     Believed,
+    Evidence,
     Pattern,
     State,
     System,
@@ -26,6 +27,7 @@ from aadm_workbench.hoisting.pattern_fit import (
     wall_terms,
 )
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
+from aadm_workbench.model.scatter import TO_SIGMA
 
 # of a bar below its top: the shortest of the settings stick out by 120, and no floor is to be taken in
 _LENGTH_MM = 110.0
@@ -33,13 +35,17 @@ _ABOVE_MM = 14.0  # how far above the level of all tops one may end: by right th
 # about the radius, from a first guess of some mm down to what a rib of 0.9 mm stands out by and its noise
 _BANDS_MM = (3.0, 2.0, 1.6, 1.6, 1.6)
 _SETTLED_MM = 0.01  # a third of the uncertainty's floor below
+_TRACKED_ROUNDS = 2  # bars stand where they stood in the frame before
 _LAST_ROUNDS = 2  # with the scatter that the bars show: all else is settled before
 _INWARDS_MM = 1.0  # ribs only stand outwards: what lies farther inside of the core is a stray
+# of a window, evenly taken: half of them are the side's; where it is known already, fewer find 300 of them
+_PIXELS, _TRACKED_PIXELS = 4_000, 2_000
 _POINTS_MAX = 300  # of a side, evenly taken: neighbours share their errors, more of them tell little
 _FEWEST = 40  # points of a side (a choice: ±30 % moves nothing on sound scans)
 # neighbouring points of a side share their errors: standard errors are this much larger; a choice: ±30 % changes what
 # is found
 _CORRELATION = 1.8
+_NOISE_MM = 0.15  # to begin with: half as much again as the reference camera has at 1 m
 # of the noise that is read from the sides: half to three times that of the reference camera at 1 m (0.10)
 _LAW_WIDTH_MM = (0.05, 0.3)
 # of the points of a side, and how far they stand out on average: ribs of 0.9 mm with slanted flanks; a choice: ±30 %
@@ -67,7 +73,8 @@ class BarFit:
     ``tops`` (k, 3) are centres of tops, NaN in height where no bar is seen; ``leans`` (k, 2) mm per mm upwards, with
     the joint ``covariance`` (2k, 2k) of the plan positions of the tops. ``seen`` (k,) tells which have evidence of
     their own, ``counts`` (k,) how many points that is. ``pose`` (3,) lays ``places`` (k, 2) on them,
-    its turn with the standard uncertainty ``turn_u``, rad.
+    its turn with the standard uncertainty ``turn_u``, rad. ``evidence`` is what the seen ones show by themselves,
+    ``state`` all that was fitted.
     """
 
     tops: Array
@@ -80,6 +87,8 @@ class BarFit:
     places: Array
     radius_mm: float
     noise_mm: float
+    evidence: Evidence
+    state: State
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,6 +108,7 @@ def fit_bars(
     top_mm: float,
     diameter_mm: float,
     starts: Array | None = None,
+    before: BarFit | None = None,
 ) -> BarFit:
     """Fit the bars of a pattern to a frame.
 
@@ -114,17 +124,26 @@ def fit_bars(
         Level of the tops in ``axes``, within some cm.
     starts
         (k, 2) mm: first centres of bars that were found, NaN for the others; a bent bar is far from its place.
+    before
+        What was fitted in the frame before, of the same camera, to begin with: then the search for it is left out.
     """
-    state = started(pattern, pose, (_CORE_TO_NOMINAL * diameter_mm / 2,))
+    nominal_mm = _CORE_TO_NOMINAL * diameter_mm / 2
+    state = started(pattern, pose, (nominal_mm,))
+    if before is not None:
+        state.pooled[:], state.own[:, 2:] = before.state.pooled, before.state.own[:, 2:]
     if starts is not None:
         state.own[:, :2] = np.where(np.isfinite(starts), starts, state.own[:, :2])
-    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2) for centre in state.centres]
+    pixels = _PIXELS if before is None else _TRACKED_PIXELS
+    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2, pixels) for centre in state.centres]
     sigma = np.tile([_LEAN_SIGMA, _LEAN_SIGMA, 1e-4, _OWN_RADIUS_MM], (len(sides), 1))
-    believed = Believed(state.pooled.copy(), np.array([_RADIUS_SIGMA_MM]), sigma, np.zeros((len(sides), OWN - 2)))
-    state, law = _settled(sides, state, pattern, believed)
+    believed = Believed(np.array([nominal_mm]), np.array([_RADIUS_SIGMA_MM]), sigma, np.zeros((len(sides), OWN - 2)))
+    # how points scatter about cores is the bars', and not the frame's
+    law = _law(_NOISE_MM if before is None else before.noise_mm)
+    if before is None:
+        state, law = _settled(sides, state, pattern, believed, law)
     terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
     pattern = as_built(loosened(pattern, state), state, counts >= _FEWEST)
-    for _ in range(_LAST_ROUNDS):
+    for _ in range(_LAST_ROUNDS if before is None else _TRACKED_ROUNDS):
         system = _system(terms, pattern, believed, state)
         state, _ = system.stepped(state)
         terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
@@ -143,15 +162,22 @@ def fit_bars(
         places=pattern.places,
         radius_mm=float(state.pooled[0]),
         noise_mm=law.width_mm,
+        evidence=_own_system(terms, believed, state).evidence(state, seen, _FLOOR_MM),
+        state=state if before is None else before.state,
     )
 
 
-def _settled(sides: list[_Side | None], state: State, pattern: Pattern, believed: Believed) -> tuple[State, BracketLaw]:
+def _law(width_mm: float) -> BracketLaw:
+    return BracketLaw(float(np.clip(width_mm, *_LAW_WIDTH_MM)), _RIB_SHARE, _RIB_MM)
+
+
+def _settled(
+    sides: list[_Side | None], state: State, pattern: Pattern, believed: Believed, law: BracketLaw
+) -> tuple[State, BracketLaw]:
     """The state to which the sides of all bars settle, and the law of how their points scatter."""
-    law = BracketLaw(0.15, _RIB_SHARE, _RIB_MM)
     for band_mm in _BANDS_MM:
         terms, _, width_mm = _terms(sides, state, band_mm, law)
-        law = BracketLaw(float(np.clip(width_mm, *_LAW_WIDTH_MM)), _RIB_SHARE, _RIB_MM)
+        law = _law(width_mm)
         state, step = _system(terms, pattern, believed, state).stepped(state)
         pattern = loosened(pattern, state)
         if step < _SETTLED_MM and band_mm == _BANDS_MM[-1]:
@@ -160,14 +186,22 @@ def _settled(sides: list[_Side | None], state: State, pattern: Pattern, believed
 
 
 def _system(terms: Terms, pattern: Pattern, believed: Believed, state: State) -> System:
+    system = _own_system(terms, believed, state)
+    system.add_pattern(pattern, state)
+    return system
+
+
+def _own_system(terms: Terms, believed: Believed, state: State) -> System:
+    """What each bar shows by itself, without the pattern."""
     system = System(len(state.own), 1)
     system.add(terms)
-    system.add_pattern(pattern, state)
     system.add_beliefs(believed, state)
     return system
 
 
-def _side(frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float) -> _Side | None:
+def _side(
+    frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float, most: int
+) -> _Side | None:
     """What is seen of a bar about a place; None where nothing is, or it is out of the picture."""
     reach = radius_mm + _BANDS_MM[0]
     corners = np.array(
@@ -186,7 +220,7 @@ def _side(frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, r
     high = np.minimum(np.ceil(pixels.max(axis=0)).astype(int) + 1, frame.shape[::-1])
     if (high - low < 3).any():
         return None
-    step = max(1, int(np.sqrt(np.prod(high - low) / 4000)))
+    step = max(1, int(np.sqrt(np.prod(high - low) / most)))
     points = frame.points[low[1] : high[1] : step, low[0] : high[0] : step]
     local = axes.local(points[_borne(points[..., 2])].astype(np.float64))
     near = np.hypot(*(local[:, :2] - centre).T) < reach
@@ -251,5 +285,5 @@ def _terms(sides: list[_Side | None], state: State, band_mm: float, law: Bracket
     pull = -law.slope(-residual) * trust / _CORRELATION**2
     bend = np.abs(pull) / np.maximum(np.abs(residual), law.softness_mm)
     inwards = residual[(residual < 0) & (residual > -_INWARDS_MM)]
-    width_mm = 1.4826 * float(np.median(np.abs(inwards))) if len(inwards) > 20 else 0.15
+    width_mm = TO_SIGMA * float(np.median(np.abs(inwards))) if len(inwards) > 20 else 0.15
     return Terms(own, pooled, pull, bend, owner), counts, width_mm

@@ -1,8 +1,9 @@
 """Two frames of one hanging column that cannot both be right: the ``near`` of one of them names a wrong corner.
 
 A ring of sleeves looks alike from all four corners, so a single frame cannot show it. Two can: each pair stands off its
-place in the ring by an amount of its own, which does not change as the column moves; and while the column hangs still,
-a frame that is labelled a quarter too far asks for the same push, turned by a quarter.
+place in the ring by an amount of its own, which does not change as the column moves, and so do its sleeve and its bar
+by themselves; and while the column hangs still, a frame that is labelled a quarter too far asks for the same push,
+turned by a quarter.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from scipy import stats
 
 from aadm_workbench.assembly.findings.finding import make_finding
 from aadm_workbench.assembly.pose.eopa import turn
+from aadm_workbench.hoisting.joint import shapes_agree
 from aadm_workbench.model import Array, ColumnDesign, Finding, HoistingMeasurement
 
 _QUARTERS_DEG = (90, -90, 180)  # turns of a square column
@@ -31,7 +33,7 @@ def contradiction_of(
 
     Of a column that ``swings`` only the pairs' own amounts count: half a swing later the push is the opposite one.
     """
-    alike = _own_amounts_agree(first, second, design)
+    alike = _own_amounts_agree(first, second, design) if shapes_agree(first, second) is not False else False
     turned_deg = None if alike or swings else _turned(first, second)
     values = {
         "source": first.report.source,

@@ -7,6 +7,7 @@ and all is put together, with what the pattern knows of sleeves that show little
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +20,7 @@ from aadm_workbench.hoisting.multipath_shift import EdgeRays, Push, find_push
 from aadm_workbench.hoisting.pattern_fit import (
     OWN,
     Believed,
+    Evidence,
     Pattern,
     State,
     System,
@@ -33,6 +35,8 @@ from aadm_workbench.model import Array, BoolArray, IntArray
 _WALL, _PUSH = range(2)  # places of the bores' radius and push among the pooled unknowns
 # about the radius, from a first pose that is right within some mm down to what ribs of 1 mm leave
 _BANDS_MM = (6.0, 4.0, 2.5, 1.5, 1.0, 1.0)
+_LAST_ROUNDS, _LAST_TRACKED_ROUNDS = 3, 2  # with the push: what the frame before has found is nearer to begin with
+_TRACKED_BANDS_MM = (3.0, 1.0)  # about the radius, of a column that moved by some mm since the last frame
 _LOOSE_FROM_MM = 2.0  # in narrower bands bores are found: what then stands far from its place is not to pull the others
 _WALL_FROM_MM = 1.15  # chamfers end before
 _WALL_MAX = 200  # of a bore, evenly taken: neighbours share their errors, more of them tell little
@@ -63,7 +67,8 @@ class FootFit:
     ``centres`` (k, 2) with their joint ``covariance`` (2k, 2k); ``seen`` (k,) tells which have evidence of their own,
     ``shown`` (k,) about which anything returned at all;
     ``pose`` (3,) lays the pattern on them. ``push`` is that of the walls; ``wall_count`` (k,) their points, and
-    ``open_share`` (k,) how much of each mouth lets rays through.
+    ``open_share`` (k,) how much of each mouth lets rays through; ``evidence`` is what the seen ones show by themselves,
+    ``state`` all that was fitted.
     """
 
     centres: Array
@@ -75,6 +80,8 @@ class FootFit:
     push: Push
     wall_count: IntArray
     open_share: Array
+    evidence: Evidence
+    state: State
 
 
 def fit_foot(
@@ -84,6 +91,7 @@ def fit_foot(
     pose: Array,
     diameter_mm: float,
     leans: Array | None = None,
+    before: FootFit | None = None,
 ) -> FootFit:
     """Fit the sleeves of a pattern to a frame.
 
@@ -95,13 +103,15 @@ def fit_foot(
         (3,): x, y mm and turn, from the places to the face's axes, within some mm.
     leans
         (k, 2): leans of the sleeves in the face's axes where they are known; upright otherwise.
+    before
+        What was fitted in the frame before, of the same camera, to begin with: then the search for it is left out.
     """
     radius_mm, noise_mm = diameter_mm / 2, max(face.residual_mm, 0.01)
-    state = started(pattern, pose, (radius_mm, 0.0))
+    state = started(pattern, pose, (radius_mm, 0.0)) if before is None else before.state
     views = [view_mouth(frame, face, centre, radius_mm) for centre in state.centres]
     believed = _believed(len(views), radius_mm, leans)
     walls: list[IntArray] = []
-    for band_mm in _BANDS_MM:
+    for band_mm in _BANDS_MM if before is None else _TRACKED_BANDS_MM:
         walls = [_far_wall(view, state, k, noise_mm, band_mm) for k, view in enumerate(views)]
         state, _ = _system(views, walls, state, pattern, believed)[0].stepped(state)
         if band_mm < _LOOSE_FROM_MM:
@@ -112,25 +122,34 @@ def fit_foot(
         for k, view in enumerate(views)
     ]
     rays = _edge_rays(views, sectors, walls, state, noise_mm, wall_mm)
-    push = find_push(rays, float(state.pooled[_WALL]), len(views), _PUSH_SIGMA_MM)
+    push = find_push(
+        rays, float(state.pooled[_WALL]), len(views), _PUSH_SIGMA_MM, None if before is None else before.push
+    )
     floor_mm = float(np.hypot(_PUSH_FLOOR_PITCHES * _typical_pitch_mm(rays), _of_face_height_mm(face, state.centres)))
     believed = _with_push(believed, push, floor_mm)
     pattern = as_built(pattern, state, np.array([len(wall) >= _WALL_FEWEST for wall in walls]))
-    for _ in range(3):
+    for _ in range(_LAST_ROUNDS if before is None else _LAST_TRACKED_ROUNDS):
         state, _ = _system(views, walls, state, pattern, believed)[0].stepped(state)
-    covariance = _system(views, walls, state, pattern, believed)[0].covariance()[0]
+    system, _ = _own_system(views, walls, state, believed)
+    alone = deepcopy(system)
+    system.add_pattern(pattern, state)
+    covariance = system.covariance()[0]
     counts = np.array([len(wall) for wall in walls])
-    own_mm = np.sqrt(np.diag(covariance).reshape(-1, 2).max(axis=1))
+    variances = np.diag(covariance)
+    own_mm = np.sqrt(np.where(variances > 0.0, variances, np.inf)).reshape(-1, 2).max(axis=1)
+    seen = (counts >= _WALL_FEWEST) & (own_mm < _SEEN_MM)
     return FootFit(
         centres=state.centres,
         covariance=covariance + _FLOOR_MM**2 * np.eye(len(covariance)),
-        seen=(counts >= _WALL_FEWEST) & (own_mm < _SEEN_MM),
+        seen=seen,
         shown=_shown(views),
         pose=state.pose,
         radius_mm=float(state.pooled[_WALL]),
         push=push,
         wall_count=counts,
         open_share=np.array([float(sector.mean()) for sector in sectors]),
+        evidence=alone.evidence(state, seen, _FLOOR_MM),
+        state=state,
     )
 
 
@@ -201,6 +220,15 @@ def _system(
     views: list[MouthView | None], walls: list[IntArray], state: State, pattern: Pattern, believed: Believed
 ) -> tuple[System, float]:
     """Normal equations of walls, pattern and beliefs, and how far wall points scatter, mm."""
+    system, sigma_mm = _own_system(views, walls, state, believed)
+    system.add_pattern(pattern, state)
+    return system, sigma_mm
+
+
+def _own_system(
+    views: list[MouthView | None], walls: list[IntArray], state: State, believed: Believed
+) -> tuple[System, float]:
+    """The same without the pattern: what each sleeve shows by itself."""
     system = System(len(views), len(state.pooled))
     sigma_mm = 0.1
     present = [(k, views[k], wall) for k, wall in enumerate(walls) if len(wall)]
@@ -213,7 +241,6 @@ def _system(
         own_mm = _own_spreads(residual, owner, np.array([0.0 if v is None else v.range_mm for v in views]), sigma_mm)
         weight = tukey(residual / own_mm) / (_WALL_CORRELATION * own_mm) ** 2
         system.add(Terms(own, pooled, weight * residual, weight, owner))
-    system.add_pattern(pattern, state)
     system.add_beliefs(believed, state)
     return system, sigma_mm
 

@@ -15,15 +15,17 @@ from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.errors import ScanError
 from aadm_workbench.hoisting.bar_fit import fit_bars
-from aadm_workbench.hoisting.bars import SeenBars, find_bars
-from aadm_workbench.hoisting.face import FootFace, NoFace, find_foot
+from aadm_workbench.hoisting.bars import find_bars
+from aadm_workbench.hoisting.face import NoFace, find_foot
 from aadm_workbench.hoisting.foot import FootFit, fit_foot
 from aadm_workbench.hoisting.frame import HoistingFrame, NoFrame, frame_of
-from aadm_workbench.hoisting.match import Laid, Matched, NoMatch, corner_name, match_hoisting
+from aadm_workbench.hoisting.match import Laid, NoMatch, corner_name, match_hoisting
 from aadm_workbench.hoisting.moved import moved_since, still_known, with_scans_named
 from aadm_workbench.hoisting.pairs import HungFit, report_pairs, unmeasured
 from aadm_workbench.hoisting.pattern_fit import Pattern
-from aadm_workbench.hoisting.sense import why_half, why_not_bars, why_not_foot
+from aadm_workbench.hoisting.sense import shown_sleeves, why_half, why_not_bars, why_not_foot
+from aadm_workbench.hoisting.sighting import SightedMeasurement, Sighting, with_sighting
+from aadm_workbench.hoisting.track import Found, follow, has_lost_bars, has_lost_foot
 from aadm_workbench.hoisting.turn_findings import held_while_ambiguous, with_turn_finding
 from aadm_workbench.hoisting.unseen import measured_labels
 from aadm_workbench.model import (
@@ -66,6 +68,7 @@ def measure_hoisting(
     sleeves_before: Sequence[AssemblyPoint | None] | None = None,
     rebars_before: Sequence[AssemblyPoint | None] | None = None,
     settings: HoistingSettings | None = None,
+    after: Sighting | None = None,
 ) -> HoistingMeasurement:
     """Measure one frame of a column that hangs over its bars.
 
@@ -82,6 +85,9 @@ def measure_hoisting(
         They replace the places of the design.
     settings
         Limits and decision rule; by default distances without a verdict.
+    after
+        What was seen of the column in the frame before, by the same camera: the frame begins where that one ended, and
+        by itself where it does not find what was there.
 
     Returns
     -------
@@ -91,6 +97,11 @@ def measure_hoisting(
     settings = settings or HoistingSettings()
     if len(design.rebars) != len(design.sleeves) or not design.sleeves:
         return unmeasured(scan, design, METHOD, Reason("hoisting.unpaired"))
+    column = _Column(design, near, sleeves_before, rebars_before, settings)
+    if after is not None and after.near == near and scan.declared_scale == 1.0:
+        tracked = _tracked(scan, column, after)
+        if tracked is not None:
+            return tracked
     try:
         if check_plausible(_thinned(scan), extent_mm(design.sleeves)).declared_scale != scan.declared_scale:
             scan = check_plausible(scan, extent_mm(design.sleeves))
@@ -99,7 +110,32 @@ def measure_hoisting(
     frame = frame_of(scan)
     if isinstance(frame, NoFrame):
         return unmeasured(scan, design, METHOD, frame.reason)
-    return _measured(scan, frame, design, near, sleeves_before, rebars_before, settings)
+    found = _searched(frame, column)
+    return (
+        _measured(scan, frame, column, found, 0)
+        if isinstance(found, Found)
+        else unmeasured(scan, design, METHOD, found)
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Column:
+    """What is known of a column beforehand, as in :func:`measure_hoisting`."""
+
+    design: ColumnDesign
+    near: tuple[int, int] | None
+    sleeves_before: Sequence[AssemblyPoint | None] | None
+    rebars_before: Sequence[AssemblyPoint | None] | None
+    settings: HoistingSettings
+
+    def diameter_mm(self, kind: Kind) -> float:
+        """Typical of its sleeves or of its bars."""
+        return float(np.median([point.diameter_mm for point in self.design.points(kind)]))
+
+    def as_far_as_oriented(self, orientation: str) -> _Column:
+        """Without what was measured before hoisting where nobody knows which point is which."""
+        is_known = self.near is not None or orientation == "resolved"
+        return self if is_known else replace(self, sleeves_before=None, rebars_before=None)
 
 
 def _thinned(scan: Scan) -> Scan:
@@ -110,52 +146,86 @@ def _thinned(scan: Scan) -> Scan:
     return replace(scan, points=scan.points[:: max(1, len(scan.points) // _LOOKED_AT)])
 
 
-def _measured(
-    scan: Scan,
-    frame: HoistingFrame,
-    design: ColumnDesign,
-    near: tuple[int, int] | None,
-    sleeves_before: Sequence[AssemblyPoint | None] | None,
-    rebars_before: Sequence[AssemblyPoint | None] | None,
-    settings: HoistingSettings,
-) -> HoistingMeasurement:
-    rng = np.random.default_rng(settings.seed)
-    sleeve_mm, bar_mm = (float(np.median([p.diameter_mm for p in design.points(kind)])) for kind in Kind)
-    sleeve_places, rebar_places = _places(design.sleeves), _places(design.rebars)
-    face = find_foot(frame, sleeve_mm, rng)
+def _tracked(scan: Scan, column: _Column, after: Sighting) -> SightedMeasurement | None:
+    """The frame as it follows another one; None where it does not."""
+    frame = frame_of(scan)
+    found = None if isinstance(frame, NoFrame) else follow(frame, after)
+    if found is None or isinstance(frame, NoFrame):
+        return None
+    with np.errstate(all="ignore"):  # what is lost is fitted to nothing
+        foot = _foot(frame, found, column.as_far_as_oriented(after.orientation))
+        if has_lost_foot(foot, after.hung.foot):
+            return None
+        hung = _bars(frame, found, foot, column.as_far_as_oriented(after.orientation))
+    if has_lost_bars(hung, after.hung):
+        return None
+    measured = _measured(scan, frame, column, found, after.tracked + 1, hung)
+    return measured if isinstance(measured, SightedMeasurement) else None
+
+
+def _searched(frame: HoistingFrame, column: _Column) -> Found | str:
+    """Where foot and bars are; why not, where they are not found."""
+    rng, design = np.random.default_rng(column.settings.seed), column.design
+    bar_mm = column.diameter_mm(Kind.REBAR)
+    face = find_foot(frame, column.diameter_mm(Kind.SLEEVE), rng)
     if isinstance(face, NoFace):
-        return unmeasured(scan, design, METHOD, face.reason)
+        return face.reason
+    rebar_places = _places(design.rebars)
     reach_mm = 1.5 * float(np.hypot(*np.ptp(rebar_places, axis=0))) + 200.0
     bars = find_bars(frame, face, bar_mm, reach_mm)
     if not len(bars.centres):
-        reason = Reason("hoisting.no_bar", bar_mm=bar_mm)
-        return unmeasured(scan, design, METHOD, reason)
-    matched = match_hoisting(face.mouths, bars.centres, face.eye[:2], sleeve_places, rebar_places, near)
-    if isinstance(matched, NoMatch):
-        return unmeasured(scan, design, METHOD, matched.reason)
-    known = near is not None or matched.orientation == "resolved"
-    sleeves_before, rebars_before = (sleeves_before, rebars_before) if known else (None, None)
-    foot = _foot(frame, face, design, matched, sleeves_before, sleeve_mm, settings)
-    moved = moved_since(sleeves_before, _labels(design.sleeves), foot.centres, foot.covariance, foot.seen)
-    if moved and sleeves_before is not None:
-        sleeves_before = still_known(sleeves_before, _labels(design.sleeves), foot.seen, moved)
-        foot = _foot(frame, face, design, matched, sleeves_before, sleeve_mm, settings)
-    hung = _bars(frame, face, foot, bars, design, matched, rebars_before, bar_mm, settings)
+        return Reason("hoisting.no_bar", bar_mm=bar_mm)
+    matched = match_hoisting(
+        face.mouths, bars.centres, face.eye[:2], _places(design.sleeves), rebar_places, column.near
+    )
+    return matched.reason if isinstance(matched, NoMatch) else Found(face, bars, matched)
+
+
+def _measured(
+    scan: Scan, frame: HoistingFrame, column: _Column, found: Found, tracked: int, fitted: HungFit | None = None
+) -> HoistingMeasurement:
+    """Fit what was found, unless that is done, test it against the scans from before hoisting, and report it."""
+    design, settings, matched = column.design, column.settings, found.matched
+    column = column.as_far_as_oriented(matched.orientation)
+    foot = _foot(frame, found, column) if fitted is None else fitted.foot
+    moved = moved_since(column.sleeves_before, _labels(design.sleeves), foot.centres, foot.covariance, foot.seen)
+    if moved and column.sleeves_before is not None:
+        known = still_known(column.sleeves_before, _labels(design.sleeves), foot.seen, moved)
+        column = replace(column, sleeves_before=known)
+        foot, fitted = _foot(frame, found, column), None
+    hung = _bars(frame, found, foot, column) if fitted is None else fitted
     fit = hung.bars
-    bent = moved_since(rebars_before, _labels(design.rebars), fit.tops[:, :2], fit.covariance, fit.seen)
-    if bent and rebars_before is not None:
-        rebars_before = still_known(rebars_before, _labels(design.rebars), fit.seen, bent)
-        hung = _bars(frame, face, foot, bars, design, matched, rebars_before, bar_mm, settings)
-    before = *measured_labels(sleeves_before, design.sleeves), *measured_labels(rebars_before, design.rebars)
-    hung = replace(hung, before=before)
-    half = why_half(frame, face, foot)
-    unlike = why_not_foot(face, foot, sleeve_mm) or why_not_bars(frame, hung, bars, matched, bar_mm)
+    bent = moved_since(column.rebars_before, _labels(design.rebars), fit.tops[:, :2], fit.covariance, fit.seen)
+    if bent and column.rebars_before is not None:
+        known = still_known(column.rebars_before, _labels(design.rebars), fit.seen, bent)
+        column = replace(column, rebars_before=known)
+        hung = _bars(frame, found, foot, column)
+    sleeves_known = measured_labels(column.sleeves_before, design.sleeves)
+    hung = replace(hung, before=(*sleeves_known, *measured_labels(column.rebars_before, design.rebars)))
+    shown = shown_sleeves(frame, found.face, foot)
+    half = why_half(shown)
+    unlike = why_not_foot(found.face, foot, column.diameter_mm(Kind.SLEEVE))
+    unlike = unlike or why_not_bars(frame, hung, found.bars, matched, column.diameter_mm(Kind.REBAR))
     if unlike:
         return unmeasured(scan, design, METHOD, half or unlike)
     measured = report_pairs(scan, frame, design, hung, matched.orientation, settings.profile, settings.decision, half)
-    report = with_scans_named(measured.report, (*moved, *bent), before)
-    report = replace(report, near=None if near is None else corner_name(near))
-    return replace(measured, report=held_while_ambiguous(with_turn_finding(report, near, matched.off_declared)))
+    report = with_scans_named(measured.report, (*moved, *bent), hung.before)
+    report = replace(report, near=None if column.near is None else corner_name(column.near))
+    report = held_while_ambiguous(with_turn_finding(report, column.near, matched.off_declared))
+    sighting = Sighting(
+        scan=scan,
+        frame=frame,
+        hung=hung,
+        sleeves=_pattern(design.sleeves, column.sleeves_before, settings.scatter_mm),
+        rebars=_pattern(design.rebars, column.rebars_before, settings.scatter_mm),
+        shown=shown,
+        near=column.near,
+        orientation=matched.orientation,
+        off_declared=matched.off_declared,
+        tracked=tracked,
+        shape=frame.shape,
+    )
+    return with_sighting(replace(measured, report=report), sighting)
 
 
 def _labels(points: Sequence[AssemblyPoint]) -> list[str]:
@@ -179,44 +249,30 @@ def _pattern(
     return Pattern(places, scatter)
 
 
-def _foot(
-    frame: HoistingFrame,
-    face: FootFace,
-    design: ColumnDesign,
-    matched: Matched,
-    before: Sequence[AssemblyPoint | None] | None,
-    diameter_mm: float,
-    settings: HoistingSettings,
-) -> FootFit:
-    pose = matched.sleeves.pose
+def _foot(frame: HoistingFrame, found: Found, column: _Column) -> FootFit:
+    pose = found.matched.sleeves.pose
     leans = None
-    if before is not None:
-        known = [np.zeros(2) if point is None else point.axis[:2] / point.axis[2] for point in before]
+    if column.sleeves_before is not None:
+        known = [np.zeros(2) if point is None else point.axis[:2] / point.axis[2] for point in column.sleeves_before]
         leans = np.array(known) @ turn(float(pose[2])).T
-    return fit_foot(frame, face, _pattern(design.sleeves, before, settings.scatter_mm), pose, diameter_mm, leans)
+    pattern = _pattern(column.design.sleeves, column.sleeves_before, column.settings.scatter_mm)
+    earlier = None if found.earlier is None else found.earlier.foot
+    return fit_foot(frame, found.face, pattern, pose, column.diameter_mm(Kind.SLEEVE), leans, earlier)
 
 
-def _bars(
-    frame: HoistingFrame,
-    face: FootFace,
-    foot: FootFit,
-    bars: SeenBars,
-    design: ColumnDesign,
-    matched: Matched,
-    before: Sequence[AssemblyPoint | None] | None,
-    diameter_mm: float,
-    settings: HoistingSettings,
-) -> HungFit:
-    axes = face.along(bars.vertical)
-    tops = axes.local(face.to_frame(np.column_stack([bars.centres, bars.tops])))
-    laid = matched.rebars
-    starts = np.full((len(design.rebars), 2), np.nan)
-    found = laid.matched >= 0
-    starts[found] = tops[laid.matched[found], :2]
-    pose = _refined_pose(laid, _places(design.rebars), starts)
-    pattern = _pattern(design.rebars, before, settings.scatter_mm)
-    fit = fit_bars(frame, axes, pattern, pose, float(np.median(tops[:, 2])), diameter_mm, starts)
-    return HungFit(face, foot, axes, fit, bars.floor)
+def _bars(frame: HoistingFrame, found: Found, foot: FootFit, column: _Column) -> HungFit:
+    bars, laid, rebars = found.bars, found.matched.rebars, column.design.rebars
+    axes = found.face.along(bars.vertical)
+    tops = axes.local(found.face.to_frame(np.column_stack([bars.centres, bars.tops])))
+    starts = np.full((len(rebars), 2), np.nan)
+    is_found = laid.matched >= 0
+    starts[is_found] = tops[laid.matched[is_found], :2]
+    pose = _refined_pose(laid, _places(rebars), starts)
+    pattern = _pattern(rebars, column.rebars_before, column.settings.scatter_mm)
+    top_mm, diameter_mm = float(np.median(tops[:, 2])), column.diameter_mm(Kind.REBAR)
+    earlier = None if found.earlier is None else found.earlier.bars
+    fit = fit_bars(frame, axes, pattern, pose, top_mm, diameter_mm, starts, earlier)
+    return HungFit(found.face, foot, axes, fit, bars.floor)
 
 
 def _refined_pose(laid: Laid, places: Array, starts: Array) -> Array:

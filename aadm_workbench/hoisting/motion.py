@@ -19,6 +19,7 @@ from aadm_workbench.hoisting.swing import Swing, swing_of
 from aadm_workbench.model import Array, BoolArray, Correction, HoistingMeasurement
 
 _MOST_LOOKS, _LONGEST_S = 10, 40.0  # three swings of the longest rope; older frames say little of today's rest
+_APART_S = 0.5  # of the quickest rope's swing of 1.5 s a third: at video rate ten frames in a row tell of no swing
 _FEWEST_PAIRS = 3  # two leave a turn open to noise
 _NOISE_FLOOR_MM = 0.04  # of a place from frame to frame: the bars' own frame is found anew in each
 _MOVED_SIGMAS, _MOVED_MIN_MM = 4.0, 0.25  # beyond noise; less than a crane can move by
@@ -46,7 +47,8 @@ class Motion:
 
     ``still`` tells whether no pair leaves its limit during the swing; None without a limit, or while ``swing`` is None:
     fewer than three frames since the last push. ``moving`` tells that the column moved and its rest is not known well
-    enough for a correction. ``rest`` is the correction from the rest, ``largest_mm`` the largest distance there.
+    enough for a correction. ``rest`` is the correction from the rest, ``largest_mm`` the largest distance there; while
+    nobody knows whether it swings, the correction has no uncertainty that could be told.
     """
 
     swing: Swing | None
@@ -63,10 +65,12 @@ def look_at(measurement: HoistingMeasurement, time_s: float) -> Look:
 
 
 def with_look(looks: tuple[Look, ...], newest: Look) -> tuple[Look, ...]:
-    """The frames that still matter; a time that goes back begins anew."""
+    """The frames that still matter: half a second apart but for the newest; a time that goes back begins anew."""
     if looks and newest.time_s <= looks[-1].time_s:
         return (newest,)
     kept = [look for look in looks if newest.time_s - look.time_s < _LONGEST_S]
+    if len(kept) > 1 and newest.time_s - kept[-2].time_s < _APART_S:
+        kept.pop()
     return (*kept[-(_MOST_LOOKS - 1) :], newest)
 
 
@@ -86,14 +90,15 @@ def motion_of(looks: tuple[Look, ...], places: Array, correction: Correction | N
     largest_mm = float(np.hypot(*now.offsets_mm.T).max())
     places = places - now.offsets_mm
     moves, noise_mm = _moves(looks, places)
+    unsure = None if correction is None else replace(correction, u_mm=None, u_yaw_deg=None)
     if len(moves) < 2:
-        return Motion(None, False, None, correction, largest_mm)
+        return Motion(None, False, None, unsure, largest_mm)
     times_s = np.array([look.time_s for look in looks[-len(moves) :]])
     swing = swing_of(times_s, moves[:, :2], noise_mm)
     if swing is None:
         limit = max(_MOVED_SIGMAS * np.sqrt(2.0) * noise_mm, _MOVED_MIN_MM)
         moved = bool(np.abs(moves[-2]).max() > limit)
-        return Motion(None, moved, None, None if moved else correction, largest_mm)
+        return Motion(None, moved, None, None if moved else unsure, largest_mm)
     turning = swing_of(times_s[-swing.frames :], moves[-swing.frames :, 2:], noise_mm)
     if turning is None or correction is None:
         return Motion(swing, turning is None, None, None, largest_mm)
@@ -114,6 +119,7 @@ def _from_rest(
     # a correction that is no surer than half of what it has to keep may as well push away
     unsure = limit_mm is not None and _SURE_SIGMAS * u_mm > limit_mm / 2.0
     rest = None if unsure else moved_correction(correction, swing.rest, math.degrees(yaw))
+    rest = None if rest is None else replace(rest, u_mm=math.hypot(rest.u_mm or 0.0, swing.rest_u_mm))
     return Motion(swing, unsure, still, rest, largest_mm)
 
 

@@ -57,7 +57,7 @@ class MouthView:
 
 def view_mouth(frame: HoistingFrame, face: FootFace, centre: Array, radius_mm: float) -> MouthView | None:
     """All rays around one mouth; None where it is out of the picture."""
-    window = _window(frame, face, centre, radius_mm)
+    window = window_about(frame, face, centre, radius_mm)
     if window is None:
         return None
     rows, columns = window
@@ -81,7 +81,7 @@ def view_mouth(frame: HoistingFrame, face: FootFace, centre: Array, radius_mm: f
     return MouthView(chosen, passing, slope, crossing[within], pixel, range_mm)
 
 
-def _window(frame: HoistingFrame, face: FootFace, centre: Array, radius_mm: float) -> tuple[slice, slice] | None:
+def window_about(frame: HoistingFrame, face: FootFace, centre: Array, radius_mm: float) -> tuple[slice, slice] | None:
     """Rows and columns whose rays cross the face about a mouth."""
     reach = radius_mm + _MARGIN_MM
     turn = np.linspace(0.0, 2 * np.pi, 16, endpoint=False)

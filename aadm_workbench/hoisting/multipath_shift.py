@@ -21,6 +21,7 @@ _PUSH_REACH_MM, _PUSH_STEP_MM = 1.8, 0.3  # twice the push of the reference came
 _CHAMFER_MM, _CHAMFER_STEP_MM = (0.0, 0.4, 0.8, 1.2, 1.6), 0.3
 # times the noise, so that a step of the grid cannot miss the peak; then down to the noise itself
 _BLUR, _FINE_BLURS = 3.0, (2.0, 1.5, 1.0, 1.0)
+_NARROWED = 0.55  # from step to step of the fine search: half a step of the last one, and a tenth to spare
 # bounds of the time; farther from the edge than two steps of the grid a ray tells nothing
 _COARSE_RAYS, _FINE_RAYS, _NEAR_MM = 1_200, 3_500, 0.7
 _SOFTNESS = 0.03  # of a pixel: an edge is a step, and softer laws lean to where more rays return
@@ -84,30 +85,38 @@ class Push:
     own_sigma: Array
 
 
-def find_push(rays: EdgeRays, radius_mm: float, sleeves: int, prior_mm: float) -> Push:
+def find_push(rays: EdgeRays, radius_mm: float, sleeves: int, prior_mm: float, before: Push | None = None) -> Push:
     """The push and the chamfer under which the rays about all mouths are most likely.
 
-    A coarse search asks some of the rays, and a finer one all of those that are near to the edge which that finds.
+    A coarse search asks some of the rays, and a finer one all of those that are near to the edge which that finds. What
+    was found in the frame ``before`` takes the place of the coarse search.
     """
-    pushes = np.arange(-_PUSH_REACH_MM, _PUSH_REACH_MM + 1e-9, _PUSH_STEP_MM)
-    chamfers = np.array(_CHAMFER_MM)
-    some = _chosen(rays, np.arange(0, len(rays.owner), len(rays.owner) // _COARSE_RAYS + 1))
-    # seen less sharply, the likelihood has one peak where the grid cannot miss it
-    some = replace(some, wall_sigma=_BLUR * some.wall_sigma)
-    best = _best(some, _fixed(some), pushes, chamfers, radius_mm, prior_mm)
+    best = _coarse(rays, radius_mm, prior_mm) if before is None else (before.push_mm, before.chamfer_mm)
     about = rays.about + best[0] * rays.direction
     off_mm = np.abs(np.hypot(about[:, 0], about[:, 1]) - radius_mm - best[1])
     near = np.flatnonzero(off_mm < _NEAR_MM + rays.pitch)
     rays = _chosen(rays, near[:: len(near) // _FINE_RAYS + 1])
     steps = np.array([_PUSH_STEP_MM, _CHAMFER_STEP_MM])
-    for blur in _FINE_BLURS:
+    blurs: tuple[float, ...] = _FINE_BLURS
+    if before is not None:
+        blurs, steps = _FINE_BLURS[-1:], _NARROWED ** (len(_FINE_BLURS) - 1) * steps
+    for blur in blurs:
         seen = replace(rays, wall_sigma=blur * rays.wall_sigma)
         fixed = _fixed(seen)
         pushes = best[0] + steps[0] * np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
         chamfers = np.maximum(best[1] + steps[1] * np.array([-1.0, -0.5, 0.0, 0.5, 1.0]), 0.0)
         best = _best(seen, fixed, pushes, chamfers, radius_mm, prior_mm)
-        steps = 0.55 * steps
+        steps = _NARROWED * steps
     return _own(rays, fixed, best[0], best[1], radius_mm, sleeves, prior_mm)
+
+
+def _coarse(rays: EdgeRays, radius_mm: float, prior_mm: float) -> tuple[float, float]:
+    pushes = np.arange(-_PUSH_REACH_MM, _PUSH_REACH_MM + 1e-9, _PUSH_STEP_MM)
+    chamfers = np.array(_CHAMFER_MM)
+    some = _chosen(rays, np.arange(0, len(rays.owner), len(rays.owner) // _COARSE_RAYS + 1))
+    # seen less sharply, the likelihood has one peak where the grid cannot miss it
+    some = replace(some, wall_sigma=_BLUR * some.wall_sigma)
+    return _best(some, _fixed(some), pushes, chamfers, radius_mm, prior_mm)
 
 
 def _chosen(rays: EdgeRays, index: IntArray) -> EdgeRays:

@@ -36,7 +36,9 @@ from aadm_workbench.model import (
 )
 
 _NORMAL_U = 1.5e-4  # rad: what the warp of a camera does to the normal of a face
-_WARP_MM = 0.025  # rms of the reference camera's warp of 0.05 mm
+WARP_MM = 0.025
+"""Of a place in the picture, rms: the reference camera warps by 0.05 mm."""
+
 _SCALE_ERROR = 1e-4  # relative: of the reference camera, where the job tells no other
 _KNOWN_MM, _FEWEST_DECIDE = 0.25, 3  # as well as what is seen (hoisting_bar_fit.py); a pose has three unknowns
 
@@ -152,7 +154,7 @@ def _offsets(hung: HungFit, scale_error: float) -> _Offsets:
     # what tilts the face moves all bars' projections alike; what stretches the camera's lengths, each offset
     gaps = np.repeat(gap_mm, 2)
     covariance = covariance + _NORMAL_U**2 * np.outer(gaps, gaps) * np.kron(np.ones((count, count)), np.eye(2))
-    covariance = covariance + scale_error**2 * np.outer(apart.ravel(), apart.ravel()) + _WARP_MM**2 * np.eye(2 * count)
+    covariance = covariance + scale_error**2 * np.outer(apart.ravel(), apart.ravel()) + WARP_MM**2 * np.eye(2 * count)
     # the directions of the bars' frame are those of bars that scatter about their places
     turning = np.column_stack([-apart[:, 1], apart[:, 0]]).ravel()
     covariance = covariance + bars.turn_u**2 * np.outer(turning, turning)

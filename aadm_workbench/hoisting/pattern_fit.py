@@ -76,6 +76,19 @@ class Believed:
     own: Array | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What a frame shows by itself of the features ``index`` (m,) that it sees, whatever their pattern says.
+
+    ``centres`` (m, 2) mm with their joint ``covariance`` (2m, 2m): they share pushes and radii, and stand free of each
+    other otherwise.
+    """
+
+    index: IntArray
+    centres: Array
+    covariance: Array
+
+
 def placed(pose: Array, places: Array) -> Array:
     """The pattern's places (k, 2) mm in a pose."""
     cosine, sine = np.cos(pose[2]), np.sin(pose[2])
@@ -186,6 +199,21 @@ class System:
             state.own + step[begin:].reshape(-1, OWN),
         )
         return moved, longest
+
+    def evidence(self, state: State, seen: BoolArray, floor_mm: float) -> Evidence:
+        """What is told of the seen features (k,) by a system to which no pattern was added.
+
+        ``floor_mm`` is what each centre is off by, however much is seen of it.
+        """
+        index = np.flatnonzero(seen)
+        shared = np.arange(_POSE, _POSE + self.pooled)
+        rows = np.concatenate([shared, *(self.own_places(int(k)) for k in index)])
+        inverse = np.linalg.inv(self.normal[np.ix_(rows, rows)])
+        step = -(inverse @ self.gradient[rows])
+        centres = (self.pooled + OWN * np.arange(len(index))[:, None] + np.arange(2)).ravel()
+        moved = state.centres[index] + np.clip(step[centres], -_LONGEST_STEP_MM, _LONGEST_STEP_MM).reshape(-1, 2)
+        spread = inverse[np.ix_(centres, centres)] + floor_mm**2 * np.eye(len(centres))
+        return Evidence(index, np.asarray(moved), np.asarray(spread))
 
     def covariance(self) -> tuple[Array, Array, Array]:
         """Covariances: of all centres together (2k, 2k) mm², of the pose (3, 3), and of the pooled unknowns (p, p)."""

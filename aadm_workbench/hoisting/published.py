@@ -7,7 +7,7 @@ import numpy as np
 from aadm_workbench.assembly.decision import decide_radial
 from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.design.recognise.rings import smallest_spacing
-from aadm_workbench.extract.published.hoisting import find_key_points
+from aadm_workbench.extract.published.hoisting import METHODS, find_key_points
 from aadm_workbench.hoisting.pairs import key_labels, unmeasured
 from aadm_workbench.model import (
     ColumnDesign,
@@ -41,6 +41,8 @@ def measure_published(
     MissingDependencyError
         Where Open3D is not installed.
     """
+    if method not in METHODS:
+        return unmeasured(scan, design, method, Reason("hoisting.no_such_method", method=method))
     sleeve_mm = float(np.median([point.diameter_mm for point in design.sleeves]))
     rebar_mm = float(np.median([point.diameter_mm for point in design.rebars]))
     places = np.array([point.centre[:2] for point in design.rebars])

@@ -25,11 +25,15 @@ _STRAY_SHARE = 0.3  # of the openings: some are those of lifting anchors and ven
 _COVERED_SHARE = 0.5  # of a bar's width: with less in view nobody can say that it is not there
 
 
-def why_half(frame: HoistingFrame, face: FootFace, foot: FootFit) -> str:
-    """Whether so little of the foot is in view that the frame stands for a part of the column only; empty if not."""
-    count = len(foot.centres)
-    in_picture = _in_picture(frame, face.to_frame(np.column_stack([foot.centres, np.zeros(count)])))
-    shown = int((in_picture & foot.shown).sum())
+def shown_sleeves(frame: HoistingFrame, face: FootFace, foot: FootFit) -> BoolArray:
+    """Which sleeves (k,) are in the picture, with something returned about them."""
+    in_picture = _in_picture(frame, face.to_frame(np.column_stack([foot.centres, np.zeros(len(foot.centres))])))
+    return np.asarray(in_picture & foot.shown)
+
+
+def why_half(shown_here: BoolArray) -> str:
+    """Whether so little of the foot is in view that it stands for a part of the column only; empty if not."""
+    shown, count = int(shown_here.sum()), len(shown_here)
     if shown >= (1.0 - _OUT_OF_PICTURE_SHARE) * count:
         return ""
     return Reason("hoisting.half", shown=shown, count=count)

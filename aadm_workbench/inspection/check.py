@@ -15,6 +15,7 @@ import numpy as np
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.findings.finding import SeenGroup
 from aadm_workbench.assembly.findings.of_column import Seen, with_findings
+from aadm_workbench.assembly.following import told_once
 from aadm_workbench.assembly.group_notes import (
     axes_not_told,
     in_coordinates_of_the_file,
@@ -33,8 +34,10 @@ from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.tolerances import rules_of_the_erected_column, sum_up
 from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.errors import JobError
-from aadm_workbench.extract.method import extract_sizes
+from aadm_workbench.extract.edges.learned_edges import with_learned_edges
+from aadm_workbench.extract.method import Known, extract_sizes
 from aadm_workbench.model import (
+    Array,
     AssemblyPoint,
     ColumnDesign,
     ColumnReport,
@@ -135,6 +138,7 @@ def check_column(
             trial, repair = _repair(design, measured[Kind.SLEEVE], measured[Kind.REBAR], trial, settings)
         section = _section(design, scans, measured, settings)
     report = replace(_report(design, measured, trial, checks, settings.profile), repair=repair, section=section)
+    report = told_once(report)
     seen = {kind: Seen(_seen(design, kind, scans, measured[kind]), scans.of(kind)[0]) for kind in measured}
     rng = np.random.default_rng([settings.seed, 4])
     with stage("assembly"):
@@ -158,7 +162,7 @@ def _section(
 
 def _seen(design: ColumnDesign, kind: Kind, scans: ColumnScans, measured: Measured) -> SeenGroup:
     """A group as the rules on findings look at it."""
-    scale_error = _scale_error(scans.of(kind)[0])
+    scale_error = _scale_error(scans.of(kind)[0], kind)
     return SeenGroup(kind, design.points(kind), measured.extraction, measured.match, scale_error)
 
 
@@ -180,7 +184,7 @@ def _wanted(design: ColumnDesign, scans: ColumnScans, settings: CheckSettings) -
         return tuple(possible)
     lacking = [check for check in settings.checks if check not in possible]
     if lacking:
-        raise JobError(f"column {design.id}: the job asks for {', '.join(lacking)}, but names no scan for it")
+        raise JobError.because("command.asks_without_scan", column=design.id, parts=", ".join(lacking))
     return settings.checks
 
 
@@ -189,8 +193,9 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
     views, points, up_deg = scans.of(kind), design.points(kind), scans.up_deg(kind)
     scan, diameter_mm = views[0], float(np.median(_diameters_mm(points)))
     rng = np.random.default_rng([settings.seed, list(Kind).index(kind)])
+    known = Known(design, up_deg)
     with stage("extract"):
-        seen = [extract_sizes(view, kind, _diameters_mm(points), settings.method, rng) for view in views]
+        seen = [_extracted(view, kind, points, settings, rng, known=known) for view in views]
         control = _control(design, scans, kind, seen[0])
         ups = [up_deg] * len(views)
         if up_deg is None and control:
@@ -212,7 +217,7 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             reasons = dict.fromkeys(missing_places(points, match), unseen)
         else:
             reasons = reasons_of_missing(scan, extraction, missing_places(points, match), diameter_mm, rng)
-    scale_error = _scale_error(scan)
+    scale_error = _scale_error(scan, kind)
     with stage("assembly"):
         report = inspect_group(
             points,
@@ -237,8 +242,25 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
         return replace(measured, report=in_coordinates_of_the_file(measured.report, scan))
 
 
-def _scale_error(scan: Scan) -> float:
-    """Relative standard uncertainty of the lengths of a scan, where its camera states one."""
+def _extracted(
+    scan: Scan,
+    kind: Kind,
+    points: tuple[AssemblyPoint, ...],
+    settings: CheckSettings,
+    rng: np.random.Generator,
+    places: Array | None = None,
+    known: Known | None = None,
+) -> Extraction:
+    """The points of a scan, set right by what was learned of its camera: with the method that it was learned with."""
+    found = extract_sizes(scan, kind, _diameters_mm(points), settings.method, rng, places, known=known)
+    return with_learned_edges(found, scan.learned) if settings.method == "refined" else found
+
+
+def _scale_error(scan: Scan, kind: Kind) -> float:
+    """Relative standard uncertainty of the lengths of a scan: as learned, else as its camera states it."""
+    if scan.learned is not None and kind in scan.learned.edges:
+        edges = scan.learned.edges[kind]
+        return float(np.hypot(edges.stretch.u, edges.spread))
     return scan.camera.scale_error if scan.camera else 0.0
 
 
@@ -260,7 +282,7 @@ def _matched(
     if not places or settings.method != "refined":
         return extraction, match
     sought = np.array(list(places.values()))
-    again = extract_sizes(scan, extraction.kind, _diameters_mm(points), settings.method, rng, sought)
+    again = _extracted(scan, extraction.kind, points, settings, rng, sought)
     second = match_extraction(points, again, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
     if second and second.placements[0].found > match.placements[0].found:
         return again, second

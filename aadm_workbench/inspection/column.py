@@ -50,7 +50,8 @@ def inspect_column(task: ColumnTask) -> ColumnOutcome:
         if task.column.hoisting:
             from aadm_workbench.inspection.hoisting import measure_frames
 
-            report = replace(report, hoisting=measure_frames(task, task.design, report, watch))
+            frames, joint = measure_frames(task, task.design, report, watch)
+            report = replace(report, hoisting=frames, hoisting_joint=joint)
         outcome.report = report
     return outcome
 

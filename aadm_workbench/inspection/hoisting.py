@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -10,7 +11,9 @@ import numpy as np
 from aadm_workbench.errors import AadmError
 from aadm_workbench.hoisting.aim import aimed
 from aadm_workbench.hoisting.contradiction import contradiction_of
+from aadm_workbench.hoisting.joint import measure_jointly
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
+from aadm_workbench.hoisting.sighting import SightedMeasurement
 from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.inspection.stopwatch import Stopwatch
 from aadm_workbench.inspection.tasks import ColumnTask
@@ -53,8 +56,11 @@ class Before:
 
 def measure_frames(
     task: ColumnTask, design: ColumnDesign, report: ColumnReport, watch: Stopwatch
-) -> tuple[HoistingReport, ...]:
-    """Measure the hoisting frames that a job names for a column; a broken one costs itself alone."""
+) -> tuple[tuple[HoistingReport, ...], HoistingReport | None]:
+    """Measure the hoisting frames that a job names for a column; a broken one costs itself alone.
+
+    Beside the frames stands what they tell together, where two and more do.
+    """
     column, before = task.column, Before.of(report)
     corners = column.hoisting_near or (column.near,) * len(column.hoisting)
     measured: list[HoistingMeasurement | HoistingReport] = []
@@ -68,19 +74,36 @@ def measure_frames(
             continue
         with watch.stage("hoisting"):
             measured.append(measure_frame(task, design, scan, near, before))
-    return _held_against_each_other(measured, design)
+    frames = [frame for frame in measured if isinstance(frame, HoistingMeasurement)]
+    reports = _held_against_each_other(measured, design)
+    with watch.stage("hoisting"):
+        joint = None if _contradict(reports) else join_frames(task, design, frames, before)
+    return reports, None if joint is None else joint.report
 
 
 def measure_frame(
-    task: ColumnTask, design: ColumnDesign, scan: Scan, near: tuple[int, int] | None, before: Before
+    task: ColumnTask,
+    design: ColumnDesign,
+    scan: Scan,
+    near: tuple[int, int] | None,
+    before: Before,
+    after: HoistingMeasurement | None = None,
 ) -> HoistingMeasurement:
-    """Measure one frame by the settings of its column's task; its correction leads to where the column is to be set."""
-    measured = _measured(task, design, scan, near, before)
+    """Measure one frame by the settings of its column's task; its correction leads to where the column is to be set.
+
+    It begins where the frame ``after`` which it follows ended, if it does follow it.
+    """
+    measured = _measured(task, design, scan, near, before, after)
     return replace(measured, report=aimed(measured.report, before.target))
 
 
 def _measured(
-    task: ColumnTask, design: ColumnDesign, scan: Scan, near: tuple[int, int] | None, before: Before
+    task: ColumnTask,
+    design: ColumnDesign,
+    scan: Scan,
+    near: tuple[int, int] | None,
+    before: Before,
+    after: HoistingMeasurement | None,
 ) -> HoistingMeasurement:
     settings = task.settings
     if settings.method != "refined":
@@ -95,7 +118,20 @@ def _measured(
         sleeves_before=before.sleeves,
         rebars_before=before.rebars,
         settings=HoistingSettings(settings.profile, settings.decision, seed=settings.seed),
+        after=after.sighting if isinstance(after, SightedMeasurement) else None,
     )
+
+
+def join_frames(
+    task: ColumnTask, design: ColumnDesign, frames: Sequence[HoistingMeasurement], before: Before
+) -> HoistingMeasurement | None:
+    """What frames of a column tell together, in the bars' frame of the last one; None where they tell no more."""
+    joint = measure_jointly(frames, design, task.settings.profile, task.settings.decision)
+    return None if joint is None else replace(joint, report=aimed(joint.report, before.target))
+
+
+def _contradict(reports: Sequence[HoistingReport]) -> bool:
+    return any(finding.holds_back for report in reports for finding in report.findings)
 
 
 def unread(name: str, reason: str, method: str) -> HoistingReport:

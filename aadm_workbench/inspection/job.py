@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Literal
 
-from aadm_workbench.model import Camera, ColumnDesign, ControlPoint, Profile, StackSettings, Vector3
+from aadm_workbench.model import Camera, CameraProfile, ColumnDesign, ControlPoint, Profile, StackSettings, Vector3
 
 _NO_FILES = ("id", "axes")
 
@@ -62,8 +62,9 @@ class JobColumn:
 class Job:
     """A job, as its file says it; paths are relative to ``folder``.
 
-    ``checks`` None: what each column's scans allow. ``sha256`` is of the file's bytes. ``lines`` says where columns
-    stand in it, by id.
+    ``checks`` None: what each column's scans allow. ``sha256`` is of the file's bytes. ``stack`` None: the job does not
+    ask for the tower. ``lines`` says where columns stand in it, by id. ``camera_profile`` is what was learned of the
+    camera on a plate.
     """
 
     source: str
@@ -80,5 +81,11 @@ class Job:
     depth_scale_mm: float | None
     columns: tuple[JobColumn, ...]
     capture: dict[str, str] = field(default_factory=dict)
-    stack: StackSettings = field(default_factory=StackSettings)
+    stack: StackSettings | None = None
+    camera_profile: CameraProfile | None = None
     lines: dict[str, int] = field(default_factory=dict)
+
+    @property
+    def model_path(self) -> Path | None:
+        """Where its model lies; None where columns have designs of their own."""
+        return None if self.model is None else self.folder / self.model.path

@@ -18,9 +18,11 @@ from aadm_workbench.assembly.findings.finding import with_same_scans
 from aadm_workbench.errors import DesignError, JobError, did_you_mean
 from aadm_workbench.inspection.check import CheckSettings
 from aadm_workbench.inspection.job import Job, JobColumn
+from aadm_workbench.inspection.learned import named_profile, notes_on_profile
 from aadm_workbench.model import (
     Array,
     Camera,
+    CameraProfile,
     ColumnDesign,
     ColumnReport,
     JobReport,
@@ -28,7 +30,6 @@ from aadm_workbench.model import (
     MouldDrift,
     Profile,
     Scan,
-    StackSettings,
 )
 from aadm_workbench.scan.read import read_scan
 
@@ -46,7 +47,7 @@ class ColumnTask:
 
     ``folder`` is where relative paths start; ``places`` says where files lie that are not found from there;
     ``design`` None means that the job's model gives none, for the reason ``no_design``. ``others`` are the designs of
-    the job that are unlike this one.
+    the job that are unlike this one. ``learned`` is the profile of its camera, and what speaks against using it.
     """
 
     column: JobColumn
@@ -59,6 +60,8 @@ class ColumnTask:
     no_design: str = ""
     places: Mapping[str, Path] = field(default_factory=dict)
     others: tuple[ColumnDesign, ...] = ()
+    learned: CameraProfile | None = None
+    learned_notes: tuple[str, ...] = ()
 
     def path_of(self, name: str) -> Path:
         """Where a file lies that the job names."""
@@ -72,7 +75,7 @@ class ColumnTask:
         ScanError
             Where it cannot be read.
         """
-        return read_scan(
+        scan = read_scan(
             path or self.path_of(name),
             units=self.units,
             camera=self.camera,
@@ -81,6 +84,7 @@ class ColumnTask:
             image=None if image is None else self.path_of(image),
             axes=self.column.axes,
         )
+        return replace(scan, learned=self.learned, notes=(*scan.notes, *self.learned_notes)) if self.learned else scan
 
     def at(self, places: Mapping[str, Path]) -> ColumnTask:
         """The same task where its files lie elsewhere."""
@@ -134,7 +138,7 @@ def chosen_columns(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
     ids = [column.id for column in job.columns]
     for name in only:
         if name not in ids:
-            raise JobError(f'{job.source} has no column "{name}" (--only); {did_you_mean(name, ids)}')
+            raise JobError.because("command.no_such_column", job=job.source, name=name, meant=did_you_mean(name, ids))
     return tuple(column for column in job.columns if not only or column.id in only)
 
 
@@ -172,9 +176,15 @@ def _check_named_once(job: Job, model: ModelDesign) -> None:
             continue
         other = first.setdefault(id(design), column.id)
         if other != column.id:
-            raise JobError(
-                f'{job.source}, line {job.lines.get(column.id, 1)}: "{column.id}" and "{other}" (line '
-                f"{job.lines.get(other, 1)}) are one column of {model.source} ({design.id}); name it once"
+            raise JobError.because(
+                "command.named_twice",
+                job=job.source,
+                line=job.lines.get(column.id, 1),
+                id=column.id,
+                other=other,
+                other_line=job.lines.get(other, 1),
+                model=model.source,
+                column=design.id,
             )
 
 
@@ -195,7 +205,11 @@ def _task(
         design, no_design = (found, "") if isinstance(found, ColumnDesign) else (None, found)
     # Workers have another working folder.
     folder = job.folder.absolute()
-    return ColumnTask(column, folder, design, settings, job.units, job.camera, job.depth_scale_mm, no_design)
+    learned = job.camera_profile
+    notes = () if learned is None else notes_on_profile(learned, job.camera, job.capture)
+    camera = job.camera if learned is None or job.camera is not None else learned.camera
+    task = ColumnTask(column, folder, design, settings, job.units, camera, job.depth_scale_mm, no_design)
+    return replace(task, learned=learned, learned_notes=notes)
 
 
 def _with_others(tasks: Sequence[ColumnTask]) -> Sequence[ColumnTask]:
@@ -235,12 +249,19 @@ def report_of(plan: JobPlan, columns: Sequence[ColumnReport]) -> JobReport:
     return JobReport(
         tool=tool_entry(),
         job=job_entry(plan),
-        capture=job.capture,
-        model=None if model is None else {"source": model.source, "sha256": model.sha256},
+        capture=job.capture | named_profile(job.camera_profile),
+        model=None if model is None else model_entry(model),
         profile=job.profile,
         columns=columns,
         mould_drift=_mould_drift(columns, job.profile),
+        grid=() if model is None else model.grid,
     )
+
+
+def model_entry(model: ModelDesign) -> dict[str, str]:
+    """What reports say about the model: its file, and the GlobalId of the project of an IFC model."""
+    project = {"ifc_project": model.project} if model.project else {}
+    return {"source": model.source, "sha256": model.sha256, **project}
 
 
 def _mould_drift(columns: Sequence[ColumnReport], profile: Profile) -> tuple[MouldDrift, ...]:
@@ -261,7 +282,7 @@ def job_entry(plan: JobPlan) -> dict[str, str]:
         "method": settings.method,
         "decision": settings.decision,
         "seed": str(settings.seed),
-        **({} if plan.job.stack == StackSettings() else {"stack": plan.job.stack.text}),
+        **({} if plan.job.stack is None else {"stack": plan.job.stack.text}),
     }
 
 

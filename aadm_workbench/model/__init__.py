@@ -16,6 +16,12 @@ from aadm_workbench.model.absolute import (
     ControlPoint,
     ControlResidual,
 )
+from aadm_workbench.model.camera import (
+    Camera,
+    CameraProfile,
+    LearnedEdges,
+    Measure,
+)
 from aadm_workbench.model.drift import (
     Capability,
     MouldDrift,
@@ -39,7 +45,6 @@ from aadm_workbench.model.measured import (
     Array,
     AssemblyPoint,
     BoolArray,
-    Camera,
     ColumnDesign,
     Extraction,
     Figure,
@@ -64,6 +69,7 @@ from aadm_workbench.model.repairs import (
 )
 from aadm_workbench.model.reports import (
     ColumnReport,
+    GridAxis,
     JobReport,
 )
 from aadm_workbench.model.results import (
@@ -96,6 +102,7 @@ from aadm_workbench.model.shipment import (
     ShipmentReport,
 )
 from aadm_workbench.model.stack import (
+    SettingReport,
     StackSettings,
 )
 from aadm_workbench.model.verdicts import (
@@ -123,6 +130,7 @@ __all__ = [
     "BoolArray",
     "Camera",
     "CameraMove",
+    "CameraProfile",
     "Candidate",
     "Capability",
     "ColumnDesign",
@@ -138,6 +146,7 @@ __all__ = [
     "Fit",
     "FitCell",
     "FloatArray",
+    "GridAxis",
     "GroupReport",
     "HoistingMeasurement",
     "HoistingPair",
@@ -146,6 +155,8 @@ __all__ = [
     "JobReport",
     "Json",
     "Kind",
+    "LearnedEdges",
+    "Measure",
     "MouldDrift",
     "MovedSince",
     "Orientation",
@@ -161,6 +172,7 @@ __all__ = [
     "Rule",
     "RuleResult",
     "Scan",
+    "SettingReport",
     "ShipmentGroup",
     "ShipmentProblem",
     "ShipmentReport",

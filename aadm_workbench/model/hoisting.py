@@ -84,6 +84,7 @@ class HoistingReport:
     ``declared`` by the job, ``resolved`` by the pattern, or ``ambiguous``: then there is no correction. ``near`` is the
     corner that was declared. ``moved_since`` are the points that stand elsewhere than before hoisting, and
     ``rests_on_scans`` labels of those that are known from then alone. ``findings`` hold back this verdict alone.
+    ``joined`` names the frames that were put together, the last of which gives the bars' frame.
     """
 
     source: str
@@ -105,6 +106,12 @@ class HoistingReport:
     near: str | None = None
     moved_since: tuple[MovedSince, ...] = ()
     rests_on_scans: tuple[str, ...] = ()
+    joined: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """What it is called: the frame's source, or those of all that were put together."""
+        return " + ".join(self.joined) or self.source
 
 
 @dataclass(frozen=True, eq=False, slots=True)

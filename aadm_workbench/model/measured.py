@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from aadm_workbench.model.camera import Camera, CameraProfile
 from aadm_workbench.model.verdicts import Kind
 
 Array: TypeAlias = np.ndarray[tuple[Any, ...], np.dtype[np.float64]]
@@ -111,22 +112,6 @@ class ColumnDesign:
         return self.sleeves if kind is Kind.SLEEVE else self.rebars
 
 
-@dataclass(frozen=True)
-class Camera:
-    """Pinhole intrinsics of an undistorted structured-light camera, in pixels.
-
-    ``scale_error`` is the relative standard uncertainty (k = 1) of its lengths.
-    """
-
-    fx: float
-    fy: float
-    cx: float
-    cy: float
-    width: int
-    height: int
-    scale_error: float = 1e-4
-
-
 CAMERA_AXES, OPENGL_AXES, AXES_UNKNOWN = "camera", "opengl", ""
 """x right, y down, z forward; x right, y up, z backward; nobody knows."""
 
@@ -159,6 +144,8 @@ class Scan:
     axes
         Those of the file: ``CAMERA_AXES``, ``OPENGL_AXES`` or ``AXES_UNKNOWN``. ``points`` and ``viewpoint`` of a file
         in OpenGL's axes are turned into a camera's; :attr:`R_file_scan` leads back.
+    learned
+        What was learned of its camera on a plate, where the job names a profile.
     """
 
     points: FloatArray
@@ -171,6 +158,7 @@ class Scan:
     notes: tuple[str, ...] = ()
     declared_scale: float = 1.0
     axes: str = CAMERA_AXES
+    learned: CameraProfile | None = None
 
     @property
     def R_file_scan(self) -> Array:

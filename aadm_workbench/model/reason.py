@@ -15,7 +15,7 @@ Language: TypeAlias = Literal["en", "zh"]
 Value: TypeAlias = "str | tuple[str, ...]"
 """What fills a place: a text, a reason, or several of them; numbers are rounded already as the sentence wants them."""
 
-_JOINED = {" ": (" ", ""), "and": (" and ", "和"), ";": ("; ", "；"), ".": (". ", "。")}
+_JOINED = {" ": (" ", ""), "and": (" and ", "和"), "or": (" or ", "或"), ";": ("; ", "；"), ".": (". ", "。")}
 """What several values of one place are joined by, English and Chinese, where its format says so; else by commas."""
 
 
@@ -38,7 +38,7 @@ class Reason(str):
         A key of the table, ``extract.plugged``; its first part is the file of :mod:`aadm_workbench.model.sentences`.
     values
         One for each place. Numbers are rounded by the format of the place; of texts, ``word`` says that they are words
-        of the table of words, ``;``, ``.`` and ``and`` what several of them are joined by.
+        of the table of words, ``;``, ``.``, ``and`` and ``or`` what several of them are joined by.
 
     Raises
     ------

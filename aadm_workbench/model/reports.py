@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from aadm_workbench.model.drift import MouldDrift
 from aadm_workbench.model.findings import Finding
 from aadm_workbench.model.hoisting import HoistingReport
-from aadm_workbench.model.measured import Array
+from aadm_workbench.model.measured import Array, Vector2
 from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, PairResult, PointResult, RuleResult, TrialReport
 from aadm_workbench.model.rules import Profile
 from aadm_workbench.model.section import SectionReport
+from aadm_workbench.model.stack import SettingReport
 from aadm_workbench.model.verdicts import SUMMED, Kind, Verdict
 
 LONGEST_ID = 1024
@@ -23,7 +25,9 @@ class ColumnReport:
     """Everything that report.json holds about one column; ``repair`` where its trial did not pass.
 
     ``findings`` are what contradicts the design, what was declared, or the camera. ``section`` is that of the foot;
-    None where the design does not say where its section lies, or nothing says which edge is which.
+    None where the design does not say where its section lies, or nothing says which edge is which. ``setting`` is where
+    the column comes to stand, where the job asks for that ([stack]). ``hoisting_joint`` is what two and more frames of
+    the hanging column tell together.
     """
 
     id: str
@@ -45,6 +49,8 @@ class ColumnReport:
     repair: RepairReport | None = None
     findings: tuple[Finding, ...] = ()
     section: SectionReport | None = None
+    setting: SettingReport | None = None
+    hoisting_joint: HoistingReport | None = None
 
     def group(self, kind: Kind) -> GroupReport | None:
         """Its sleeves or its rebars."""
@@ -61,6 +67,11 @@ class ColumnReport:
         return () if group is None else group.points
 
     @property
+    def hoisting_frames(self) -> tuple[HoistingReport, ...]:
+        """Its frames, and last what they tell together where they do."""
+        return self.hoisting if self.hoisting_joint is None else (*self.hoisting, self.hoisting_joint)
+
+    @property
     def parts(self) -> tuple[ColumnReport | GroupReport | TrialReport, ...]:
         """The column, its groups and its trial: what has rules and notes of its own."""
         found = (self.sleeves, self.rebars, self.trial_assembly)
@@ -73,9 +84,22 @@ class ColumnReport:
         return () if pose is None else pose.pairs
 
 
+@dataclass(frozen=True, slots=True)
+class GridAxis:
+    """A straight axis of the model's grid seen from above: its ends, mm, model frame.
+
+    ``family`` is that of IFC (u, v, w): axes of one family do not cross.
+    """
+
+    tag: str
+    family: Literal["u", "v", "w"]
+    start_mm: Vector2
+    end_mm: Vector2
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class JobReport:
-    """Everything that report.json holds: one job, its inputs by hash, its columns."""
+    """Everything that report.json holds: one job, its inputs by hash, its columns, the axes of its model's grid."""
 
     tool: dict[str, str]
     job: dict[str, str]
@@ -84,6 +108,7 @@ class JobReport:
     profile: Profile
     columns: tuple[ColumnReport, ...]
     mould_drift: tuple[MouldDrift, ...] = ()
+    grid: tuple[GridAxis, ...] = ()
 
     def summary(self) -> dict[str, int]:
         """How many columns came to each verdict: pass, fail, inconclusive, not_measured, error."""

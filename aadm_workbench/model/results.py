@@ -115,7 +115,7 @@ class GroupReport:
 
     ``points`` and ``spacing`` are of the candidate that ``fit`` names; where the orientation is ambiguous,
     their verdicts and ``verdict`` hold only what all candidates agree on. ``absolute`` is where the group stands in the
-    building; None without control points.
+    building; None without control points. ``blamed`` are those that stand off, where the fit of all lets others fail.
     """
 
     source: str
@@ -132,6 +132,7 @@ class GroupReport:
     notes: tuple[str, ...] = ()
     quality: Figures = field(default_factory=dict)
     absolute: AbsolutePosition | None = None
+    blamed: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,13 +27,19 @@ class Shapes(TypedDict):
 
 
 class FoundColumns(TypedDict):
-    """Columns of a model, each as the text of :mod:`aadm_workbench.design.design_text`."""
+    """Columns of a model, each as the text of :mod:`aadm_workbench.design.design_text`.
+
+    ``bodies`` are polygons [[x, y, z], ...] mm around each column's concrete, in its column frame; none where they are
+    not known, or where the document shows the body itself.
+    """
 
     source: str
     sha256: str
     schema: str
     warnings: list[str]
+    project: str
     columns: list[str]
+    bodies: list[list[list[list[float]]]]
 
 
 class ReadScan(TypedDict):
@@ -49,3 +55,10 @@ class ReadScan(TypedDict):
     camera: Mapping[str, float] | None
     depth_scale_mm: float | None
     notes: list[str]
+
+
+class ReadCamera(TypedDict):
+    """A file of intrinsics: those of the camera, and millimetres in a step of its depth maps where it says so."""
+
+    camera: Mapping[str, float]
+    depth_scale_mm: float | None

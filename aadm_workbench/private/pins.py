@@ -44,6 +44,13 @@ def pinned(pins: Path) -> dict[str, str]:
     return {one[1]: one[2] for one in found if one}
 
 
+def markers(pins: Path) -> dict[str, str]:
+    """For which systems each package of a file of pins is meant, as pip reads it; empty for all."""
+    lines = pins.read_text(encoding="utf-8").splitlines()
+    found = [re.match(r"([A-Za-z0-9._-]+)==\S+\s*(?:;\s*(.*))?$", line) for line in lines]
+    return {one[1]: (one[2] or "").strip() for one in found if one}
+
+
 def environments_folder() -> Path:
     """The folder of all environments of this user: FreeCADs of several versions and the command share them."""
     named = os.environ.get(_NAMED)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 
+from aadm_workbench.assembly.following import blame_of
 from aadm_workbench.model import ColumnReport, Kind, TrialReport
 from aadm_workbench.report.drawing.foot import FootSketch, foot_sketch, group_marks, pair_marks
 from aadm_workbench.report.drawing.sketch import Circle, Label, Polyline, Shape, Sketch, rectangle
 from aadm_workbench.report.words.labels import Phrase, phrase
+from aadm_workbench.report.words.reasons import in_both_languages
 
 DRAWN_DIAMETER_MM = {Kind.SLEEVE: 36.0, Kind.REBAR: 20.0}
 """Drawn where no diameter was measured."""
@@ -16,23 +18,31 @@ DRAWN_DIAMETER_MM = {Kind.SLEEVE: 36.0, Kind.REBAR: 20.0}
 
 @dataclass(frozen=True)
 class Titled:
-    """A foot sketch with the name of its title and its caption."""
+    """A foot sketch with the name of its title and its caption; ``speaks`` where something in it is not a pass."""
 
     title: str
     caption: Phrase
     foot: FootSketch
+    speaks: bool = True
 
 
-def foot_sketches(column: ColumnReport, marked: Collection[str] = ()) -> Iterator[Titled]:
-    """Sleeves, rebars and trial assembly seen from above, as far as there are such; ``marked`` labels are ringed."""
-    for kind, group in column.groups.items():
-        if group.points:
-            foot = foot_sketch(group_marks(group), column.size_mm, typical_diameter_mm(column, kind), marked)
-            yield Titled(f"ui.sketch_{kind.plural}", _caption(foot), foot)
-    marks = pair_marks(column)
-    if marks:
-        foot = foot_sketch(marks, column.size_mm, typical_diameter_mm(column, Kind.SLEEVE), marked)
-        yield Titled("ui.sketch_pairs", _caption(foot), foot)
+def foot_sketches(column: ColumnReport, marked: Collection[str] = (), *, from_below: bool = False) -> Iterator[Titled]:
+    """Sleeves, rebars and trial assembly seen from above, or from below, as far as there are such.
+
+    ``marked`` labels are ringed.
+    """
+    blame = blame_of(column)
+    shown = [
+        (f"ui.sketch_{kind.plural}", group_marks(group, blame.follows), typical_diameter_mm(column, kind))
+        for kind, group in column.groups.items()
+    ]
+    shown.append(("ui.sketch_pairs", pair_marks(column, blame.follows), typical_diameter_mm(column, Kind.SLEEVE)))
+    for title, marks, diameter_mm in shown:
+        if marks:
+            foot = foot_sketch(marks, column.size_mm, diameter_mm, marked, from_below=from_below)
+            because = blame.culprits if any(mark.follows for mark in marks) else ()
+            speaks = any(mark.verdict not in ("pass", "not_assessed") and not mark.follows for mark in marks)
+            yield Titled(title, _caption(foot, because), foot, speaks)
 
 
 def typical_diameter_mm(column: ColumnReport, kind: Kind) -> float:
@@ -41,10 +51,15 @@ def typical_diameter_mm(column: ColumnReport, kind: Kind) -> float:
     return found[len(found) // 2] if found else DRAWN_DIAMETER_MM[kind]
 
 
-def _caption(foot: FootSketch) -> Phrase:
+def _caption(foot: FootSketch, because: tuple[str, ...]) -> Phrase:
     if foot.limit_mm is None:
-        return phrase("ui.arrows_no_limit", factor=foot.factor)
-    return phrase("ui.arrows", factor=foot.factor, limit=f"{foot.limit_mm:g}")
+        said = phrase("ui.arrows_no_limit", factor=foot.factor)
+    else:
+        said = phrase("ui.arrows", factor=foot.factor, limit=f"{foot.limit_mm:g}")
+    if not because:
+        return said
+    follows = phrase("ui.follows_note", labels=", ".join(because))
+    return Phrase(f"{said.en} {follows.en}", f"{said.zh}{follows.zh}")
 
 
 def column_facts(column: ColumnReport) -> list[tuple[str, str]]:
@@ -69,6 +84,29 @@ def declared_up(column: ColumnReport) -> str | None:
         return None
     ups = list(dict.fromkeys(said.values()))
     return f"up = {ups[0]}" if len(ups) == 1 else ", ".join(f"{name}_up = {up}" for name, up in said.items())
+
+
+_NO_CLAUSE = "no clause"
+
+
+def advice_notes(column: ColumnReport) -> list[Phrase]:
+    """What stands behind an advice: how far bars are bent and who says so, and what their names hang on."""
+    repair = column.repair
+    if repair is None:
+        return []
+    notes = [in_both_languages(note) for note in repair.notes]
+    if repair.adjustment_limit_mm:
+        clause = in_both_languages(repair.clause)
+        values = {"mm": f"{repair.adjustment_limit_mm:g}"}
+        if repair.clause.startswith(_NO_CLAUSE):
+            notes.append(phrase("repair.reach_unverified", **values))
+        else:
+            said = phrase("repair.reach")
+            notes.append(Phrase(said.en.format(clause=clause.en, **values), said.zh.format(clause=clause.zh, **values)))
+    up = declared_up(column)
+    if up is not None and repair.steps:
+        notes.append(phrase("repair.symmetric", up=up))
+    return notes
 
 
 def trial_facts(trial: TrialReport) -> list[tuple[str, str]]:

@@ -1,8 +1,8 @@
 """Directions in a worker's words: towards grid axis D, towards the top of the plan, towards the side of bars R4 to R7.
 
-A vector of the column frame is told in the best words that the report allows: grid axes where the columns of the report
-show how they run, else the directions of the plan where the model places the column, else the sides of the column,
-named by the bars that stand there.
+A vector of the column frame is told in the best words that the report allows: axes of the model's grid, or as the
+columns of the report show how they run, else the directions of the plan where the model places the column, else the
+sides of the column, named by the bars that stand there.
 """
 
 from __future__ import annotations
@@ -10,12 +10,13 @@ from __future__ import annotations
 import math
 import re
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
-from aadm_workbench.model import Array, ColumnReport
+from aadm_workbench.model import Array, ColumnReport, GridAxis, JobReport
 from aadm_workbench.report.drawing.plan import grid_tags, place_mm
 from aadm_workbench.report.drawing.sketch import Point
 from aadm_workbench.report.words.labels import Phrase
@@ -25,6 +26,7 @@ SMALLEST_MM = 0.05
 
 _PARALLEL_SINE = 0.5  # 30 degrees: axes of a grid that are closer point a person the same way
 _AGREEING = 0.95  # of the length of a sum of units: those of one side, within 18 degrees
+_APART_MM = 1.0  # axes that are nearer are one, drawn twice
 _SNAP_DEG = 6.0  # what a person cannot tell from along the axis
 _TAG = re.compile(r"(\d+)|(\D+)")
 
@@ -72,17 +74,47 @@ class Compass:
         parts = self.parts(vector_mm)
         return Phrase(
             " and ".join(f"{length:.1f} mm {way.en}" for length, way in parts),
-            ",".join(f"{way.zh} {length:.1f} mm" for length, way in parts),
+            "，".join(f"{way.zh} {length:.1f} mm" for length, way in parts),
         )
 
 
-def compass_of(columns: Sequence[ColumnReport], column: ColumnReport) -> Compass:
-    """How directions at one of the columns of a report are called."""
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """How the axes of a floor run: those of the model's grid; without one, where its columns stand by their names.
+
+    ``crossings`` are places of columns by the two axes that each stands on, ``counting`` the mean directions in which
+    letters and numbers count up, as far as the columns show them.
+    """
+
+    axes: tuple[GridAxis, ...]
+    crossings: Mapping[tuple[str, ...], Point]
+    counting: tuple[Point | None, Point | None]
+
+    @classmethod
+    def of(cls, columns: Iterable[ColumnReport], axes: Sequence[GridAxis] = ()) -> Grid:
+        """What columns and the axes of their model show."""
+        crossings = {
+            tags: place_mm(column.T_model_column)
+            for column in columns
+            if column.T_model_column is not None and len(tags := grid_tags(column)) == 2
+        }
+        counting = (_counting_up(crossings, 0), _counting_up(crossings, 1))
+        return cls(tuple(axes), crossings, counting)
+
+
+@lru_cache(maxsize=1)
+def grid_of(report: JobReport) -> Grid:
+    """The grid of a report; of a thousand columns it is found once."""
+    return Grid.of(report.columns, report.grid)
+
+
+def compass_of(grid: Grid, column: ColumnReport) -> Compass:
+    """How directions at one of the columns of a floor are called."""
     if column.T_model_column is None:
         return Compass(_by_sides(column), 0.0, placed=False)
     T = column.T_model_column
     turn = math.atan2(T[1][0], T[0][0])
-    families = _grid_headings(columns, column, T)
+    families = _axis_headings(grid.axes, T) or _grid_headings(grid, column, T)
     plan = (
         Heading((1.0, 0.0), _plan("right", "右"), _plan("left", "左")),
         Heading((0.0, 1.0), _plan("top", "上"), _plan("bottom", "下")),
@@ -106,22 +138,47 @@ def _plan(en: str, zh: str) -> Phrase:
     return Phrase(f"towards the {en} of the plan", f"向平面图{zh}方")
 
 
-def _grid_headings(columns: Sequence[ColumnReport], column: ColumnReport, T: Array) -> list[Heading]:
+def _axis_headings(axes: Sequence[GridAxis], T: Array) -> list[Heading]:
+    """For each family of axes the direction across them, from the column to the next one, model frame."""
+    found: list[Heading] = []
+    for family in ("u", "v", "w"):
+        lines = [_Line(axis, place_mm(T)) for axis in axes if axis.family == family and axis.start_mm != axis.end_mm]
+        if not lines:
+            continue
+        own = min(lines, key=lambda line: (abs(line.ahead_mm), line.tag))
+        unit = own.across
+        if any(abs(_cross(unit, other.unit)) < _PARALLEL_SINE for other in found):
+            continue
+        offsets = sorted((line.ahead_mm * math.copysign(1.0, _dot(line.across, unit)), line.tag) for line in lines)
+        after = next((tag for ahead_mm, tag in offsets if ahead_mm > own.ahead_mm + _APART_MM), None)
+        before = next((tag for ahead_mm, tag in reversed(offsets) if ahead_mm < own.ahead_mm - _APART_MM), None)
+        if after is not None or before is not None:
+            found.append(Heading(_snapped(unit, T), _towards(after, before), _towards(before, after)))
+    return found
+
+
+class _Line:
+    """A grid axis seen from a place: its direction across, and how far ahead in that direction it runs, mm."""
+
+    def __init__(self, axis: GridAxis, place: Point) -> None:
+        (x0, y0), (x1, y1) = axis.start_mm, axis.end_mm
+        length = math.hypot(x1 - x0, y1 - y0)
+        self.tag = axis.tag
+        self.across = (-(y1 - y0) / length, (x1 - x0) / length)
+        self.ahead_mm = _dot((x0 - place[0], y0 - place[1]), self.across)
+
+
+def _grid_headings(grid: Grid, column: ColumnReport, T: Array) -> list[Heading]:
     """For letters and for numbers of the grid, the direction in which they count up, model frame."""
     own = grid_tags(column)
     if len(own) != 2:
         return []
-    crossings = {
-        tags: place_mm(other.T_model_column)
-        for other in columns
-        if other.T_model_column is not None and len(tags := grid_tags(other)) == 2
-    }
     found: list[Heading] = []
     for family in (0, 1):
-        unit = _counting_up(crossings, family)
+        unit = grid.counting[family]
         if unit is None or any(abs(_cross(unit, other.unit)) < _PARALLEL_SINE for other in found):
             continue
-        known = sorted({tags[family] for tags in crossings}, key=_order)
+        known = sorted({tags[family] for tags in grid.crossings}, key=_order)
         after = next((tag for tag in known if _order(tag) > _order(own[family])), None)
         before = next((tag for tag in reversed(known) if _order(tag) < _order(own[family])), None)
         unit = _snapped(unit, T)
@@ -129,7 +186,7 @@ def _grid_headings(columns: Sequence[ColumnReport], column: ColumnReport, T: Arr
     return found
 
 
-def _counting_up(crossings: dict[tuple[str, ...], Point], family: int) -> Point | None:
+def _counting_up(crossings: Mapping[tuple[str, ...], Point], family: int) -> Point | None:
     """Mean direction from a crossing to the next of the same other axis; None where there is none, or they differ."""
     lines: dict[str, list[tuple[str, Point]]] = defaultdict(list)
     for tags, place in crossings.items():
@@ -188,7 +245,7 @@ def side_name(places: Mapping[str, Point], unit: Point) -> Phrase:
     if ends is None:
         return Phrase(f"towards the {where.en}", f"向{where.zh}")
     first, last = ends
-    return Phrase(f"towards the side of {first} to {last} ({where.en})", f"向 {first} 至 {last} 一侧({where.zh})")
+    return Phrase(f"towards the side of {first} to {last} ({where.en})", f"向 {first} 至 {last} 一侧（{where.zh}）")
 
 
 def side_labels(places: Mapping[str, Point], unit: Point) -> tuple[str, str] | None:

@@ -107,7 +107,7 @@ def _head(report: JobReport) -> Json:
     """A job's report as report.json holds it, with no columns."""
     document = plain(replace(report, columns=()))
     first = {"schema": SCHEMA} | {name: document[name] for name in ("tool", "job", "capture", "model")}
-    last = {name: document[name] for name in ("columns", "mould_drift")}
+    last = {name: document[name] for name in ("columns", "mould_drift", "grid")}
     return _rounded("", first | {"profile": profile_document(report.profile), "summary": report.summary()} | last)
 
 

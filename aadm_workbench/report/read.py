@@ -5,6 +5,7 @@ Keys that this version does not know are passed over; those that an older one di
 
 from __future__ import annotations
 
+import codecs
 import json
 import re
 from collections.abc import Iterator
@@ -25,6 +26,7 @@ LARGEST_REPORT_BYTES = 2**28
 MOST_VALUES = 2**25
 """Texts of this length that are nothing but brackets and commas would take many gigabytes in memory."""
 
+_PIECE = 2**20  # bytes that are looked at as a text at once: the whole of it takes twice its size
 _SHOWN_CHARACTERS = 80  # of what a file holds: a line
 NAMED = {"tool": ("name", "version"), "job": ("name", "sha256"), "model": ("source", "sha256")}
 """What the parts that are lists of names and texts hold at least."""
@@ -41,16 +43,18 @@ def read_report(path: Path) -> JobReport:
         Where the file is missing, cut off, of another schema version, or a key holds what it cannot.
     """
     try:
-        text = read_bounded(path, LARGEST_REPORT_BYTES).decode("utf-8-sig")
+        content = read_bounded(path, LARGEST_REPORT_BYTES).removeprefix(codecs.BOM_UTF8)
+        for _ in codecs.iterdecode((content[k : k + _PIECE] for k in range(0, len(content), _PIECE)), "utf-8"):
+            pass
     except BoundsError as error:
         raise ReportError(f"{path}: {error}; name the report.json of a check") from error
     except OSError as error:
         raise ReportError(f"{path}: cannot be read ({error.strerror}); name the report.json of a check") from error
     except UnicodeDecodeError as error:
         raise ReportError(f"{path}: is no text, but report.json is; name the report.json of a check") from error
-    if sum(map(text.count, "[{,")) > MOST_VALUES:
+    if sum(map(content.count, (b"[", b"{", b","))) > MOST_VALUES:
         raise ReportError(f"{path}: holds more than {MOST_VALUES} values, which no check writes")
-    return parsed_report(text, str(path))
+    return parsed_report(content, str(path))
 
 
 def parsed_report(text: str | bytes, source: str) -> JobReport:

@@ -12,6 +12,7 @@ import numpy as np
 
 from aadm_workbench.model import Array, Verdict, worst
 from aadm_workbench.report.drawing.sketch import Label, Point, Polyline, Shape, Sketch, arrow, rectangle
+from aadm_workbench.report.tower import TowerPlan
 from aadm_workbench.report.words.labels import SIGN
 from aadm_workbench.stack.result import StackedColumn, StackedMember, StackPlan
 
@@ -25,16 +26,7 @@ _ROUND = (1.0, 2.0, 5.0)  # factors of a scale that people can divide by
 _SMALLEST_MM = 0.05  # prints as 0.1
 
 
-@dataclass(frozen=True)
-class StackDrawing:
-    """One storey; ``scale`` is how many times longer than they are the arrows are drawn, beside the plan."""
-
-    storey: str
-    scale: int
-    sketch: Sketch
-
-
-def stack_drawings(plan: StackPlan) -> list[StackDrawing]:
+def stack_drawings(plan: StackPlan) -> list[TowerPlan]:
     """A drawing for each storey that has columns with a place in the model."""
     storeys: dict[str, list[StackedColumn]] = defaultdict(list)
     for column in plan.columns:
@@ -45,13 +37,18 @@ def stack_drawings(plan: StackPlan) -> list[StackDrawing]:
 
 def top_in_plan(column: StackedColumn) -> Array | None:
     """How the top stands off, (2,) mm in the axes of the model; None where it is not predicted."""
-    T = column.measured.T_model_column
-    if column.top is None or T is None:
+    if column.top is None or column.measured.T_model_column is None:
         return None
-    return np.asarray(T[:2, :2] @ np.array(column.top.offset_mm))
+    return in_plan_axes(column, np.array(column.top.offset_mm))
 
 
-def _drawing(storey: str, columns: Sequence[StackedColumn], members: Sequence[StackedMember]) -> StackDrawing:
+def in_plan_axes(column: StackedColumn, vector: Array) -> Array:
+    """A displacement (2,) of a column in the axes of the plan; in its own where it has no place in one."""
+    T = column.measured.T_model_column
+    return vector if T is None else np.asarray(T[:2, :2] @ vector)
+
+
+def _drawing(storey: str, columns: Sequence[StackedColumn], members: Sequence[StackedMember]) -> TowerPlan:
     own = {column.measured.id for column in columns}
     beams = [member for member in members if own & {end for end in member.ends if end}]
     places = [T[:2, 3] for one in columns if (T := one.measured.T_model_column) is not None]
@@ -63,7 +60,7 @@ def _drawing(storey: str, columns: Sequence[StackedColumn], members: Sequence[St
         shapes += _beam(member, frame)
     for column in columns:
         shapes += _column(column, frame, times)
-    return StackDrawing(storey, times, Sketch(WIDTH, frame.height, tuple(shapes)))
+    return TowerPlan(storey, times, Sketch(WIDTH, frame.height, tuple(shapes)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,11 +23,11 @@ from aadm_workbench.model import (
     Verdict,
 )
 from aadm_workbench.model.results import AimedPose, TrialPose
-from aadm_workbench.report.directions import Compass, Heading, compass_of
+from aadm_workbench.report.directions import Compass, Heading, compass_of, grid_of
 from aadm_workbench.report.words.labels import Phrase
 
-_AS_ASKED = 1e-3
-"""mm and degrees: rounding of what was asked for."""
+_AS_ASKED = 0.01
+"""mm and degrees: what was asked for has two decimals, and may be rounded over a limit by as much."""
 
 PLAIN = Compass(
     (
@@ -136,7 +136,7 @@ class MeasuredFloor:
 
 def measured_floor(report: JobReport) -> MeasuredFloor:
     """A report as this room needs it."""
-    columns = (_column(column, compass_of(report.columns, column)) for column in report.columns)
+    columns = (_column(column, compass_of(grid_of(report), column)) for column in report.columns)
     return MeasuredFloor(str(report.job["name"]), tuple(columns), str(report.job.get("decision", "guarded")))
 
 

@@ -14,14 +14,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
 
 from aadm_workbench.design.floor import Floor, FloorBeam, How, Support
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Verdict
 from aadm_workbench.report.words.labels import Phrase, phrase
+from aadm_workbench.report.words.reasons import in_both_languages
 from aadm_workbench.stack.limits import Limits, standard, unjudged
 from aadm_workbench.stack.result import Judged, Neighbours, NotFound, StackedColumn, StackedMember
 from aadm_workbench.stack.torsor import Torsor, point_matrix, seen_from
@@ -98,7 +99,7 @@ class MembersOn:
                 self._judged("bearing_length", (second, -along @ second.matrix)),
             ),
             skew_deg=self._skew(carried, along, length_mm),
-            level_mm=self._judged("inclination", (first, -first.matrix[2]), (second, second.matrix[2])),
+            level_mm=_of_no_scan(self._judged("inclination", (first, -first.matrix[2]), (second, second.matrix[2]))),
         )
 
     def _name(self, support: Support) -> str | None:
@@ -133,6 +134,8 @@ class MembersOn:
     def _judged(self, quantity: str, *terms: tuple[Carried, Array]) -> Judged:
         """The sum of row · ξ over some ends, against its limit where all of them are known against the grid."""
         missing = next((end.missing for end, _ in terms if end.missing is not None), None)
+        if missing is None and len({end.relative for end, _ in terms}) > 1:
+            missing = phrase("stack.unlike_bases")
         if missing is not None:
             return unjudged(missing)
         value, variance = 0.0, 0.0
@@ -140,7 +143,7 @@ class MembersOn:
             assert end.placed is not None
             value += float(row @ end.placed.values)
             variance += standard(end.placed.covariance, row) ** 2
-        if any(end.relative for end, _ in terms):
+        if terms[0][0].relative:
             return unjudged(phrase("stack.relative"), value, math.sqrt(variance))
         # However the beam is laid, no end loses more than the whole span.
         limited_as = "bearing_length" if quantity == "span" else quantity
@@ -152,6 +155,17 @@ class MembersOn:
             return unjudged(first.missing or phrase("stack.end_unknown"))
         row = second.matrix[2] - first.matrix[2]
         return self.limits.signed("flushness", float(row @ first.placed.values), standard(first.placed.covariance, row))
+
+
+def _of_no_scan(level: Judged) -> Judged:
+    """A fall that is not settled, with what is missing: no scan tells heights, so nothing was too close to a limit."""
+    if level.verdict is not Verdict.INCONCLUSIVE or level.limit is None or level.u is None:
+        return level
+    clause = in_both_languages(level.clause)
+    said = phrase("stack.level_unknown")
+    parts = {"u": f"{level.u:.1f}", "limit": f"{level.limit[1]:g}"}
+    reason = Phrase(said.en.format(clause=clause.en, **parts), said.zh.format(clause=clause.zh, **parts))
+    return replace(level, reason=reason)
 
 
 def _why(support: Support) -> Phrase:

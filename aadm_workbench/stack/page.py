@@ -1,43 +1,21 @@
 """stack.html: one self-contained page in both languages, with a sheet for the setting-out crew of the next storey.
 
-It has no script: the switch of the language is a pair of buttons of the page itself, and a Content-Security-Policy lets
-nothing run. Names from models and jobs are escaped wherever they stand.
+What such pages have in common is :mod:`aadm_workbench.report.pages.static_page`.
 """
 
 from __future__ import annotations
 
-import base64
-import hashlib
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 from aadm_workbench.atomic import write_atomically
-from aadm_workbench.errors import MissingDependencyError
-from aadm_workbench.model import SUMMED, Verdict
-from aadm_workbench.report.pages.fonts import embedded_font_css
-from aadm_workbench.report.pages.svg import svg_of, svg_styles
-from aadm_workbench.report.words.labels import Language, Phrase, phrase, resource_folder, verdict_words
-from aadm_workbench.stack.drawing import stack_drawings
-from aadm_workbench.stack.result import Judged, StackedColumn, StackPlan
-from aadm_workbench.stack.told import advice_phrase, by_reason, headline
-
-_VERDICTS = tuple(verdict.value for verdict in (*SUMMED, Verdict.NOT_ASSESSED))
-_LANGUAGES: tuple[Language, Language] = ("en", "zh")
-
-
-@dataclass(frozen=True)
-class SettingOut:
-    """A line for the setting-out crew: the bars in the head of a column, mm and degrees, column frame."""
-
-    id: str
-    grid: str
-    values: tuple[str, str, str, str]
-    u: str
-    against: Phrase
+from aadm_workbench.report.pages.static_page import drawn, static_page
+from aadm_workbench.report.sheets.numbers import signed
+from aadm_workbench.report.words.labels import Language, Phrase, phrase, verdict_words
+from aadm_workbench.report.words.reasons import in_both_languages
+from aadm_workbench.stack.result import Judged, StackPlan
+from aadm_workbench.stack.shown import tower_shown
+from aadm_workbench.stack.told import against, limit_reasons, member_reasons
 
 
 def write_stack_page(plan: StackPlan, path: Path, language: Language = "en") -> None:
@@ -55,65 +33,29 @@ def write_stack_page(plan: StackPlan, path: Path, language: Language = "en") -> 
 
 def stack_page(plan: StackPlan, language: Language = "en") -> str:
     """The document; the same plan gives the same text."""
-    try:
-        jinja2: Any = import_module("jinja2")
-    except ImportError as error:
-        raise MissingDependencyError("jinja2", "stack.html") from error
-    loader = jinja2.FileSystemLoader(resource_folder())
-    environment = jinja2.Environment(loader=loader, autoescape=True, undefined=jinja2.StrictUndefined)
-    template, context = environment.get_template("stack.html.j2"), _context(plan, language)
-    folder = resource_folder()
-    style = "".join((folder / name).read_text(encoding="utf-8") for name in ("report.css", "stack.css")) + svg_styles()
-    plain = template.render(**context, style="", policy="")
-    style = embedded_font_css(plain) + style
-    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
-    policy = f"default-src 'none'; style-src 'sha256-{digest}'; font-src data:; base-uri 'none'; form-action 'none'"
-    text: str = template.render(**context, style=_raw(style), policy=policy)
-    return text
+    return static_page("stack.html.j2", _context(plan), language, "stack.html")
 
 
-def _raw(text: str) -> Any:
-    """A text of this product's own that is not escaped: style, drawings whose labels are escaped already."""
-    return import_module("markupsafe").Markup(text)
-
-
-def _context(plan: StackPlan, language: Language) -> dict[str, object]:
+def _context(plan: StackPlan) -> dict[str, object]:
+    tower = tower_shown(plan)
     return {
         "plan": plan,
-        "language": language,
-        "languages": _LANGUAGES,
         "w": lambda name, **values: phrase(f"stack.{name}", **values),
         "word": phrase,
-        "headline": headline(plan),
-        "is_relative": any(column.basis == "bars" for column in plan.columns),
-        "drawings": [(one, _raw(svg_of(one.sketch, label="plan", css_class="plan"))) for one in stack_drawings(plan)],
-        "advised": [(column, advice_phrase(column)) for column in plan.columns if column.advice is not None],
-        "said": by_reason(plan),
-        "setting_out": list(_setting_out(plan.columns)),
-        "aim": lambda pose: ", ".join(number(value, 2 + (k == 2)).lstrip("+") for k, value in enumerate(pose)),
-        "legend": list(_legend(plan)),
+        "tower": tower,
+        "plans": [(one, drawn(one.sketch, "plan")) for one in tower.plans],
+        "said": limit_reasons(plan),
+        "of_members": member_reasons(plan),
+        "sentence": in_both_languages,
         "against": against,
         "origin": lambda column: phrase(f"stack.{column.origin}") if column.origin else Phrase("–", "–"),
         "number": number,
+        "signed": signed,
         "pair": lambda values: ", ".join(f"{value:+.2f}" for value in values),
         "limit": limit_text,
         "degrees": math.degrees,
         "verdict_words": verdict_words,
     }
-
-
-def _legend(plan: StackPlan) -> Iterable[str]:
-    """The verdicts that the drawing shows."""
-    shown = {(Verdict.NOT_MEASURED if one.top is None else one.top.judged.verdict).value for one in plan.columns}
-    shown |= {judged.verdict.value for member in plan.members for judged in (member.span_mm, *member.seat_mm)}
-    return (verdict for verdict in _VERDICTS if verdict in shown)
-
-
-def against(column: StackedColumn) -> Phrase:
-    """What the numbers of a column are told against."""
-    if column.basis == "storey_below":
-        return phrase("stack.storey_below", below=column.below)
-    return phrase(f"stack.{column.basis}")
 
 
 def number(value: float | None, decimals: int = 2, *, sign: bool = True) -> str:
@@ -130,16 +72,3 @@ def limit_text(judged: Judged) -> str:
         return "–"
     lower, upper = judged.limit
     return f"±{upper:g}" if lower == -upper else f"{upper:g}" if lower == 0.0 else f"{lower:+g} … {upper:+g}"
-
-
-def _setting_out(columns: Iterable[StackedColumn]) -> Iterable[SettingOut]:
-    for column in columns:
-        bars = column.next_bars
-        if bars is None:
-            continue
-        dx, dy, dz = (number(value, 1) for value in bars.values[:3].tolist())
-        u_mm = math.sqrt(float(bars.covariance[0, 0] + bars.covariance[1, 1]) / 2.0)
-        turn = number(math.degrees(bars.values[5]))
-        yield SettingOut(
-            column.measured.id, column.measured.grid or "–", (dx, dy, dz, turn), f"{u_mm:.1f}", against(column)
-        )

@@ -36,10 +36,10 @@ def plan_stack(
     name = ", ".join(dict.fromkeys(one.name for one in floors))
     if floor is None:
         missing = NotFound(name, phrase("stack.no_model"))
-        return StackPlan(name, stacked, (), (), (missing,), None)
+        return StackPlan(name, stacked, (), (), (missing, *_undrawn(stacked)), None)
     on = MembersOn(floor, {place: stacked[k] for k, place in places.items()}, limits)
     members = tuple(on.members())
-    not_found = (*_unplaced(stacked, places), *on.not_found(), *_left_out(floor, bool(members)))
+    not_found = (*_unplaced(stacked, places), *_undrawn(stacked), *on.not_found(), *_left_out(floor, bool(members)))
     return StackPlan(name, stacked, members, tuple(on.neighbours()), not_found, floor.source)
 
 
@@ -62,6 +62,12 @@ def _unplaced(stacked: Sequence[StackedColumn], places: Mapping[int, int]) -> It
     for k, column in enumerate(stacked):
         if k not in places:
             yield NotFound(column.measured.id, phrase("stack.not_in_model"))
+
+
+def _undrawn(stacked: Sequence[StackedColumn]) -> Iterator[NotFound]:
+    names = [one.measured.id for one in stacked if one.measured.T_model_column is None]
+    if names:
+        yield NotFound(", ".join(names), phrase("stack.no_place"))
 
 
 def _left_out(floor: Floor, any_member: bool) -> Iterator[NotFound]:

@@ -43,12 +43,14 @@ class Top:
 class Advice:
     """Where in its play to set a column: ``set_pose`` dx, dy mm and yaw degrees, from where its bars have it by design.
 
-    ``from_trial`` is the same from the pose of the trial, which the crew knows; ``top`` what the top comes to then.
+    ``from_trial`` is the same from the pose of the trial, which the crew knows; ``top`` what the top comes to then, and
+    ``next_bars`` the bars of the next storey, as those of the column.
     """
 
     set_pose: tuple[float, float, float]
     from_trial: tuple[float, float, float]
     top: Top | None
+    next_bars: Torsor | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,10 +1,12 @@
-"""What the model is told of the tower: the property set AADM_Setting of columns and beams."""
+"""What report.json and the model are told of the tower: the setting of columns, the property set AADM_Setting."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
+from aadm_workbench.model import SettingReport
 from aadm_workbench.report.ifc.addition import Property, Scalar
 from aadm_workbench.stack.result import Judged, StackedColumn, StackedMember, StackPlan
 
@@ -21,6 +23,28 @@ def setting_properties(plan: StackPlan) -> dict[str, list[Property]]:
         for global_id, values in told.items()
         if global_id
     }
+
+
+def setting_report(column: StackedColumn) -> SettingReport:
+    """What report.json holds of a column's setting."""
+    placed, top, advice = column.placed, column.top, column.advice
+    found = SettingReport(column.basis)
+    if placed is not None:
+        dx, dy, _, _, _, yaw = placed.values.tolist()
+        found = replace(found, foot_mm=(dx, dy), yaw_deg=math.degrees(yaw))
+    if top is not None:
+        limit = top.judged.limit
+        found = replace(
+            found,
+            top_mm=top.offset_mm,
+            top_u_mm=top.u_mm,
+            top_limit_mm=None if limit is None else limit[1],
+            top_verdict=top.judged.verdict,
+        )
+    if advice is not None:
+        after = None if advice.top is None else advice.top.judged.value
+        found = replace(found, set_pose=advice.set_pose, set_pose_top_mm=after)
+    return found
 
 
 def _column(column: StackedColumn) -> _Told:

@@ -20,7 +20,7 @@ def of_setting(settings: StackSettings, radius_mm: float | None, height_mm: floa
     height_mm
         From foot to top; None where it is not known: then the tilt is not a number.
     """
-    tilt = np.nan if height_mm is None else settings.plumb_u_mm / height_mm
+    tilt = np.nan if height_mm is None else settings.plumb_at(height_mm) / height_mm
     yaw = settings.fit_u_mm / (radius_mm or _USUAL_RADIUS_MM)
     return np.diag(np.square([settings.fit_u_mm, settings.fit_u_mm, settings.level_u_mm, tilt, tilt, yaw]))
 

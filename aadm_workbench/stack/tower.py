@@ -56,18 +56,16 @@ class Tower:
         ground, basis = self._ground(column, below)
         on_bars = pose_on_bars(column)
         through = below.measured.id if below is not None and basis == "storey_below" else None
+        if on_bars is None:
+            return StackedColumn(column, None, basis, through, height_mm=height_mm, reasons=(_why_not(column),))
         reasons = (phrase("stack.not_tied"),) if basis == "bars" else ()
         reasons = (*reasons, phrase("stack.told_cut")) if column.told_is_cut else reasons
-        if on_bars is None:
-            said = (_why_not(column), *reasons)
-            return StackedColumn(column, None, basis, through, height_mm=height_mm, reasons=said)
         stacked = StackedColumn(column, None, basis, through, on_bars.origin, height_mm, reasons=reasons)
         placed = ground.plus(in_plan(on_bars.planar, np.zeros((3, 3))).values, self._settled(stacked, on_bars))
         stacked = replace(stacked, placed=placed)
         if height_mm is None:
             return without_advice(stacked, "no_height")
-        bars = placed.through(carried_to(np.array([0.0, 0.0, height_mm])), of_bars(self.settings, column.radius_mm))
-        stacked = replace(stacked, top=self._top(placed, stacked), next_bars=bars)
+        stacked = replace(stacked, top=self._top(placed, stacked), next_bars=self._bars(placed, stacked))
         return self._advised(stacked, ground, on_bars)
 
     def _ground(self, column: MeasuredColumn, below: StackedColumn | None) -> tuple[Torsor, Basis]:
@@ -91,6 +89,11 @@ class Tower:
         unknown = phrase("stack.not_tied_top") if stacked.basis == "bars" else None
         return self.limits.top(offset[:2], covariance[:2, :2], unknown)
 
+    def _bars(self, placed: Torsor, stacked: StackedColumn) -> Torsor:
+        """The bars in the head of a column that is placed so."""
+        head = carried_to(np.array([0.0, 0.0, stacked.height_mm or 0.0]))
+        return placed.through(head, of_bars(self.settings, stacked.measured.radius_mm))
+
     def _advised(self, stacked: StackedColumn, ground: Torsor, on_bars: OnBars) -> StackedColumn:
         """The column with the pose in its play that leads back to the grid, or with the reason why there is none."""
         if stacked.basis == "bars" or on_bars.origin == "hoisting":
@@ -99,10 +102,12 @@ class Tower:
         if aim is None:
             return without_advice(stacked, "no_play")
         pose, moved = aim
+        if on_bars.origin == "told" and not is_worth(pose - on_bars.planar, stacked.measured.radius_mm):
+            return without_advice(stacked, "told_already")
         if not is_worth(moved, stacked.measured.radius_mm):
             return without_advice(stacked, "no_gain")
         placed = ground.plus(in_plan(pose, np.zeros((3, 3))).values, self._settled(stacked, on_bars))
-        advice = Advice(in_degrees(pose), in_degrees(moved), self._top(placed, stacked))
+        advice = Advice(in_degrees(pose), in_degrees(moved), self._top(placed, stacked), self._bars(placed, stacked))
         return replace(stacked, advice=advice)
 
 

@@ -73,12 +73,12 @@ def make_floor(folder: Path, seed: int = 2026) -> Iterator[str]:
 
 
 def _make_column(folder: Path, case: Case, rng: np.random.Generator) -> dict[str, object]:
-    foot, bars = case.change(_calm_foot(FIELD, rng), _calm_bars(FIELD, rng))
+    foot, bars = case.change(calm_foot(FIELD, rng), calm_bars(FIELD, rng))
     noise = replace(CameraNoise.drawn(rng), scale=5e-5)
-    scans = {"sleeves": scan_of(foot, _pose(case.up, True, rng), noise, rng)}
+    scans = {"sleeves": scan_of(foot, up_pose(case.up, True, rng), noise, rng)}
     files = {"sleeves": folder / "scans" / f"{case.id}-foot.tiff"}
     if case.with_bars:
-        scans["rebars"] = scan_of(bars, _pose(case.up, False, rng), noise, rng)
+        scans["rebars"] = scan_of(bars, up_pose(case.up, False, rng), noise, rng)
         files["rebars"] = folder / "scans" / f"{case.id}-bars.tiff"
     for name, scan in scans.items():
         write_depth_tiff(files[name], scan.depth, DEPTH_SCALE_MM)
@@ -106,7 +106,8 @@ def _verdicts(case: Case, foot: Foot, bars: BarGroup) -> dict[str, object]:
     }
 
 
-def _pose(up: str, looking_up: bool, rng: np.random.Generator) -> Array:
+def up_pose(up: str, looking_up: bool, rng: np.random.Generator) -> Array:
+    """T_column_scan (4, 4) of a camera that is held over bars, or under a foot, with one side at the top."""
     forward = np.array([0.0, 0.0, 1.0 if looking_up else -1.0])
     target = np.array([*rng.uniform(-12.0, 12.0, 2), 0.0])
     tilt = tuple(np.radians(rng.uniform(-3.0, 3.0, 2)))
@@ -114,7 +115,7 @@ def _pose(up: str, looking_up: bool, rng: np.random.Generator) -> Array:
     return facing(target, forward, np.array([*_UPS[up], 0.0]), FIELD.distance, (tilt[0], tilt[1]), roll)
 
 
-def _calm_foot(setting: Setting, rng: np.random.Generator) -> Foot:
+def calm_foot(setting: Setting, rng: np.random.Generator) -> Foot:
     """A foot whose sleeves stay within 0.8 mm of their places."""
     foot = random_foot(setting, rng, 0.35)
     calm = [
@@ -123,7 +124,7 @@ def _calm_foot(setting: Setting, rng: np.random.Generator) -> Foot:
     return replace(foot, sleeves=tuple(calm))
 
 
-def _calm_bars(setting: Setting, rng: np.random.Generator) -> BarGroup:
+def calm_bars(setting: Setting, rng: np.random.Generator) -> BarGroup:
     """Bars that stay within 0.8 mm of their places."""
     group = random_bars(setting, rng, 0.35)
     calm = [

@@ -3,24 +3,36 @@
 Boolean work is Manifold's (through ``manifold3d``); bars are height fields over (angle, length).
 
 Meshes of what stands about in a scene and is neither a foot nor a bar: boxes, boards, hoses.
-
-Faces roughened by order: a height field that a foot's block ends in, the same for every camera.
 """
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from scipy import ndimage
 
-from aadm_workbench.model import Array, IntArray
-from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose, Roughness, SleeveAsBuilt, axis_of
-from aadm_workbench.twin.surface import BAR, CONCRETE, DARK, FLOOR, OBJECT, SLEEVE_WALL, TAPE, Surface, joined, one_kind
+from aadm_workbench.model import Array
+from aadm_workbench.twin.blocks import block_of, broken_off
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Box, Foot, Grout, Hose, PlateAsBuilt, SleeveAsBuilt, axis_of
+from aadm_workbench.twin.surface import (
+    BAR,
+    CONCRETE,
+    DARK,
+    FLOOR,
+    OBJECT,
+    SLEEVE_WALL,
+    TAPE,
+    Surface,
+    joined,
+    moved,
+    one_kind,
+)
 
 _RIB_INCLINATION = np.radians(60.0)  # of transverse ribs against the bar's axis; 45 to 70 degrees are usual
 _SHIFT_DEPTHS_MM = (1.5, 2.0)  # behind the face: over so much depth a wall goes aside that is shifted; its mouth stays
 _RING_WIDTH_MM, _RING_ROOT_MM = 4.0, 20.0  # a tube with a wall of 4 mm, cast in by 20 mm
+_PIN_ROOT_MM = -5.0  # height to which a pin goes into its plate: below the face it ends unseen
 _CAP_LENGTH_MM = 25.0  # of the caps that protect threads
 SEGMENTS = 256  # of a bore's outline: the chord stays within 0.003 mm of a 36 mm circle
 
@@ -30,27 +42,26 @@ _SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), 
 _AROUND = 32  # corners of a hose's section
 _STEP_MM = 4.0  # of a hose's path: a choice by eye
 
-_STEPS_PER_GRAIN = 4.0  # a grain is drawn round by four
-_FINEST_MM = 1.5  # finer meshes take minutes
-_SPREADS = 2.0  # of the field's standard deviation fit into its depth on either side; what is beyond is cut off
-_KEY_WALL_MM = 2.0  # slope of a key, formed to be stripped
 
-
-def surface_of(part: Foot | BarGroup) -> Surface:
-    """Mesh of a foot or of a group of bars."""
+def surface_of(part: Foot | BarGroup | PlateAsBuilt) -> Surface:
+    """Mesh of a foot, of a group of bars or of a plate."""
+    if isinstance(part, PlateAsBuilt):
+        pins = [_bar(pin, number, _PIN_ROOT_MM) for number, pin in enumerate(part.pins)]
+        return joined([moved(foot_surface(part.foot), np.diag([1.0, -1.0, -1.0, 1.0])), *pins])
     return foot_surface(part) if isinstance(part, Foot) else bars_surface(part)
 
 
+@lru_cache(maxsize=2)  # frame after frame shows one foot; a mesh of a rough face takes 100 MB
 def foot_surface(foot: Foot) -> Surface:
-    """Mesh of the foot with its bores, plugs, chips, tapes and grout, and of what stands beside it."""
+    """Mesh of the foot with its bores, plugs, chips, tapes and grout, and of what is beside it; to be read alone."""
     import manifold3d
 
-    block = _block(foot).as_original()
+    block = block_of(foot).as_original()
     rings = [_ring(sleeve) for sleeve in foot.sleeves if sleeve.proud > 0]
     if rings:
         block = manifold3d.Manifold.batch_boolean([block, *rings], manifold3d.OpType.Add)
-    bores = [_bore(sleeve).as_original() for sleeve in foot.sleeves]
-    cutters = list(bores)
+    bores = [_bore(sleeve, foot.level_at(sleeve.x, sleeve.y)).as_original() for sleeve in foot.sleeves]
+    cutters = [*bores, *broken_off(foot)]
     cutters += [_chip(sleeve) for sleeve in foot.sleeves if sleeve.chip > 0]
     solid = manifold3d.Manifold.batch_boolean([block, *cutters], manifold3d.OpType.Subtract)
     if foot.grout:
@@ -61,15 +72,6 @@ def foot_surface(foot: Foot) -> Surface:
     surfaces += [_tape(sleeve, number) for number, sleeve in enumerate(foot.sleeves) if sleeve.taped > 0]
     surfaces += [object_surface(thing) for thing in foot.beside]
     return joined(surfaces)
-
-
-def _block(foot: Foot) -> Any:
-    import manifold3d
-
-    if foot.roughness is not None:
-        return rough_block(foot.size, foot.height, foot.roughness)
-    block = manifold3d.Manifold.cube([*foot.size, foot.height])
-    return block.translate([-foot.size[0] / 2, -foot.size[1] / 2, 0.0])
 
 
 def _ring(sleeve: SleeveAsBuilt) -> Any:
@@ -107,14 +109,14 @@ def _bore_profile(sleeve: SleeveAsBuilt) -> list[tuple[float, float]]:
     return [*profile, (radius, depth), (0.0, depth)]
 
 
-def _bore(sleeve: SleeveAsBuilt) -> Any:
+def _bore(sleeve: SleeveAsBuilt, level: float) -> Any:
     import manifold3d
 
     section = manifold3d.CrossSection([_bore_profile(sleeve)])
     upright = manifold3d.Manifold.revolve(section, SEGMENTS)
     if sleeve.wall_shift != (0.0, 0.0):
         upright = upright.warp_batch(lambda vertices: _shifted(vertices, sleeve.wall_shift))
-    return upright.transform(_leaning(sleeve.lean, (sleeve.x, sleeve.y, 0.0)))
+    return upright.transform(_leaning(sleeve.lean, (sleeve.x, sleeve.y, level)))
 
 
 def _shifted(vertices: Array, shift: tuple[float, float]) -> Array:
@@ -280,54 +282,3 @@ def _resampled(path: Array) -> Array:
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
     line: Array = CubicSpline(length, path)(np.arange(0.0, length[-1], _STEP_MM))
     return line
-
-
-def rough_block(size: tuple[float, float], height: float, roughness: Roughness) -> Any:
-    """A block of a size whose lower face is rough; a ``manifold3d.Manifold``."""
-    import manifold3d
-
-    step_mm = max(roughness.grain / _STEPS_PER_GRAIN, _FINEST_MM)
-    x, y = (np.linspace(-side / 2, side / 2, int(np.ceil(side / step_mm)) + 1) for side in size)
-    below = rough_heights(x, y, roughness)
-    plan = np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)
-    vertices = np.vstack([np.column_stack([plan, below.ravel()]), np.column_stack([plan, np.full(len(plan), height)])])
-    mesh = manifold3d.Mesh(vertices.astype(np.float32), _closed(len(y), len(x)).astype(np.uint32))
-    return manifold3d.Manifold(mesh)
-
-
-def rough_heights(x: Array, y: Array, roughness: Roughness) -> Array:
-    """How far inside the foot the face lies (rows, columns) mm at the crossings of a grid, 0 to its depth."""
-    if roughness.law == "keyed":
-        return roughness.depth * _pocket(x, roughness.grain)[None, :] * _pocket(y, roughness.grain)[:, None]
-    rng = np.random.default_rng(roughness.seed)
-    step_mm = float(x[1] - x[0])
-    field = ndimage.gaussian_filter(rng.standard_normal((len(y), len(x))), roughness.grain / 4.0 / step_mm)
-    return np.asarray(roughness.depth * np.clip(0.5 + field / field.std() / (2.0 * _SPREADS), 0.0, 1.0))
-
-
-def _pocket(along: Array, wide: float) -> Array:
-    """1 within pockets, 0 between them, with walls that are not upright."""
-    place = np.abs(np.mod(along, 2.0 * wide) - wide)
-    return np.asarray(np.clip((wide / 2.0 - place) / _KEY_WALL_MM + 0.5, 0.0, 1.0))
-
-
-def _closed(rows: int, columns: int) -> IntArray:
-    """Triangles of a box whose lower and upper side are grids of that many vertices, lower ones first."""
-    low = np.arange(rows * columns).reshape(rows, columns)
-    high = low + rows * columns
-    around = np.concatenate([low[0, :-1], low[:-1, -1], low[-1, :0:-1], low[:0:-1, 0]])
-    beyond = np.roll(around, -1)
-    upper, upper_beyond = around + rows * columns, beyond + rows * columns
-    return np.vstack(
-        [
-            _sheet(low)[:, ::-1],
-            _sheet(high),
-            np.column_stack([around, beyond, upper]),
-            np.column_stack([beyond, upper_beyond, upper]),
-        ]
-    )
-
-
-def _sheet(grid: IntArray) -> IntArray:
-    a, b, c, d = grid[:-1, :-1].ravel(), grid[:-1, 1:].ravel(), grid[1:, :-1].ravel(), grid[1:, 1:].ravel()
-    return np.vstack([np.column_stack([a, b, c]), np.column_stack([b, d, c])])

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 import numpy as np
 
@@ -22,16 +22,14 @@ from aadm_workbench.twin.camera import DEPTH_SCALE_MM, PRO_M, capture_tables
 from aadm_workbench.twin.filters import NO_FILTERS, Filters, filtered
 from aadm_workbench.twin.finite_pixel import FinitePixel
 from aadm_workbench.twin.noise import CameraNoise
-from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot, PlateAsBuilt
 from aadm_workbench.twin.scene import TrueScan, scan_of
 from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_foot, random_pose
 from aadm_workbench.twin.site import left_by_site
 from aadm_workbench.twin.slips import NO_SLIP, Slip, seen_with, told_camera
-from aadm_workbench.twin.truth import true_verdicts
+from aadm_workbench.twin.truth import DECIMALS, section_truth, true_verdicts
 
-_DECIMALS = 4  # 0.1 µm: truth that is finer than anything it is compared with
-
-Shoot: TypeAlias = Callable[[Foot | BarGroup, Array, np.random.Generator], TrueScan]
+Shoot: TypeAlias = Callable[[Foot | BarGroup | PlateAsBuilt, Array, np.random.Generator], TrueScan]
 """From a part, the pose T_column_scan (4, 4) and a generator to a scan with its truth."""
 
 
@@ -132,14 +130,14 @@ def design_table(setting: Setting) -> dict[str, float | list[float] | list[list[
     return {
         "sleeve_diameter": setting.sleeve_diameter,
         "rebar_diameter": setting.bar_diameter,
-        "rebar_outer_diameter": round(setting.bar_core + 2.0 * BarAsBuilt.rib_height, _DECIMALS),
+        "rebar_outer_diameter": round(setting.bar_core + 2.0 * BarAsBuilt.rib_height, DECIMALS),
         "embedded_length": setting.exposed,
         "size": [setting.size, setting.size],
         "centres": setting.centres().tolist(),
     }
 
 
-def _truth(pair: Pair, seed: int) -> dict[str, Any]:
+def _truth(pair: Pair, seed: int) -> dict[str, object]:
     true = true_verdicts(pair.design, pair.foot, pair.bars)
     column = {
         "verdict": true.verdict.value,
@@ -148,6 +146,7 @@ def _truth(pair: Pair, seed: int) -> dict[str, Any]:
         "minimax": true.minimax,
         "sleeves": scan_truth(pair.sleeves, pair.design.sleeves),
         "rebars": scan_truth(pair.rebars, pair.design.rebars),
+        "section": section_truth(pair.design, pair.foot),
     }
     return {"synthetic": True, "seed": seed, "setting": pair.setting.name, "columns": {pair.design.id: column}}
 
@@ -160,11 +159,11 @@ def scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, J
         "points": [
             {
                 "label": point.label,
-                "design_mm": np.round(target.centre, _DECIMALS).tolist(),
-                "column_mm": np.round(point.centre, _DECIMALS).tolist(),
-                "scan_mm": np.round(in_scan, _DECIMALS).tolist(),
+                "design_mm": np.round(target.centre, DECIMALS).tolist(),
+                "column_mm": np.round(point.centre, DECIMALS).tolist(),
+                "scan_mm": np.round(in_scan, DECIMALS).tolist(),
                 "axis": np.round(point.axis, 9).tolist(),
-                "diameter_mm": round(float(point.diameter_mm), _DECIMALS),
+                "diameter_mm": round(float(point.diameter_mm), DECIMALS),
             }
             for point, target, in_scan in points
         ],
@@ -218,7 +217,7 @@ def fringe_camera(distance: float) -> Shoot:
 def with_filters(shoot: Shoot, filters: Filters) -> Shoot:
     """A camera that filters its depth maps."""
 
-    def shot(part: Foot | BarGroup, pose: Array, rng: np.random.Generator) -> TrueScan:
+    def shot(part: Foot | BarGroup | PlateAsBuilt, pose: Array, rng: np.random.Generator) -> TrueScan:
         scan = shoot(part, pose, rng)
         return replace(scan, depth=filtered(scan.depth, filters, scan.brightness))
 

@@ -116,6 +116,51 @@ class Hose:
 
 
 @dataclass(frozen=True)
+class Break:
+    """A piece broken off the edge ``side`` (``-x`` …, or two for a corner, ``+x+y``) of a foot's face.
+
+    ``at`` is its middle along the edge from the edge's own middle, towards +x or +y; ``depth`` how far it reaches into
+    the face, and up the side. A corner's is a ball of that radius about the corner.
+    """
+
+    side: str
+    at: float
+    length: float
+    depth: float
+
+
+@dataclass(frozen=True)
+class Cast:
+    """How a foot's block differs from an upright one about the column's axis; its sides are those of the foot.
+
+    ``offset``: where the middle of the section lies; ``turn``: the section's, counter-clockwise from above; ``shear``:
+    by how much the angle between its sides is less than a right one. ``bow`` is how far the middle of the face lies
+    inside of its corners, ``warp`` how far the corners +x+y and -x-y lie inside of the other two.
+    """
+
+    offset: tuple[float, float] = (0.0, 0.0)
+    turn: float = 0.0
+    shear: float = 0.0
+    bow: float = 0.0
+    warp: float = 0.0
+    breaks: tuple[Break, ...] = ()
+
+    def plan(self) -> Array:
+        """The map (2, 3) from places of an upright section about its middle to the column frame."""
+        c, s = np.cos(self.turn), np.sin(self.turn)
+        sheared = np.array([[1.0, np.tan(self.shear)], [0.0, 1.0]])
+        return np.column_stack([np.array([[c, -s], [s, c]]) @ sheared, self.offset])
+
+    def level(self, size: tuple[float, float], x: Array, y: Array) -> Array:
+        """How far inside the foot the face lies at places of the upright section about its middle, mm."""
+        u, v = 2.0 * x / size[0], 2.0 * y / size[1]
+        return np.asarray(self.bow * (1.0 - (u**2 + v**2) / 2.0) + self.warp / 2.0 * u * v)
+
+
+UPRIGHT = Cast()
+
+
+@dataclass(frozen=True)
 class Foot:
     """The foot of a column: a block above z = 0 whose face, seen from below, holds the sleeves.
 
@@ -128,6 +173,19 @@ class Foot:
     grout: tuple[Grout, ...] = ()
     beside: tuple[Box | Hose, ...] = ()
     roughness: Roughness | None = None
+    cast: Cast = UPRIGHT
+
+    def level_at(self, x: float, y: float) -> float:
+        """How far inside the foot its face lies at a place of the column frame, mm; a rough one's mean is left out."""
+        plan = self.cast.plan()
+        about = np.linalg.solve(plan[:, :2], np.array([x, y]) - plan[:, 2])
+        return float(self.cast.level(self.size, about[0], about[1]))
+
+    def corners(self) -> Array:
+        """Corners (4, 2) mm of its section, column frame, from (-x, -y) counter-clockwise seen from above."""
+        plan = self.cast.plan()
+        half = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]) * np.array(self.size) / 2.0
+        return np.asarray(half @ plan[:, :2].T + plan[:, 2])
 
 
 @dataclass(frozen=True)
@@ -143,6 +201,17 @@ class BarGroup:
     floor_lean: tuple[float, float] = (0.0, 0.0)
     debris: tuple[tuple[float, float, float], ...] = ()
     beside: tuple[Box | Hose, ...] = ()
+
+
+@dataclass(frozen=True)
+class PlateAsBuilt:
+    """A plate with holes and pins, in the plate's frame: z out of its face, towards the camera.
+
+    ``foot`` holds the bores, in a frame of its own, which is the plate's turned by 180 degrees about x.
+    """
+
+    foot: Foot
+    pins: tuple[BarAsBuilt, ...]
 
 
 def axis_of(lean: tuple[float, float]) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -13,9 +13,11 @@ from aadm_workbench.twin.camera import PRO_M
 from aadm_workbench.twin.finite_pixel import seen_by_pixels
 from aadm_workbench.twin.meshes import surface_of
 from aadm_workbench.twin.noise import CameraNoise, captured
-from aadm_workbench.twin.parts import BarGroup, Foot, axis_of
+from aadm_workbench.twin.parts import BarGroup, Foot, PlateAsBuilt, axis_of
 from aadm_workbench.twin.raycast import caster_of, rays_of
 from aadm_workbench.twin.surface import Surface, moved
+
+_ABOUT_X = np.array([1.0, -1.0, -1.0])  # a turn by 180 degrees about x
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,9 +50,13 @@ class TrueScan:
 
 
 def scan_of(
-    part: Foot | BarGroup, T_column_scan: Array, noise: CameraNoise, rng: np.random.Generator, camera: Camera = PRO_M
+    part: Foot | BarGroup | PlateAsBuilt,
+    T_column_scan: Array,
+    noise: CameraNoise,
+    rng: np.random.Generator,
+    camera: Camera = PRO_M,
 ) -> TrueScan:
-    """Scan a foot or a bar group from a pose of the camera."""
+    """Scan a foot, a bar group or a plate from a pose of the camera."""
     return shot(surface_of(part), truth_of(part), T_column_scan, noise, rng, camera)
 
 
@@ -70,11 +76,16 @@ def shot(
     return TrueScan(captured(view, camera, noise, rng), camera, truth, T_column_scan, noise.scale)
 
 
-def truth_of(part: Foot | BarGroup) -> tuple[AssemblyPoint, ...]:
-    """The true assembly points of a part, in the order in which it lists them."""
+def truth_of(part: Foot | BarGroup | PlateAsBuilt) -> tuple[AssemblyPoint, ...]:
+    """The true assembly points of a part, in the order in which it lists them; of a plate holes, then pins."""
+    if isinstance(part, PlateAsBuilt):
+        bored = (replace(one, centre=one.centre * _ABOUT_X, axis=one.axis * _ABOUT_X) for one in truth_of(part.foot))
+        return (*bored, *truth_of(BarGroup(part.pins, 0.0)))
     if isinstance(part, Foot):
         return tuple(
-            AssemblyPoint(f"S{k}", Kind.SLEEVE, np.array([s.x, s.y, 0.0]), axis_of(s.lean), s.diameter)
+            AssemblyPoint(
+                f"S{k}", Kind.SLEEVE, np.array([s.x, s.y, part.level_at(s.x, s.y)]), axis_of(s.lean), s.diameter
+            )
             for k, s in enumerate(part.sleeves, 1)
         )
     return tuple(

@@ -11,7 +11,7 @@ import numpy as np
 
 from aadm_workbench.errors import AadmError
 from aadm_workbench.model import Array
-from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot, Roughness, SleeveAsBuilt
+from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Break, Cast, Foot, Roughness, SleeveAsBuilt
 
 Change: TypeAlias = Callable[[Foot, BarGroup, np.random.Generator], tuple[Foot, BarGroup]]
 """From a foot, its bars and a generator to both as the site left them."""
@@ -102,6 +102,51 @@ def _burred(bar: BarAsBuilt, rng: np.random.Generator) -> BarAsBuilt:
     return replace(bar, burr=float(rng.uniform(0.6, 1.4)), burr_direction=_turn(rng))
 
 
+def _off_size(foot: Foot, rng: np.random.Generator) -> Foot:
+    """Sides within 6 mm of the formwork's: a little more than a mould is allowed to open, or to close."""
+    x, y = (np.array(foot.size) + rng.choice([-1.0, 1.0], 2) * rng.uniform(1.5, 6.0, 2)).tolist()
+    return replace(foot, size=(x, y))
+
+
+def _cast(change: Callable[[Cast, np.random.Generator], Cast]) -> Change:
+    return _feet(lambda foot, rng: replace(foot, cast=change(foot.cast, rng)))
+
+
+def _beside(cast: Cast, rng: np.random.Generator) -> Cast:
+    """The template of the sleeves stood beside its place in the mould, and turned."""
+    x, y = _off(float(rng.uniform(1.0, 4.0)), rng).tolist()
+    return replace(cast, offset=(x, y), turn=float(rng.choice([-1.0, 1.0]) * np.radians(rng.uniform(0.1, 0.4))))
+
+
+def _askew(cast: Cast, rng: np.random.Generator) -> Cast:
+    return replace(cast, shear=float(rng.choice([-1.0, 1.0]) * np.radians(rng.uniform(0.2, 0.6))))
+
+
+def _broken_corners(cast: Cast, rng: np.random.Generator) -> Cast:
+    corners = rng.permutation(["-x-y", "+x-y", "+x+y", "-x+y"])[: int(rng.integers(1, 4))].tolist()
+    pieces = [Break(corner, 0.0, 0.0, float(rng.uniform(5.0, 40.0))) for corner in corners]
+    return replace(cast, breaks=(*cast.breaks, *pieces))
+
+
+def _broken_edges(foot: Foot, rng: np.random.Generator) -> Foot:
+    """One to four pieces, none nearer to a corner than it is long."""
+    pieces = []
+    for side in rng.permutation(["-x", "+x", "-y", "+y"])[: int(rng.integers(1, 5))].tolist():
+        depth = float(rng.uniform(5.0, 40.0))
+        length = depth * float(rng.uniform(1.0, 3.0))
+        reach = foot.size["yx".index(side[1])] / 2.0 - 1.5 * length
+        pieces.append(Break(side, float(rng.uniform(-1.0, 1.0)) * max(reach, 0.0), length, depth))
+    return replace(foot, cast=replace(foot.cast, breaks=(*foot.cast.breaks, *pieces)))
+
+
+def _bowed(cast: Cast, rng: np.random.Generator) -> Cast:
+    return replace(cast, bow=float(rng.choice([-1.0, 1.0]) * rng.uniform(2.0, 6.0)))
+
+
+def _warped(cast: Cast, rng: np.random.Generator) -> Cast:
+    return replace(cast, warp=float(rng.choice([-1.0, 1.0]) * rng.uniform(2.0, 6.0)))
+
+
 SITE: Mapping[str, Change] = MappingProxyType(
     {
         "rough": _feet(_washed),
@@ -115,6 +160,13 @@ SITE: Mapping[str, Change] = MappingProxyType(
         "kinks": _some_bars(_kinked),
         "leans": _some_bars(_leaning),
         "two-heights": _two_heights,
+        "off-size": _feet(_off_size),
+        "askew": _cast(_askew),
+        "pattern-beside": _cast(_beside),
+        "bowed": _cast(_bowed),
+        "warped": _cast(_warped),
+        "broken-corners": _cast(_broken_corners),
+        "broken-edges": _feet(_broken_edges),
     }
 )
 """What a site does, by name. Lengths in mm, as the notes on them were seen:
@@ -123,6 +175,10 @@ SITE: Mapping[str, Change] = MappingProxyType(
 the mouths; ``taped-spalls``, where that quarter is under tape as well; ``proud-rings`` 2 mm before the face; ``plugs``
 10 mm inside; ``burrs`` of 0.6 to 1.4 mm on one side of half of the bars; ``caps`` of plastic on a quarter; ``kinks``
 of a quarter; ``leans`` of 3 degrees of a quarter; ``two-heights``, every other bar 30 to 80 mm longer.
+
+Of the foot's own section: ``off-size``, sides off by 1.5 to 6 mm; ``askew`` by 0.2 to 0.6 degrees; ``pattern-beside``,
+the sleeves 1 to 4 mm beside their place in it and turned by 0.1 to 0.4 degrees; ``bowed`` and ``warped`` faces, by 2 to
+6 mm; ``broken-corners`` (one to three) and ``broken-edges`` (one to four), 5 to 40 mm deep.
 """
 
 

@@ -12,7 +12,6 @@ import json
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -42,7 +41,7 @@ def make_tower(folder: Path, seed: int = 2026, columns: int = 8) -> Iterator[str
         Where the ray caster is not installed.
     """
     (folder / "scans").mkdir(parents=True, exist_ok=True)
-    truth: dict[str, Any] = {}
+    truth: dict[str, object] = {}
     tables = [_head(seed, columns)]
     for number in range(1, columns + 1):
         name, rng = f"T-{number}", np.random.default_rng([seed, number])
@@ -58,7 +57,7 @@ def make_tower(folder: Path, seed: int = 2026, columns: int = 8) -> Iterator[str
     write_atomically(folder / "job.toml", "".join(tables).encode())
 
 
-def _truth(pair: Pair, ground: Array, rng: np.random.Generator) -> dict[str, Any]:
+def _truth(pair: Pair, ground: Array, rng: np.random.Generator) -> dict[str, object]:
     """Where things are, and what setting will add: mm and degrees, column frame."""
     radius_mm = float(np.sqrt((FIELD.centres() ** 2).sum(axis=1).mean()))
     fit_mm = _SETTING["fit_u_mm"]

@@ -1,7 +1,7 @@
 """Answer a question of the FreeCAD workbench, which runs no packages of its own. For programs, not for people.
 
-QUESTION.json says under "about" what is asked: "columns" of a model or of shapes that FreeCAD has sampled, or the
-"scan" in a file. The answer appears whole or not at all.
+QUESTION.json says under "about" what is asked: "columns" of a model or of shapes that FreeCAD has sampled, the "scan"
+in a file, or the "camera" in one. The answer appears whole or not at all.
 """
 
 from __future__ import annotations
@@ -38,6 +38,6 @@ def run(options: argparse.Namespace) -> int:
         question = json.loads(options.question.read_text(encoding="utf-8"))
         answer = ANSWERS[question["about"]]
     except (OSError, ValueError, LookupError, TypeError) as error:
-        raise JobError(f"{options.question}: is no question of the workbench ({error})") from error
+        raise JobError.because("command.no_question", file=options.question, error=error) from error
     write_atomically(options.answer, json.dumps(answer(question), ensure_ascii=False).encode())
     return ALL_PASS

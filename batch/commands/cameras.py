@@ -1,7 +1,8 @@
 """List the cameras that are there: their address, maker, model and serial number.
 
-CAMERA is gentl:FILE.cti, the GenTL producer that came with the camera's program, or replay:FOLDER, captures that are
-played again. Without one, the producers that the system names (GENICAM_GENTL64_PATH) are asked.
+CAMERA is gentl:FILE.cti, the GenTL producer that came with the camera's program; gige:// or mecheye://, all that answer
+in the network, or the one whose IP is added; or replay:FOLDER, captures that are played again. Without one, the
+producers that the system names (GENICAM_GENTL64_PATH) are asked.
 """
 
 from __future__ import annotations
@@ -23,13 +24,16 @@ if TYPE_CHECKING:
 EXAMPLE = """\
 examples:
   aadm cameras gentl:/opt/vendor/producer.cti
+  aadm cameras gige://
   aadm cameras --json"""
 _SYSTEM_PRODUCERS = "GENICAM_GENTL64_PATH"  # GenTL 1.5: folders with producers, as vendors' installers set it
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("camera", nargs="*", metavar="CAMERA", help="where to look: gentl:FILE.cti, replay:FOLDER")
+    parser.add_argument(
+        "camera", nargs="*", metavar="CAMERA", help="where to look: gentl:FILE.cti, gige://, replay:FOLDER …"
+    )
     add_switches(parser, prints_json="the cameras")
     parser.set_defaults(run=run)
 
@@ -42,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
 
     addresses = options.camera or _of_the_system()
     if not addresses:
-        raise JobError(f"no producer is known: name one, gentl:FILE.cti, or set {_SYSTEM_PRODUCERS}")
+        raise JobError.because("command.no_producer", variable=_SYSTEM_PRODUCERS)
     found: list[Device] = []
     failed = False
     for address in addresses:

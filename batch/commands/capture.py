@@ -1,8 +1,8 @@
 """Take frames with a live camera and write each as a capture folder, which jobs, extract and watch read.
 
-CAMERA is gentl:FILE.cti#SERIAL, or replay:FOLDER (captures that are played again). One frame is written to FOLDER
-itself, several into folders in it, called after their time. A frame that is lost is named, and the next one goes on;
-nothing is left half-written. The unit, the settings in force and the time stand in capture.json of each.
+CAMERA is gentl:FILE.cti#SERIAL, gige://IP, mecheye://IP, or replay:FOLDER (captures that are played again). One frame
+is written to FOLDER itself, several into folders in it, called after their time. A frame that is lost is named, and the
+next one goes on; nothing is left half-written. The unit, the settings in force and the time stand in capture.json.
 """
 
 from __future__ import annotations
@@ -26,12 +26,15 @@ if TYPE_CHECKING:
 EXAMPLE = """\
 examples:
   aadm capture 'gentl:/opt/vendor/producer.cti#A1234' --out captures/C-301-foot
+  aadm capture gige://192.168.1.20 --out captures/C-301-bars
   aadm capture replay:captures --out again --count 5 --every 2s"""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
-    parser.add_argument("camera", metavar="CAMERA", help="gentl:FILE.cti#SERIAL or replay:FOLDER")
+    parser.add_argument(
+        "camera", metavar="CAMERA", help="gentl:FILE.cti#SERIAL, gige://IP, mecheye://IP, replay:FOLDER"
+    )
     parser.add_argument("--out", required=True, type=Path, metavar="FOLDER", help="folder for the capture, or captures")
     parser.add_argument("--count", type=whole_number, metavar="N", help="how many (default: 1; with --every: no end)")
     parser.add_argument("--every", type=duration, metavar="TIME", help="from frame to frame: 2s, 500ms, 1min")
@@ -47,7 +50,9 @@ def run(options: argparse.Namespace) -> int:
 
     single = options.count is None and options.every is None
     if single and options.out.is_dir() and any(options.out.iterdir()):
-        raise JobError(f"{options.out}: holds files already; name another folder for this capture")
+        from aadm_workbench.model.reason import Reason
+
+        raise JobError.because("said.of_file", file=options.out, why=Reason("scan.capture_there"))
     (options.out.parent if single else options.out).mkdir(parents=True, exist_ok=True)
     with Session(options.camera) as session:
         written, lost = _take_all(session, options, single)

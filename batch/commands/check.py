@@ -50,7 +50,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         writes="the reports",
         prints_json="report.json",
         more="[--resume] [--events FILE] [--write-ifc] [--html] [--pdf] [--xlsx] [--csv] [--bcf] [--bcf-pairs] "
-        "[--crew] [--scan-card] [--language en|zh] [--absolute-paths]",
+        "[--crew] [--scan-card] [--bcf-version 2.1|3.0] [--language en|zh] [--absolute-paths]",
     )
     parser.add_argument(
         "--resume",
@@ -108,7 +108,7 @@ def _asked(options: argparse.Namespace) -> Job:
 
     job = read_job(options.job)
     if options.events == "-" and options.json:
-        raise JobError("--events - and --json both want stdout; write the events into a file")
+        raise JobError.because("command.events_and_json")
     require_packages(chosen_formats(options))
     if options.write_ifc:
         from ..model_results import ifc_model_of
@@ -157,16 +157,20 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
 
     from ..served_report import without_absolute_paths
     from ..shown.terminal import say, show_json
+    from ..tower_plan import with_setting
 
     if options.debug:
         for name, trace in done.traces.items():
             say(f"{name}: {trace}")
-    report = done.report if options.absolute_paths else without_absolute_paths(done.report, job)
-    code = exit_code_of(column.verdict for column in report.columns)
+    report = with_setting(done.report, job.model_path)
+    report = report if options.absolute_paths else without_absolute_paths(report, job)
+    code, written = exit_code_of(column.verdict for column in report.columns), False
     try:
         write_report(report, folder / "report.json")
+        written = True
         write_atomically(folder / "timing.json", encode(done.seconds))
-        _write_reports(folder, options)
+        if not _write_reports(job, folder, options):
+            code = INTERNAL
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
         say(f"aadm: {told(error, options)}")
@@ -176,21 +180,25 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
     elif not options.quiet and options.events != "-":
         from ..shown.verdict_table import show_verdicts
 
-        show_verdicts(report, f"Report: {folder / 'report.json'}")
+        show_verdicts(report, folder / "report.json" if written else None, options.language or "en")
     if options.write_ifc and code != INTERNAL:
         return _write_model(report, job, folder, options) or code
     return code
 
 
-def _write_reports(folder: Path, options: argparse.Namespace) -> None:
-    """The other reports that were asked for, from what report.json holds."""
+def _write_reports(job: Job, folder: Path, options: argparse.Namespace) -> bool:
+    """The other reports that were asked for, from what report.json holds; whether all were written."""
     formats = chosen_formats(options)
-    if formats:
-        from aadm_workbench.report.read import read_report
+    if not formats:
+        return True
+    from aadm_workbench.report.read import read_report
 
-        from ..report_files import write_reports
+    from ..report_files import HowReports, write_reports
 
-        write_reports(read_report(folder / "report.json"), formats, folder, options.language)
+    how = HowReports.asked(options, job.model_path)
+    written = write_reports(read_report(folder / "report.json"), formats, folder, how)
+    written.say(options)
+    return not written.failed
 
 
 def _write_model(report: JobReport, job: Job, folder: Path, options: argparse.Namespace) -> int:

@@ -7,6 +7,7 @@ seen from above, and R1 belongs to S1. Sleeves and rebars that belong to no colu
 from __future__ import annotations
 
 import argparse
+import math
 import re
 import sys
 from collections.abc import Iterator, Sequence
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
     from aadm_workbench.design.model_design import ModelDesign, NotTaken
     from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
+
+_NEAR_MM = 1500.0  # of a column's axis: what stands further off belongs to none of its sides
 
 EXAMPLE = """\
 examples:
@@ -183,12 +186,22 @@ def _tables(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: bool, l
         yield f"Loose: {len(model.loose_sleeves)} sleeves and {len(model.loose_rebars)} rebars belong to no column"
         yield _point_table(_entries(left_over, None, why=why), why)
         yield ""
-    if why and model.not_taken:
+    left_out = [left for left in model.not_taken if loose or not _of_another(left, columns)]
+    if why and left_out:
         yield "Left out"
-        yield _left_out_table(model)
+        yield _left_out_table(left_out)
         yield ""
     points = sum(len(column.sleeves) + len(column.rebars) for column in columns)
     yield f"{len(columns)} column{'' if len(columns) == 1 else 's'}, {points} sleeves and rebars in {model.source}"
+
+
+def _of_another(left: NotTaken, columns: Sequence[ColumnDesign]) -> bool:
+    """Whether what was left out is of no account for the columns that are shown: a column itself, or far from them."""
+    if left.what == "column" or left.point is None:
+        return left.what == "column"
+    x, y = float(left.point[0]), float(left.point[1])
+    feet = [column.T_model_column for column in columns if column.T_model_column is not None]
+    return bool(feet) and min(math.hypot(x - T[0, 3], y - T[1, 3]) for T in feet) > _NEAR_MM
 
 
 def _heading(column: ColumnDesign) -> str:
@@ -213,8 +226,8 @@ def _point_table(entries: Sequence[_Entry], why: bool) -> Table | str:
     return _table(("Point", *numbers, "GlobalId", *(["Why"] if why else [])), rows, numbers)
 
 
-def _left_out_table(model: ModelDesign) -> Table | str:
-    rows = [[left.what, left.ifc_class, left.global_id, left.name, left.reason] for left in model.not_taken]
+def _left_out_table(left_out: Sequence[NotTaken]) -> Table | str:
+    rows = [[left.what, left.ifc_class, left.global_id, left.name, left.reason] for left in left_out]
     return _table(("What", "Class", "GlobalId", "Name", "Reason"), rows)
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..exit_codes import ALL_PASS, UNDECIDED
-from ..job.command import METHODS
+from ..job.command import SCAN_METHODS
 from ..switches import add_switches, length, whole_number
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="of a cloud: x right, y down, z forward, or x right, y up, z backward (default: found out)",
     )
     parser.add_argument("--expected", type=whole_number, metavar="N", help="exit with 11 where fewer are found")
-    parser.add_argument("--method", choices=METHODS, default="refined", help="how (default: refined)")
+    parser.add_argument("--method", choices=SCAN_METHODS, default="refined", help="how (default: refined)")
     add_switches(parser, prints_json="the points")
     parser.set_defaults(run=run)
 

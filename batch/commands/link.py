@@ -77,7 +77,7 @@ def _links(options: argparse.Namespace) -> list[Link]:
     from ..link.opcua import OpcUaLink
 
     if options.opcua and options.host != LOOPBACK and options.certificates is None:
-        raise JobError("--opcua on an address that others reach needs --certificates DIR: without, anybody could read")
+        raise JobError.because("command.opcua_open")
     links: list[Link] = []
     if options.opcua:
         own = None if options.certificates is None else Certificates(options.certificates)
@@ -87,5 +87,5 @@ def _links(options: argparse.Namespace) -> list[Link]:
     if options.mqtt:
         links.append(MqttLink(options.mqtt, options.certificates))
     if not links:
-        raise JobError("nothing to link to: say --opcua PORT, --modbus PORT or --mqtt BROKER")
+        raise JobError.because("command.link_to_nothing")
     return links

@@ -78,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
     labels = [point.label for point in design.sleeves]
     unknown = [label for label in options.sleeves or () if label not in labels]
     if unknown:
-        raise AadmError(f"the column has no sleeve {', '.join(unknown)}; it has {labels[0]} to {labels[-1]}")
+        raise AadmError.because("command.no_such_sleeve", names=", ".join(unknown), first=labels[0], last=labels[-1])
     plan, views = plan_camera(
         design,
         camera,
@@ -106,14 +106,14 @@ def _subject(options: argparse.Namespace) -> tuple[ColumnDesign, Camera]:
     camera = None if options.camera is None else read_camera(options.camera)
     if options.job is None:
         if options.size is None:
-            raise JobError("name a job with --column, or a column with --size")
+            raise JobError.because("command.plan_of_what")
         return _square(options), camera or PRO_M
     from aadm_workbench.inspection.tasks import plan_job
 
     from ..job.file import read_job
 
     if options.column is None:
-        raise JobError("say with --column which column of the job is meant")
+        raise JobError.because("command.which_column")
     job = read_job(options.job)
     (task,) = plan_job(job, only=(options.column,)).tasks
     if task.design is None or not task.design.rebars:
@@ -128,7 +128,7 @@ def _square(options: argparse.Namespace) -> ColumnDesign:
 
     half = options.size / 2 - options.cover
     if half <= 0 or options.per_side < 2:
-        raise JobError(f"sleeves {options.cover:g} mm from the sides of a column of {options.size:g} mm leave no room")
+        raise JobError.because("command.no_room_for_sleeves", cover_mm=options.cover, size_mm=options.size)
     table = {
         "sleeve_diameter": options.sleeve_diameter,
         "rebar_diameter": options.rebar_diameter,

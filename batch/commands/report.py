@@ -4,7 +4,7 @@ Writes into the folder of report.json unless --out says otherwise; without a for
 there already is updated: its topics keep their ids, and those of columns that now pass are closed. Scan cards can also
 be made from a job, before anything is scanned: aadm report floor3.toml --scan-card
 
-The exit code is 0 when the files are written, whatever the verdicts are.
+The exit code is 0 when the files are written, whatever the verdicts are; 70 where one could not be: the others are.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS
+from ..exit_codes import ALL_PASS, INTERNAL
 from ..report_files import add_format_switches, chosen_formats, require_packages
 from ..switches import add_switches
 
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
     from aadm_workbench.model import JobReport
     from aadm_workbench.report.pages.scan_card import ScanCard
+
+    from ..report_files import Written
 
 EXAMPLE = """\
 examples:
@@ -37,12 +39,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.usage = (
         "aadm report REPORT.json [--out DIR] [--html] [--pdf] [--xlsx] [--csv] [--bcf] [--bcf-pairs]\n"
         "                   [--crew] [--scan-card] [--fcstd]\n"
-        "                   [--language en|zh] [--only ID ...] [--json] [--quiet]\n"
+        "                   [--bcf-version 2.1|3.0] [--language en|zh] [--model MODEL.ifc] [--only ID ...]\n"
+        "                   [--json] [--quiet]\n"
         "       aadm report JOB.toml --scan-card [--out DIR] [--only ID ...]"
     )
     parser.add_argument("report", type=Path, metavar="REPORT.json", help="the report of a check, or a job (JOB.toml)")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder of the files (default: that of REPORT.json)")
     add_format_switches(parser)
+    parser.add_argument(
+        "--model", type=Path, metavar="MODEL.ifc", help="of a job with [stack]: heights and beams for the tower"
+    )
     parser.add_argument("--only", nargs="+", action="extend", default=[], metavar="ID", help="these columns only")
     add_switches(parser, prints_json="which files were written")
     parser.set_defaults(run=run)
@@ -50,21 +56,25 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write the reports that were asked for."""
-    is_job = options.report.suffix.lower() == ".toml"
-    files = _cards_of_job(options) if is_job else _reports(options)
-    _say(files, options)
-    return ALL_PASS
+    if options.report.suffix.lower() == ".toml":
+        _say(_cards_of_job(options), options)
+        return ALL_PASS
+    written = _reports(options)
+    _say(written.files, options)
+    written.say(options)
+    return INTERNAL if written.failed else ALL_PASS
 
 
-def _reports(options: argparse.Namespace) -> dict[str, Path]:
+def _reports(options: argparse.Namespace) -> Written:
     from aadm_workbench.report.read import read_report
 
-    from ..report_files import write_reports
+    from ..report_files import HowReports, write_reports
 
     formats = chosen_formats(options) or ("html",)
     require_packages(formats)
     report = only_columns(read_report(options.report), options.only, options.report)
-    return write_reports(report, formats, _folder(options, options.report.parent), options.language)
+    folder = _folder(options, options.report.parent)
+    return write_reports(report, formats, folder, HowReports.asked(options, options.model))
 
 
 def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
@@ -75,10 +85,7 @@ def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
     from ..report_files import FORMATS
 
     if chosen_formats(options) != ("scan_card",):
-        raise JobError(
-            f"{options.report}: of a job only --scan-card can be made; check it first (aadm check {options.report}), "
-            "then name its report.json"
-        )
+        raise JobError.because("command.report_of_job", file=options.report, job=options.report)
     require_packages(("scan_card",))
     from aadm_workbench.report.pages.scan_card_page import write_scan_cards
 
@@ -101,7 +108,7 @@ def only_columns(report: JobReport, ids: list[str], source: Path) -> JobReport:
     known = [column.id for column in report.columns]
     for name in ids:
         if name not in known:
-            raise ReportError(f'{source} has no column "{name}" (--only); {did_you_mean(name, known)}')
+            raise ReportError.because("command.no_such_column", job=source, name=name, meant=did_you_mean(name, known))
     return replace(report, columns=tuple(column for column in report.columns if not ids or column.id in ids))
 
 
@@ -112,7 +119,7 @@ def _folder(options: argparse.Namespace, otherwise: Path) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise ReportError(f"{folder}: the folder for the reports cannot be made ({error.strerror})") from error
+        raise ReportError.because("command.no_report_folder", folder=folder, why=error.strerror) from error
     return folder
 
 
@@ -142,9 +149,10 @@ def job_cards(job: Job, only: Sequence[str] = ()) -> list[ScanCard]:
     from aadm_workbench.report.pages.scan_card import CardDesign, design_cards
 
     designs = []
-    for task in plan_job(job, only=only).tasks:
+    plan = plan_job(job, only=only)
+    for task in plan.tasks:
         if task.design is None:
             raise DesignError(task.no_design)
         column = task.column
         designs.append(CardDesign(column.id, task.design, column.sleeves_up_deg, column.rebars_up_deg))
-    return design_cards(designs, job.camera)
+    return design_cards(designs, job.camera, () if plan.model is None else plan.model.grid)

@@ -12,17 +12,16 @@ checked, or of --job. Beams and heights come from --model.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..exit_codes import UNDECIDED, exit_code_of
 from ..switches import add_switches
+from ..tower_plan import PROFILE, planned
 
 if TYPE_CHECKING:
-    from rich.table import Table
-
-    from aadm_workbench.model import JobReport, Profile, StackSettings
+    from aadm_workbench.model import JobReport, StackSettings
     from aadm_workbench.stack.result import StackPlan
 
 EXAMPLE = """\
@@ -31,9 +30,6 @@ examples:
   aadm stack floor2-report/report.json floor3-report/report.json --model tower.ifc --html
   aadm stack floor3-report/report.json --job floor3.toml --json > stack.json
   aadm stack floor3-report/report.json --model floor3.ifc --write-ifc floor3-set.ifc"""
-
-PROFILE = "cn-gbt51231-2016"
-"""The profile with limits of erected members; the usual one of a check has none of them."""
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -50,7 +46,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--html", action="store_true", help="write stack.html: plan, beams, a page for setting-out")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder of stack.html (default: of the first report)")
     parser.add_argument(
-        "--language", choices=("en", "zh"), default="en", metavar="LANGUAGE", help="en or zh: of the page"
+        "--language",
+        choices=("en", "zh"),
+        default="en",
+        metavar="LANGUAGE",
+        help="en or zh: of tables, page and errors",
     )
     parser.add_argument(
         "--write-ifc", type=Path, metavar="FILE", help="write a copy of the model with the check's results and the plan"
@@ -63,11 +63,13 @@ def run(options: argparse.Namespace) -> int:
     """Plan the tower; the exit code is that of the worst verdict on tops and beams."""
     from aadm_workbench.assembly.tolerances import load_profile
     from aadm_workbench.report.read import read_report
+    from aadm_workbench.report.words.labels import phrase
 
+    from ..shown.stack_tables import stack_tables
     from ..shown.terminal import show, show_json
 
     reports = [read_report(path) for path in options.reports]
-    plan = _planned(reports, options, load_profile(options.tolerances))
+    plan = planned(reports, _settings(options.job, reports), load_profile(options.tolerances), options.model)
     written = [_page(plan, options)] if options.html else []
     if options.write_ifc is not None:
         written.append(_model(plan, reports, options))
@@ -77,23 +79,9 @@ def run(options: argparse.Namespace) -> int:
 
         show_json(encode(stack_document(plan)))
     elif not options.quiet:
-        show(*_shown(plan), *(f"Written: {path}" for path in written))
+        done = phrase("stack.written").in_language(options.language)
+        show(*stack_tables(plan, options.language), *(f"{done} {path}" for path in written))
     return _exit_code(plan)
-
-
-def _planned(reports: Sequence[JobReport], options: argparse.Namespace, profile: Profile) -> StackPlan:
-    from aadm_workbench.inspection.as_designed import unforeseen_in
-    from aadm_workbench.stack.measured import measured_floor
-    from aadm_workbench.stack.plan import plan_stack
-
-    floors = [measured_floor(report) for report in reports]
-    floor = None
-    if options.model is not None:
-        from aadm_workbench.design.ifc.floor import read_floor
-
-        with unforeseen_in(str(options.model)):
-            floor = read_floor(options.model)
-    return plan_stack(floors, _settings(options.job, reports), profile, floor)
 
 
 def _settings(job: Path | None, reports: Sequence[JobReport]) -> StackSettings:
@@ -104,7 +92,7 @@ def _settings(job: Path | None, reports: Sequence[JobReport]) -> StackSettings:
     from ..job.stack import carried_settings
 
     if job is not None:
-        return read_job(job).stack
+        return read_job(job).stack or StackSettings()
     carried = [found for report in reports if (found := carried_settings(report.job)) is not None]
     return carried[-1] if carried else StackSettings()
 
@@ -127,7 +115,7 @@ def _model(plan: StackPlan, reports: Sequence[JobReport], options: argparse.Name
     from ..model_results import write_results
 
     if options.model is None or len(reports) != 1:
-        raise ReportError("--write-ifc writes one report into its model: name one REPORT.json and --model")
+        raise ReportError.because("command.stack_write")
     folder: Path = options.reports[0].parent
     done = write_results(reports[0], folder, options.model, options.write_ifc, setting=setting_properties(plan))
     return done.out
@@ -138,9 +126,3 @@ def _exit_code(plan: StackPlan) -> int:
 
     counted = [verdict for verdict in plan.verdicts if verdict is not Verdict.NOT_ASSESSED]
     return exit_code_of(counted) if counted else UNDECIDED
-
-
-def _shown(plan: StackPlan) -> Iterator[Table | str]:
-    from ..shown.stack_tables import stack_tables
-
-    yield from stack_tables(plan)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..exit_codes import ALL_PASS
-from ..job.command import METHODS
+from ..job.command import METHODS, SCAN_METHODS
 from ..study_loop import add_loop_study
 from ..switches import add_switches, whole_number
 
@@ -102,7 +102,7 @@ def _prepare(options: argparse.Namespace) -> None:
     from aadm_workbench.errors import AadmError, MissingDependencyError, install_of
 
     if options.seed < 0:
-        raise AadmError(f"--seed must not be below zero, it is {options.seed}")
+        raise AadmError.because("command.seed_below_zero", seed=options.seed)
     for package in (*_PACKAGES, *(() if options.out is None else ("matplotlib",))):
         if find_spec(package) is None:
             needed_for = "A plot" if package == "matplotlib" else "The virtual camera"
@@ -111,7 +111,7 @@ def _prepare(options: argparse.Namespace) -> None:
         try:
             options.out.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise AadmError(f"{options.out}: the folder cannot be made ({error.strerror})") from error
+            raise AadmError.because("command.no_folder", folder=options.out, why=error.strerror) from error
 
 
 def _encoded(study: MethodStudy, *, quick: bool) -> bytes:
@@ -161,9 +161,14 @@ def _add_hoisting_studies(kinds: Any) -> None:
             "--scenes", type=whole_number, default=5, metavar="N", help="random scenes of each cell (default: 5)"
         )
         parser.add_argument("--seed", type=int, default=0, metavar="S", help="another seed, other scenes (default: 0)")
-        default = METHODS if name == "conditions" else METHODS[:2]
+        default = SCAN_METHODS if name == "conditions" else SCAN_METHODS[:2]
         parser.add_argument(
-            "--methods", nargs="+", choices=METHODS, default=list(default), metavar="M", help=f"of {', '.join(METHODS)}"
+            "--methods",
+            nargs="+",
+            choices=SCAN_METHODS,
+            default=list(default),
+            metavar="M",
+            help=f"of {', '.join(SCAN_METHODS)}",
         )
         parser.add_argument("--out", type=Path, metavar="DIR", help="folder for summary.json and plots")
         add_switches(parser, prints_json="the numbers")

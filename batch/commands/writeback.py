@@ -71,7 +71,7 @@ def _write(options: argparse.Namespace) -> WriteBack:
     from ..model_results import write_results
 
     if options.model is None:
-        raise ReportError(f"{options.report}: name the report and the model: aadm writeback REPORT.json MODEL.ifc")
+        raise ReportError.because("command.writeback_of_what", file=options.report)
     out = options.model if options.in_place else options.out or _beside(options.model, "checked")
     return write_results(read_report(options.report), options.report.parent, options.model, out, force=options.force)
 
@@ -84,7 +84,8 @@ def _remove(options: argparse.Namespace) -> WriteBack:
 
 
 def _beside(model: Path, suffix: str) -> Path:
-    return model.with_name(f"{model.stem}-{suffix}.ifc")
+    """``floor3-checked.ifc`` beside ``floor3.ifc``, and ``floor3-restored.ifc`` beside that."""
+    return model.with_name(f"{model.stem.removesuffix('-checked')}-{suffix}.ifc")
 
 
 def _show(done: WriteBack, options: argparse.Namespace) -> None:

@@ -34,9 +34,9 @@ def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColu
     """
     tables = top.tables("columns", "[[columns]]")
     if not tables:
-        raise top.wrong("columns", 'the job has no columns; add [[columns]] with id = "..." and its scans')
+        raise top.wrong("columns", "jobfile.no_columns")
     if len(tables) > MOST_COLUMNS:
-        raise top.wrong("columns", f"the job has {len(tables)} columns, {MOST_COLUMNS} are the most; split it")
+        raise top.wrong("columns", "jobfile.many_columns", count=len(tables), most=MOST_COLUMNS)
     columns: list[JobColumn] = []
     known: dict[str, JobTable] = {}
     for table in tables:
@@ -44,7 +44,7 @@ def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColu
         earlier = known.setdefault(column.id, table)
         if earlier is not table:
             line = earlier.lines.get((*earlier.at, "id"), 1)
-            raise table.wrong("id", f'two columns have the id "{column.id}": the other stands in line {line}')
+            raise table.wrong("id", "jobfile.same_id", id=column.id, line=line)
         columns.append(column)
     return tuple(columns)
 
@@ -54,16 +54,13 @@ def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
     table.require("id", 'id = "...", its Name, Tag, Mark, PieceMark or GlobalId in the model')
     name = table.text("id") or ""
     if len(name) > LONGEST_ID:
-        raise table.wrong(
-            "id", f"the id has {len(name)} characters, {LONGEST_ID} are the most; call the column shorter"
-        )
+        raise table.wrong("id", "jobfile.long_id", count=len(name), most=LONGEST_ID)
     up = up_deg(table, "up")
     sleeves_up, rebars_up = up_deg(table, "sleeves_up"), up_deg(table, "rebars_up")
     hoisting, hoisting_near = read_frames(table)
     design = _design(table, name)
     if design is None and not has_model:
-        message = f"column {name} has no design: add [columns.design] to it, or [model] with a path to the job"
-        raise table.wrong(None, message)
+        raise table.wrong(None, "jobfile.no_design", name=name)
     return JobColumn(
         id=name,
         sleeves=table.paths("sleeves"),
@@ -108,4 +105,4 @@ def _design(column: JobTable, name: str) -> ColumnDesign | None:
     try:
         return inline_design(name, dict(table.values))
     except DesignError as error:
-        raise table.wrong(None, error.reason) from error
+        raise table.wrong(None, "said.sentences", parts=(error.reason,)) from error

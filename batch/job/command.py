@@ -12,7 +12,10 @@ if TYPE_CHECKING:
     from ..runner.cluster import Certificates
     from ..runner.pools import PoolOptions
 
-METHODS = ("refined", "fusion", "pointcloud", "image")
+METHODS = ("refined", "fusion", "pointcloud", "image", "corners")
+BY_DESIGN = ("corners",)
+"""These need a design: they find nothing in a scan alone, and nothing of a column that hangs."""
+SCAN_METHODS = tuple(method for method in METHODS if method not in BY_DESIGN)
 
 
 def add_job_arguments(
@@ -106,9 +109,9 @@ def _certificates(options: argparse.Namespace) -> Certificates | None:
     if options.tls_ca is None and options.tls_cert is None and options.tls_key is None:
         return None
     if options.scheduler is None:
-        raise JobError("--tls-ca, --tls-cert and --tls-key go with --scheduler; workers of this machine need none")
+        raise JobError.because("command.tls_without_scheduler")
     if options.tls_ca is None or options.tls_cert is None:
-        raise JobError("--tls-ca and --tls-cert go together: whom to trust, and what to be trusted by")
+        raise JobError.because("command.tls_halved")
     from ..runner.cluster import Certificates
 
     return Certificates(options.tls_ca, options.tls_cert, options.tls_key)
@@ -121,9 +124,9 @@ def report_folder(options: argparse.Namespace) -> Path:
     folder: Path = options.out or options.job.with_name(f"{options.job.stem}-report")
     if options.out is None and folder.is_symlink():
         # Whoever sent the job may have sent the link along.
-        raise JobError(f"{folder}: is a symbolic link; where it leads may be meant, then say so with --out")
+        raise JobError.because("command.folder_is_link", folder=folder)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise JobError(f"{folder}: the folder for the reports cannot be made ({error.strerror})") from error
+        raise JobError.because("command.no_report_folder", folder=folder, why=error.strerror) from error
     return folder

@@ -30,14 +30,14 @@ def read_control_points(column: JobTable, *, units: str, has_own_design: bool) -
     if not tables:
         return ()
     if not column.values.get("rebars"):
-        raise column.wrong("control_points", "control points are measured in the scan of the rebars: name that scan")
+        raise column.wrong("control_points", "jobfile.control_scan")
     if len(tables) < _FEWEST:
-        raise column.wrong("control_points", "one control point gives no position: add two more that span a triangle")
+        raise column.wrong("control_points", "jobfile.one_control_point")
     points: list[ControlPoint] = []
     for table in tables:
         point = _control_point(table, MM_PER_UNIT[units], has_own_design)
         if any(other.name == point.name for other in points):
-            raise table.wrong("name", f'two control points have the name "{point.name}"')
+            raise table.wrong("name", "jobfile.control_twice", name=point.name)
         points.append(point)
     return tuple(points)
 
@@ -48,11 +48,9 @@ def _control_point(table: JobTable, mm_per_unit: float, has_own_design: bool) ->
     table.require("scan", "scan = [x, y, z], in the frame and the unit of the scan of the rebars")
     name, in_model = table.text("name") or "", "model" in table.values
     if in_model == ("column" in table.values):
-        message = f"control point {name} must have either model or column = [x, y, z] in mm: where it is known to be"
-        raise table.wrong(None, message)
+        raise table.wrong(None, "jobfile.control_where", name=name)
     if in_model and has_own_design:
-        message = f"control point {name}: this column has its own design and no model; give column = [x, y, z] in mm"
-        raise table.wrong("model", message)
+        raise table.wrong("model", "jobfile.control_no_model", name=name)
     known = _vector(table, "model" if in_model else "column", 1.0)
     return ControlPoint(name, known, _vector(table, "scan", mm_per_unit), in_model, table.length("u_mm"))
 

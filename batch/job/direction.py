@@ -24,7 +24,7 @@ def up_deg(table: JobTable, key: str) -> float | None:
         return UP_DEG[value]
     if is_finite_number(value):
         return float(value)
-    raise table.wrong(key, f'{key} must be "+x", "-x", "+y", "-y" or a number of degrees from +x, it is {value!r}')
+    raise table.wrong(key, "jobfile.direction", shown=repr(value))
 
 
 def near_corner(table: JobTable) -> tuple[int, int] | None:
@@ -33,8 +33,8 @@ def near_corner(table: JobTable) -> tuple[int, int] | None:
     if value is None:
         return None
     if not isinstance(value, str) or value not in NEAR:
-        listed = ", ".join(f'"{corner}"' for corner in NEAR)
-        raise table.wrong("near", f"near must be one of the corners {listed}, it is {value!r}")
+        listed = [f'"{corner}"' for corner in NEAR]
+        raise table.wrong("near", "jobfile.corner", listed=listed, shown=repr(value))
     return NEAR[value]
 
 
@@ -62,7 +62,7 @@ def _frame(table: JobTable, entry: Any, index: int) -> JobTable:
     values = {"file": entry} if isinstance(entry, str) else entry
     if not isinstance(values, Mapping):
         raise table.wrong(
-            "hoisting", f'hoisting must hold files or {{file = "…", near = "-x-y"}}, not {entry!r}', index
+            "hoisting", "jobfile.hoisting", index, example='{file = "…", near = "-x-y"}', shown=repr(entry)
         )
     frame = JobTable(values, (*table.at, "hoisting", index), "a frame of hoisting", table.source, table.lines)
     frame.allow(("file", "near"))

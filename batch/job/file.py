@@ -14,14 +14,14 @@ from typing import Literal, cast
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.errors import CameraError, JobError, ScanError
 from aadm_workbench.inspection.job import Job, JobModel
-from aadm_workbench.model import Camera, Profile
+from aadm_workbench.model import Camera, CameraProfile, Profile
 from aadm_workbench.scan.file import load
 
 from ..shown.printable import steering_character
 from .columns import read_columns
 from .lines import lines_of
 from .stack import read_stack
-from .table import WINDOWS_PATHS, JobTable
+from .table import JobTable
 
 LARGEST_JOB_BYTES = 16 * 2**20
 """A job of a thousand columns with designs of their own takes a megabyte."""
@@ -45,7 +45,7 @@ _TOP = (
     "columns",
 )
 _MODEL = ("path", "columns", "sleeves", "rebars", "units")
-_CAMERA = ("fx", "fy", "cx", "cy", "width", "height", "depth_scale_mm", "scale_error")
+_CAMERA = ("fx", "fy", "cx", "cy", "width", "height", "depth_scale_mm", "scale_error", "profile")
 _CAPTURE = ("date", "operator", "camera_serial", "calibration", "settings")
 
 
@@ -63,6 +63,7 @@ def read_job(path: Path) -> Job:
     top.allow(_TOP)
     _check_schema(top)
     camera, depth_scale_mm = _camera(top)
+    learned = _camera_profile(top, path.parent)
     model, units = _model(top), top.one_of("units", ("mm", "m"), "mm")
     return Job(
         source=str(path),
@@ -80,6 +81,7 @@ def read_job(path: Path) -> Job:
         columns=(columns := read_columns(top, units=units, has_model=model is not None)),
         capture=_capture(top),
         stack=read_stack(top),
+        camera_profile=learned,
         lines={column.id: top.line("columns", place, "id") for place, column in enumerate(columns)},
     )
 
@@ -89,10 +91,10 @@ def _content(path: Path) -> bytes:
         content = load(path, str(path)).content
     except ScanError as error:
         if isinstance(error.__cause__, FileNotFoundError):
-            raise JobError(f"{path}: there is no such job file") from error
-        raise JobError(f"the job file cannot be read: {error}") from error
+            raise JobError.because("jobfile.no_file", file=path) from error
+        raise JobError.because("jobfile.unreadable", error=error) from error
     if len(content) > LARGEST_JOB_BYTES:
-        raise JobError(f"{path}: has {len(content)} bytes, {LARGEST_JOB_BYTES} are the most; split the job")
+        raise JobError.because("jobfile.too_large", file=path, size=len(content), most=LARGEST_JOB_BYTES)
     return content
 
 
@@ -102,27 +104,24 @@ def _parsed(content: bytes, source: str) -> JobTable:
         text = content.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
-        raise JobError(f"{source}, line {line}: this is not UTF-8 text; save the job as UTF-8") from error
+        raise JobError.because("jobfile.not_utf8", file=source, line=line) from error
     _check_keys(text, source)
     try:
         values = tomllib.loads(text)
     except RecursionError as error:
-        raise JobError(f"{source}: is nested deeper than any job; write it anew") from error
+        raise JobError.because("jobfile.too_deep", file=source) from error
     except ValueError as error:
         place = re.search(r"\(at line (\d+), column \d+\)", str(error))
         line = int(place[1]) if place else text.count("\n") + 1
         what = re.sub(r"\s*\(at [^)]*\)$", "", str(error))
-        raise JobError(f"{source}, line {line}: this is no TOML: {what}{_about_backslashes(text, line)}") from error
+        escaped = "\\" in text.split("\n")[line - 1]  # a path of Windows, in which TOML takes backslashes for its own
+        code = "jobfile.no_toml.backslashes" if escaped else "jobfile.no_toml"
+        raise JobError.because(code, file=source, line=line, what=what) from error
     try:
         lines = lines_of(text)
     except RecursionError as error:
-        raise JobError(f"{source}: is nested deeper than any job; write it anew") from error
+        raise JobError.because("jobfile.too_deep", file=source) from error
     return JobTable(values, (), "the job", source, lines)
-
-
-def _about_backslashes(text: str, line: int) -> str:
-    """What to do about a path of Windows in double quotes, in which TOML takes backslashes for signs of its own."""
-    return f"; {WINDOWS_PATHS}" if "\\" in text.split("\n")[line - 1] else ""
 
 
 def _check_keys(text: str, source: str) -> None:
@@ -133,14 +132,14 @@ def _check_keys(text: str, source: str) -> None:
         pieces = line.split("=")
         for piece in pieces[:-1] or pieces:
             if "," not in piece and len(_DOTTED.findall(piece)) > _MOST_PARTS_OF_A_KEY:
-                raise JobError(f"{source}, line {number}: is nested deeper than any job; write it anew")
+                raise JobError.because("jobfile.too_deep_line", file=source, line=number)
 
 
 def _check_schema(top: JobTable) -> None:
     top.require("schema", "schema = 1 as its first line")
     schema = top.values["schema"]
     if isinstance(schema, bool) or schema != 1:
-        raise top.wrong("schema", f"schema must be 1, it is {schema!r}; another one needs another version of aadm")
+        raise top.wrong("schema", "jobfile.schema", shown=repr(schema))
 
 
 def _profile(top: JobTable, folder: Path) -> Profile:
@@ -148,7 +147,7 @@ def _profile(top: JobTable, folder: Path) -> Profile:
     try:
         return load_profile(name, folder)
     except JobError as error:
-        raise top.wrong("tolerances", str(error)) from error
+        raise top.wrong("tolerances", "said.sentences", parts=(error.reason,)) from error
 
 
 def _checks(top: JobTable) -> tuple[str, ...] | None:
@@ -156,9 +155,9 @@ def _checks(top: JobTable) -> tuple[str, ...] | None:
     for index, check in enumerate(checks):
         if check not in CHECKS:
             listed = ", ".join(f'"{known}"' for known in CHECKS)
-            raise top.wrong("checks", f'checks holds "{check}"; it may hold {listed}', index)
+            raise top.wrong("checks", "jobfile.unknown_check", index, check=check, listed=listed)
         if check in checks[:index]:
-            raise top.wrong("checks", f'checks holds "{check}" twice', index)
+            raise top.wrong("checks", "jobfile.check_twice", index, check=check)
     return tuple(check for check in CHECKS if check in checks) or None
 
 
@@ -182,18 +181,34 @@ def _camera(top: JobTable) -> tuple[Camera | None, float | None]:
     from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
 
     table.allow(_CAMERA)
+    if table.text("profile") is not None and not any(key in table.values for key in _CAMERA[:6]):
+        return None, table.length("depth_scale_mm")
     for key in _CAMERA[:6]:
         table.require(key, f"{key} = ...; the six intrinsics belong together")
     scale_error = table.number("scale_error")
     if scale_error is not None and scale_error < 0.0:
-        raise table.wrong("scale_error", f"scale_error must not be below zero, it is {scale_error:g}")
+        raise table.wrong("scale_error", "jobfile.scale_error", value=scale_error)
     fx, fy, cx, cy = (table.length(key) for key in _CAMERA[:4])
     width, height = (table.count(key) for key in _CAMERA[4:6])
     found = Intrinsics("", fx, fy, cx, cy, width, height, Camera.scale_error if scale_error is None else scale_error)
     try:
         return checked_camera(found), table.length("depth_scale_mm")
     except CameraError as error:
-        raise table.wrong(None, f"[camera] {error}") from error
+        raise table.wrong(None, "jobfile.camera", why=error) from error
+
+
+def _camera_profile(top: JobTable, folder: Path) -> CameraProfile | None:
+    """What was learned of the camera, where the job names its file."""
+    table = top.table("camera", "[camera]")
+    name = None if table is None else table.path("profile")
+    if table is None or name is None:
+        return None
+    from aadm_workbench.scan.camera_profile import read_profile
+
+    try:
+        return read_profile(folder / name, name)
+    except (CameraError, ScanError) as error:
+        raise table.wrong("profile", "said.sentences", parts=(error.reason,)) from error
 
 
 def _capture(top: JobTable) -> dict[str, str]:
@@ -206,8 +221,8 @@ def _capture(top: JobTable) -> dict[str, str]:
         # A date may stand without quotes, and "" is a form that nobody has filled in.
         is_text = isinstance(value, str) or (key == "date" and hasattr(value, "isoformat"))
         if not is_text:
-            raise table.wrong(key, f"{key} must be text in quotes, it is {value!r}")
+            raise table.wrong(key, "jobfile.not_text", shown=repr(value))
         if (sign := steering_character(str(value), but="\n\t")) is not None:
-            raise table.wrong(key, f"{key} holds the control character {sign}; take it out")
+            raise table.wrong(key, "jobfile.control_character.plain", sign=sign)
         kept[key] = str(value)
     return kept

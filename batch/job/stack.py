@@ -17,8 +17,8 @@ LARGEST_SET_POSE = 20.0
 STACK = (*_LENGTHS, "braced", "height_mm")
 
 
-def read_stack(top: JobTable) -> StackSettings:
-    """The settings of a job; the usual ones where it has none.
+def read_stack(top: JobTable) -> StackSettings | None:
+    """The settings of a job, the usual ones where its table leaves them out; None where it has no such table.
 
     Raises
     ------
@@ -26,9 +26,9 @@ def read_stack(top: JobTable) -> StackSettings:
         For keys that are not known and values that are none.
     """
     table = top.table("stack", "[stack]")
-    usual = StackSettings()
     if table is None:
-        return usual
+        return None
+    usual = StackSettings()
     table.allow(STACK)
     lengths = {key: table.length(key) for key in _LENGTHS}
     return StackSettings(
@@ -44,8 +44,7 @@ def read_set_pose(column: JobTable) -> Vector3 | None:
     if not pose:
         return None
     if max(abs(value) for value in pose) > LARGEST_SET_POSE:
-        message = f"set_pose must lie within ±{LARGEST_SET_POSE:g} mm and degrees: no play is as large"
-        raise column.wrong("set_pose", message)
+        raise column.wrong("set_pose", "jobfile.set_pose", most=LARGEST_SET_POSE)
     dx, dy, yaw_deg = pose
     return dx, dy, yaw_deg
 
@@ -64,5 +63,5 @@ def carried_settings(job: Mapping[str, str]) -> StackSettings | None:
     try:
         values = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise JobError(f"{source}: is no TOML ({error}); repeat the check") from error
+        raise JobError.because("jobfile.report_no_toml", file=source, error=error) from error
     return read_stack(JobTable({"stack": values}, (), "the job", source, {}))

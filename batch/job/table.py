@@ -14,9 +14,6 @@ from aadm_workbench.errors import JobError, did_you_mean
 from ..shown.printable import steering_character
 from .lines import KeyPath
 
-WINDOWS_PATHS = "write paths of Windows with / or in single quotes"
-"""Said of backslashes in double quotes, which TOML takes for signs of its own."""
-
 LONGEST_TEXT = 4096
 """Longest path that Linux takes."""
 
@@ -62,12 +59,15 @@ class JobTable:
     source: str
     lines: Mapping[KeyPath, int]
 
-    def wrong(self, key: str | None, message: str, *index: int) -> JobError:
-        """The error about a key, about an element of its array, or about the table itself."""
+    def wrong(self, key: str | None, code: str, *index: int, **values: object) -> JobError:
+        """The error about a key, about an element of its array, or about the table itself; ``code`` of its sentence."""
         path: KeyPath = self.at if key is None else (*self.at, key, *index)
         while path and path not in self.lines:
             path = path[:-1]
-        return JobError(f"{self.source}, line {self.lines.get(path, 1)}: {message}")
+        from aadm_workbench.model.reason import Reason  # not before it is needed: it loads numpy
+
+        what = Reason(code, **{"key": key, **values})
+        return JobError.because("jobfile.at_line", file=self.source, line=self.lines.get(path, 1), what=what)
 
     def paths(self, key: str) -> tuple[str, ...]:
         """One path or a list of paths, as this system writes them; empty where the key is absent."""
@@ -87,12 +87,12 @@ class JobTable:
         known = tuple(known)
         for key in self.values:
             if key not in known:
-                raise self.wrong(key, f'unknown key "{key}" in {self.called}; {did_you_mean(key, known)}')
+                raise self.wrong(key, "jobfile.unknown_key", table=self.called, meant=did_you_mean(key, known))
 
     def require(self, key: str, what: str) -> None:
         """Refuse a table that lacks a key; ``what`` is an example or says what it holds."""
         if key not in self.values:
-            raise self.wrong(None, f"{self.called} has no {key}; add {what}")
+            raise self.wrong(None, "jobfile.lacks", table=self.called, lacking=key, what=what)
 
     def text(self, key: str) -> str | None:
         """A text that is not empty; None where the key is absent."""
@@ -100,9 +100,9 @@ class JobTable:
         if value is None:
             return None
         if not isinstance(value, str):
-            raise self.wrong(key, f"{key} must be text in quotes, it is {_shown(value)}")
+            raise self.wrong(key, "jobfile.not_text", shown=_shown(value))
         if not value.strip():
-            raise self.wrong(key, f"{key} is empty")
+            raise self.wrong(key, "jobfile.empty_text")
         self._check_plain(key, value)
         return value
 
@@ -112,15 +112,16 @@ class JobTable:
         if value is None:
             return default
         if value not in choices:
-            listed = " or ".join(f'"{choice}"' for choice in choices)
-            raise self.wrong(key, f"{key} must be {listed}, it is {_shown(value)}")
+            raise self.wrong(
+                key, "jobfile.not_one_of", choices=[f'"{choice}"' for choice in choices], shown=_shown(value)
+            )
         return value
 
     def flag(self, key: str, default: bool) -> bool:
         """True or false."""
         value = self.values.get(key, default)
         if not isinstance(value, bool):
-            raise self.wrong(key, f"{key} must be true or false, it is {_shown(value)}")
+            raise self.wrong(key, "jobfile.not_boolean", shown=_shown(value))
         return value
 
     def number(self, key: str) -> float | None:
@@ -132,14 +133,14 @@ class JobTable:
         """A number above zero; None where the key is absent."""
         value = self.number(key)
         if value is not None and value <= 0.0:
-            raise self.wrong(key, f"{key} must be above zero, it is {value:g}")
+            raise self.wrong(key, "jobfile.not_above_zero", value=value)
         return value
 
     def count(self, key: str) -> int | None:
         """A whole number above zero; None where the key is absent."""
         value = self.values.get(key)
         if value is not None and (isinstance(value, bool) or not isinstance(value, int) or value <= 0):
-            raise self.wrong(key, f"{key} must be a whole number above zero, it is {_shown(value)}")
+            raise self.wrong(key, "jobfile.not_whole", shown=_shown(value))
         return value
 
     def numbers(self, key: str, how_many: int) -> tuple[float, ...]:
@@ -153,7 +154,7 @@ class JobTable:
         """Check that a key, where present, is a list of lists of so many finite numbers."""
         value = self.values.get(key, [])
         if not isinstance(value, list):
-            raise self.wrong(key, f"{key} must be a list of lists, it is {_shown(value)}")
+            raise self.wrong(key, "jobfile.not_lists", shown=_shown(value))
         for index, item in enumerate(value):
             self._numbers(key, item, how_many, index)
 
@@ -165,13 +166,13 @@ class JobTable:
         if or_one and isinstance(value, str):
             return (self.text(key) or "",)
         if not isinstance(value, list):
-            wanted = "text in quotes or a list of texts" if or_one else "a list of texts"
-            raise self.wrong(key, f"{key} must be {wanted}, it is {_shown(value)}")
+            code = "jobfile.not_text_or_list" if or_one else "jobfile.not_list"
+            raise self.wrong(key, code, shown=_shown(value))
         if not value:
-            raise self.wrong(key, f"{key} is an empty list; leave the key out, or name something")
+            raise self.wrong(key, "jobfile.empty_list")
         for index, item in enumerate(value):
             if not isinstance(item, str) or not item.strip():
-                raise self.wrong(key, f"{key} must hold texts in quotes, one is {_shown(item)}", index)
+                raise self.wrong(key, "jobfile.holds_no_text", index, shown=_shown(item))
             self._check_plain(key, item, index)
         return tuple(value)
 
@@ -181,14 +182,14 @@ class JobTable:
         if value is None:
             return None
         if not isinstance(value, dict):
-            raise self.wrong(key, f"{key} must be a table {called}, it is {_shown(value)}")
+            raise self.wrong(key, "jobfile.not_table", called=called, shown=_shown(value))
         return JobTable(value, (*self.at, key), called, self.source, self.lines)
 
     def tables(self, key: str, called: str) -> tuple[JobTable, ...]:
         """The tables of an array of tables."""
         value = self.values.get(key, [])
         if not isinstance(value, list) or not all(isinstance(item, dict) for item in value):
-            raise self.wrong(key, f"{key} must be written as {called}, a table each")
+            raise self.wrong(key, "jobfile.not_tables", called=called)
         return tuple(
             JobTable(item, (*self.at, key, index), called, self.source, self.lines) for index, item in enumerate(value)
         )
@@ -196,20 +197,19 @@ class JobTable:
     def _check_plain(self, key: str, value: str, *index: int) -> None:
         """Refuse what no name and no path holds: signs that steer a terminal, and endless ones."""
         if len(value) > LONGEST_TEXT:
-            raise self.wrong(key, f"{key} has {len(value)} characters, {LONGEST_TEXT} are the most", *index)
+            raise self.wrong(key, "jobfile.long_text", *index, count=len(value), most=LONGEST_TEXT)
         if (sign := steering_character(value)) is not None:
-            message = f"{key} holds the control character {sign}; take it out of the name, and {WINDOWS_PATHS}"
-            raise self.wrong(key, message, *index)
+            raise self.wrong(key, "jobfile.control_character", *index, sign=sign)
 
     def _number(self, key: str, value: Any, *index: int) -> float:
         if not is_finite_number(value):
-            raise self.wrong(key, f"{key} must be a number, it is {_shown(value)}", *index)
+            raise self.wrong(key, "jobfile.not_number", *index, shown=_shown(value))
         return float(value)
 
     def _numbers(self, key: str, value: Any, how_many: int, *index: int) -> None:
         if not isinstance(value, list) or len(value) != how_many:
             named = ", ".join("xyz"[:how_many])
-            raise self.wrong(key, f"{key} must hold {how_many} numbers [{named}], it is {_shown(value)}", *index)
+            raise self.wrong(key, "jobfile.how_many_numbers", *index, count=how_many, named=named, shown=_shown(value))
         for place, item in enumerate(value):
             self._number(key, item, *index, place)
 

@@ -13,11 +13,11 @@ from typing import Any, Protocol
 
 from .opcua import NAMESPACE
 
-_NAMES = ("Ready", "Sequence", "Dx_mm", "Dy_mm", "Yaw_deg", "Left_mm", "Reason")
+_NAMES = ("Ready", "Sequence", "Dx_mm", "Dy_mm", "Yaw_deg", "Left_mm", "Reason", "U_mm")
 _AGAIN_AFTER_S = 0.25  # two looks of the link: ready is then back, if it comes back
 _POLL_S = 0.05  # what controllers poll with
 _ANSWER_WITHIN_S = 30.0  # here the camera's light is calculated on the same machine, which then does little else
-_WORTH_MM, _WORTH_DEG = 0.8, 0.2  # a quarter of the limit; less is about what the crane can do
+_WORTH_MM, _WORTH_DEG = 1.2, 0.2  # 0.4 of the limit; what is nearer a slow swing leaves within it
 
 
 class Machine(Protocol):
@@ -37,12 +37,16 @@ class Machine(Protocol):
 
 @dataclass(frozen=True)
 class Reading:
-    """What was read at one time; numbers None where their quality is bad or uncertain."""
+    """What was read at one time; numbers None where their quality is bad or uncertain.
+
+    A move without ``u_mm`` is one from a place of which nobody knows yet whether the column swings through it.
+    """
 
     ready: bool
     sequence: int
     move: tuple[float, float, float] | None
     reason: str
+    u_mm: float | None = None
 
 
 class Controller:
@@ -74,16 +78,16 @@ class Controller:
                     again = await _read(client, nodes)
                     if again.sequence == reading.sequence:
                         self._acted = again.sequence
-                        self._say(_act(self._machine, again))
+                        self._say(act(self._machine, again))
                 await asyncio.sleep(_POLL_S)
 
 
-def _act(machine: Machine, reading: Reading) -> str:
+def act(machine: Machine, reading: Reading) -> str:
     """Do what a reading allows, once, and say what."""
     if reading.ready:
         machine.lower()
         return "controller: READY was read, the column is let down"
-    if reading.move is None or not _is_worth(reading.move):
+    if reading.move is None or reading.u_mm is None or not _is_worth(reading.move):
         machine.decided()
         return f"controller: waits ({reading.reason})"
     machine.move(*reading.move)
@@ -108,5 +112,6 @@ async def _read(client: Any, nodes: list[Any]) -> Reading:
     }
     numbers = [found["Dx_mm"], found["Dy_mm"], found["Yaw_deg"]]
     dx_mm, dy_mm, yaw_deg = (number if isinstance(number, float) else None for number in numbers)
+    u_mm = found["U_mm"] if isinstance(found["U_mm"], float) else None
     move = None if dx_mm is None or dy_mm is None or yaw_deg is None else (dx_mm, dy_mm, yaw_deg)
-    return Reading(found["Ready"] is True, int(found["Sequence"] or 0), move, str(found["Reason"] or ""))
+    return Reading(found["Ready"] is True, int(found["Sequence"] or 0), move, str(found["Reason"] or ""), u_mm)

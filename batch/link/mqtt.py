@@ -86,7 +86,11 @@ class MqttLink:
             refused.append(str(reason) if reason.is_failure else "")
             self._shown = b""  # while the link was lost, the broker has told the last will
 
-        client.on_connect = connected
+        def ended(_client: Any, _user: Any, _flags: Any, reason: Any, _properties: Any) -> None:
+            if not refused:  # TLS 1.3: a broker that knows no such certificate hangs up after the handshake
+                refused.append(str(reason))
+
+        client.on_connect, client.on_disconnect = connected, ended
         try:
             client.connect(self._host, self._port, _KEEPALIVE_S)
         except OSError as error:

@@ -74,7 +74,7 @@ def run_match(job: Job, options: RunOptions, started: Callable[[int], Callable[[
         settings, tasks = plan.settings, plan.tasks
         feet = sum(bool(task.column.sleeves) for task in tasks)
         if not feet or not any(task.column.rebars for task in tasks):
-            raise JobError(f"{job.source} has nothing to match: it needs scans of sleeves and scans of rebars")
+            raise JobError.because("command.nothing_to_match", job=job.source)
         finished = started(len(tasks))
         found: dict[int, MeasuredColumn] = {}
         with opened_pool(options.pool, tasks, None, read_for_shipping, lambda text: None) as pool:

@@ -79,7 +79,7 @@ def remote_cluster(
     dask = import_module("dask")
     security = None if certificates is None else _security(distributed, address, certificates)
     if security is None and address.startswith("tls://") and not dask.config.get("distributed.comm.tls.ca-file", None):
-        raise JobError(f"{address}: asks for certificates; name them with --tls-ca, --tls-cert and --tls-key")
+        raise JobError.because("run.tls_asked", address=address)
     with _messages_to(log), dask.config.set({"distributed.comm.retry.count": 2}):
         try:
             client = distributed.Client(address, timeout=_CONNECT_S, set_as_default=False, security=security)
@@ -101,10 +101,10 @@ def _security(distributed: Any, address: str, certificates: Certificates) -> Any
     """What Dask needs to know of certificates, once they were tried on the scheduler."""
     parts = urlsplit(address if "://" in address else f"tls://{address}")
     if parts.scheme != "tls":
-        raise JobError(f"{address}: certificates go with an address that begins with tls:// (--scheduler)")
+        raise JobError.because("run.tls_address", address=address)
     for file in (certificates.authority, certificates.certificate, certificates.key):
         if file is not None and not file.is_file():
-            raise JobError(f"{file}: there is no such file (--tls-ca, --tls-cert, --tls-key)")
+            raise JobError.because("run.tls_no_file", file=file)
     security = distributed.Security(
         require_encryption=True,
         tls_ca_file=str(certificates.authority),
@@ -116,7 +116,7 @@ def _security(distributed: Any, address: str, certificates: Certificates) -> Any
     except (OSError, ValueError) as error:
         names = ", ".join(str(file) for file in vars(certificates).values() if file is not None)
         reason = getattr(error, "reason", None) or error
-        raise JobError(f"{names}: cannot be used as authority, certificate and key in PEM format ({reason})") from error
+        raise JobError.because("run.tls_unusable", files=names, why=reason) from error
     _try_certificates(parts.hostname or "", parts.port, address, context)
     return security
 
@@ -127,14 +127,12 @@ def _try_certificates(host: str, port: int | None, address: str, context: ssl.SS
     Dask itself takes a refusal for a line that is bad, and tries again until its time is over.
     """
     if port is None:
-        raise JobError(f"{address}: names no port; an address is like tls://HOST:8786 (--scheduler)")
+        raise JobError.because("run.no_port", address=address)
     try:
         line = socket.create_connection((host, port), _CONNECT_S)
     except OSError as error:
         reason = error.strerror or type(error).__name__
-        raise JobError(
-            f"no scheduler of Dask answers at {address} ({reason}); start one with: dask scheduler"
-        ) from error
+        raise JobError.because("run.no_scheduler", address=address, why=reason) from error
     try:
         with line, context.wrap_socket(line, server_hostname=host) as secured:
             secured.recv(1)

@@ -226,16 +226,16 @@ class DaskPool:
         if any(worker.known for worker in self._workers.values()):
             self._alive = monotonic()
         elif self._workers and all(worker.refused for worker in self._workers.values()):
-            raise JobError(f"no worker can be used: {self._refusal}")
+            raise JobError.because("run.no_worker", why=self._refusal)
         elif monotonic() - self._alive > _LAST_WORKER_S:
-            raise AadmError(f"there has been no worker for {_LAST_WORKER_S:.0f} s; start one with: dask worker ADDRESS")
+            raise AadmError.because("run.no_worker_for", seconds=_LAST_WORKER_S)
         return ended
 
     def _addresses(self) -> set[str]:
         try:
             return set(self._client.scheduler_info(n_workers=-1)["workers"])
         except GONE as error:
-            raise AadmError("the scheduler of Dask is gone; look at its own messages") from error
+            raise AadmError.because("run.scheduler_gone") from error
 
     def _dropped(self, worker: _Worker) -> list[Ended]:
         """Forget a worker that died; its task, where it had one, died with it."""

@@ -122,7 +122,7 @@ class Journal:
             raise self._wrong(error) from error
         record = read_record(line)
         if record is None:
-            raise AadmError(f"{self.path}: was changed while it was written; check again without --resume")
+            raise AadmError.because("run.journal_changed", file=self.path)
         return record
 
     def finish(self) -> None:
@@ -191,7 +191,7 @@ class Journal:
                     return end
                 self._read_line(line, end)
                 end += len(line)
-        raise AadmError(f"{self.path}: has more than {MOST_LINES} lines, which no check writes; check without --resume")
+        raise AadmError.because("run.journal_long", file=self.path, most=MOST_LINES)
 
     def _read_line(self, line: bytes, place: int) -> None:
         record = read_record(line)
@@ -213,9 +213,9 @@ class Journal:
 
     def _wrong(self, error: OSError) -> AadmError:
         if isinstance(error, UnsafeFileError):
-            return AadmError(f"{self.path}: results cannot be kept there: {error.strerror}")
+            return AadmError.because("run.journal_refused", file=self.path, why=error.strerror)
         reason = error.strerror or type(error).__name__
-        return AadmError(f"{self.path}: the results so far cannot be kept ({reason}); make room or let it be written")
+        return AadmError.because("run.journal_full", file=self.path, why=reason)
 
 
 class Unkept:

@@ -150,7 +150,7 @@ class LocalPool:
             return []
         if isinstance(said, Failed):
             if place is None:
-                raise AadmError(f"no worker process can be started on this machine: {said.what}")
+                raise AadmError.because("run.no_process", why=said.what)
             return [Ended(place, death=Death(f"stopped ({said.what})"))]
         done: Done = said
         for line in done.written.splitlines():
@@ -160,7 +160,7 @@ class LocalPool:
     def _know(self, worker: _Worker, known: Introduction) -> None:
         against = objection(known, self._terms, ships=self._ship is not None)
         if against:
-            raise JobError(f"no worker can be used: {worker.name} gets no work: {against}")
+            raise JobError.because("run.worker_refused", name=worker.name, why=against)
         worker.known = known
         self._log(f"{worker.name}: process {known.pid} is ready")
 

@@ -82,7 +82,7 @@ class LocalWorkers:
             self._last_words = last_words(read_log(str(worker.log))) or self._last_words
         if self._false_starts > MOST_FALSE_STARTS:
             why = self._last_words or "each ended at once"
-            raise AadmError(f"no worker process can be started on this machine: {why}")
+            raise AadmError.because("run.no_process", why=why)
         while len(self.running) < self._processes:
             self._start()
 

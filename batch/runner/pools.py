@@ -173,7 +173,7 @@ def _scratch(stack: ExitStack, folder: Path | None) -> Path:
         scratch.mkdir(mode=0o700)
     except OSError as error:
         reason = f"cannot be made ({error.strerror}); remove what is there, or name another folder with --out"
-        raise AadmError(f"{scratch}: the folder of the workers {reason}") from error
+        raise AadmError.because("run.worker_folder", folder=scratch, why=reason) from error
     return scratch
 
 

@@ -240,7 +240,7 @@ class Events:
             try:
                 self._stream = Path(target).open("a", encoding="utf-8", errors="replace", buffering=1)  # noqa: SIM115
             except OSError as error:
-                raise JobError(f"{target}: events cannot be written there ({error.strerror})") from error
+                raise JobError.because("run.no_events", target=target, why=error.strerror) from error
 
     def send(self, event: str, **what: Any) -> None:
         """Write one event; a reader that has gone away is no reason to stop."""

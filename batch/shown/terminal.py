@@ -17,6 +17,7 @@ from rich.table import Table
 from rich.text import Text
 
 from aadm_workbench.model import Verdict
+from aadm_workbench.model.reason import Language, sentence
 
 from .printable import printable
 
@@ -34,15 +35,15 @@ _UNBOUNDED = 100_000
 """Width in characters of what is no terminal: no line is ever broken."""
 
 
-def verdict_text(verdict: Verdict) -> Text:
+def verdict_text(verdict: Verdict, language: Language = "en") -> Text:
     """A verdict as people read it: sign, word, colour."""
     sign, style = STYLE[verdict]
-    return Text(f"{sign} {in_words(verdict)}".strip(), style=style)
+    return Text(f"{sign} {in_words(verdict, language)}".strip(), style=style)
 
 
-def in_words(verdict: Verdict) -> str:
-    """``not measured``."""
-    return verdict.value.replace("_", " ")
+def in_words(verdict: Verdict, language: Language = "en") -> str:
+    """``not measured``, 未测得."""
+    return verdict.value.replace("_", " ") if language == "en" else sentence(f"words.{verdict.value}").zh
 
 
 def new_table(*headings: str, numbers: tuple[str, ...] = (), title: str | None = None) -> Table:

@@ -4,36 +4,43 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 from rich.table import Table
 from rich.text import Text
 
 from aadm_workbench.model import WORST_FIRST, ColumnReport, JobReport, SpacingResult, Verdict
+from aadm_workbench.model.reason import Language
+from aadm_workbench.report.sheets.numbers import signed
+from aadm_workbench.report.words.labels import Phrase, phrase
+from aadm_workbench.report.words.reasons import in_both_languages
 
 from .terminal import in_words, new_table, show, verdict_text
 
 
-def show_verdicts(report: JobReport, last_line: str) -> None:
-    """Show the table, what can be done, and how many columns came to what."""
-    advice = list(advice_lines(report))
-    show(verdict_table(report), "", *advice, *([""] if advice else []))
-    show(summary_line(report), last_line)
+def show_verdicts(report: JobReport, file: Path | None, language: Language = "en") -> None:
+    """Show the table, what can be done, how many columns came to what, and where the report is if it was written."""
+    advice = list(advice_lines(report, language))
+    show(verdict_table(report, language), "", *advice, *([""] if advice else []))
+    show(summary_line(report, language))
+    if file is not None:
+        show(phrase("shown.report", file=file).in_language(language))
 
 
-def verdict_table(report: JobReport) -> Table:
+def verdict_table(report: JobReport, language: Language = "en") -> Table:
     """Verdict, column, its worst point with deviation and limit, whether it goes on its bars, and why."""
-    table = new_table(
-        "Verdict", "Column", "Worst", "Deviation / limit", "Goes on", "Reason", numbers=("Deviation / limit",)
-    )
+    names = ("verdict", "column", "worst", "deviation_limit", "goes_on", "reason")
+    headings = [phrase(f"shown.{name}").in_language(language) for name in names]
+    table = new_table(*headings, numbers=(headings[3],))
     for column in worst_first(report.columns):
         comparison = worst_comparison(column)
         table.add_row(
-            verdict_text(column.verdict),
+            verdict_text(column.verdict, language),
             Text(column.id),
             "" if comparison is None else comparison.point,
-            "" if comparison is None else comparison.in_words(),
-            verdict_text(column.goes_on),
-            Text(_reason(column, comparison)),
+            "" if comparison is None else comparison.in_words(language),
+            verdict_text(column.goes_on, language),
+            Text(_reason(column, comparison, language)),
         )
     return table
 
@@ -43,39 +50,54 @@ def worst_first(columns: tuple[ColumnReport, ...]) -> list[ColumnReport]:
     return sorted(columns, key=lambda column: WORST_FIRST.index(column.verdict))
 
 
-def summary_line(report: JobReport) -> str:
+def summary_line(report: JobReport, language: Language = "en") -> str:
     """``8 columns: 5 pass, 2 fail, 1 error``."""
-    counted = [f"{number} {in_words(Verdict(name))}" for name, number in report.summary().items() if number]
+    counted = [
+        phrase("shown.counted", number=number, verdict=in_words(Verdict(name), language)).in_language(language)
+        for name, number in report.summary().items()
+        if number
+    ]
     total = len(report.columns)
-    return f"{total} column{'' if total == 1 else 's'}: {', '.join(counted)}"
+    said = phrase("shown.one_column" if total == 1 else "shown.columns", number=total).in_language(language)
+    return f"{said}: {', '.join(counted)}" if language == "en" else f"{said}：{'，'.join(counted)}"
 
 
-def advice_lines(report: JobReport) -> Iterator[str]:
+def advice_lines(report: JobReport, language: Language = "en") -> Iterator[str]:
     """One line for each column that has advice on its repair, and for each mould that displaces sleeves."""
     for column in worst_first(report.columns):
         if column.repair is not None:
-            yield f"{column.id}: repair, {column.repair.advice}"
+            advice = in_both_languages(column.repair.advice)
+            yield _filled("shown.repair", column.id, advice).in_language(language)
     for mould in report.mould_drift:
         if mould.drifting or any(sleeve.scatters_more for sleeve in mould.sleeves):
-            yield f"Mould of {mould.piece_mark or mould.columns[0]}: {mould.conclusion}"
+            name = mould.piece_mark or mould.columns[0]
+            yield _filled("shown.mould", name, in_both_languages(mould.conclusion)).in_language(language)
 
 
-def _reason(column: ColumnReport, comparison: Comparison | None) -> str:
+def _filled(word: str, name: str, said: Phrase) -> Phrase:
+    text = phrase(word)
+    return Phrase(text.en.format(name=name, said=said.en), text.zh.format(name=name, said=said.zh))
+
+
+def _reason(column: ColumnReport, comparison: Comparison | None, language: Language) -> str:
     """What is in the way, or why a failing point fails, else the column's first reason; and how many more there are."""
     if not column.reasons:
         return ""
     reason = column.reasons[0]
     trial = column.trial_assembly
     in_the_way = trial is not None and bool(trial.in_the_way)
+    blamed = any(group.blamed for group in column.groups.values())
     if (
         column.verdict is Verdict.FAIL
         and not in_the_way
+        and not blamed
         and comparison is not None
         and comparison.reason in column.reasons
     ):
         reason = comparison.reason
     more = len(column.reasons) - 1
-    return reason + (f" (+{more} more)" if more else "")
+    said = in_both_languages(reason).in_language(language)
+    return said + (phrase("shown.more", number=more).in_language(language) if more else "")
 
 
 @dataclass(frozen=True)
@@ -87,6 +109,7 @@ class Comparison:
     limit_mm: float | None
     verdict: Verdict
     reason: str = ""
+    is_signed: bool = False
 
     @property
     def ratio(self) -> float:
@@ -95,12 +118,14 @@ class Comparison:
             return -1.0
         return self.value_mm / self.limit_mm
 
-    def in_words(self) -> str:
-        """``2.41 / 2 mm``, measured over limit."""
+    def in_words(self, language: Language = "en") -> str:
+        """``2.41 / 2 mm``, measured over limit; what has a sign in its limit has one itself."""
         if self.value_mm is None:
             return ""
-        limit = "no limit" if self.limit_mm is None else f"{self.limit_mm:g} mm"
-        return f"{self.value_mm:.2f} / {limit}"
+        none = phrase("shown.no_limit").in_language(language)
+        limit = none if self.limit_mm is None else f"{self.limit_mm:g} mm"
+        value = signed(self.value_mm) if self.is_signed else f"{self.value_mm:.2f}"
+        return f"{value} / {limit}"
 
 
 def worst_comparison(column: ColumnReport) -> Comparison | None:
@@ -121,7 +146,8 @@ def _comparisons(column: ColumnReport) -> Iterator[Comparison]:
                 yield Comparison(point.label, point.deviation_mm, point.limit_mm, point.verdict, point.reason)
             for pair in group.spacing:
                 label = "-".join(pair.between)
-                yield Comparison(label, pair.deviation_mm, _limit_on_its_side(pair), pair.verdict, pair.reason)
+                limit_mm = _limit_on_its_side(pair)
+                yield Comparison(label, pair.deviation_mm, limit_mm, pair.verdict, pair.reason, is_signed=True)
     trial = column.trial_assembly
     pose = None if trial is None else trial.best or trial.minimax
     if pose is not None:

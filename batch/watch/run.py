@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 import traceback
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic, perf_counter, sleep
 from typing import Protocol
@@ -15,16 +15,15 @@ import numpy as np
 from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError, DesignError, JobError, ScanError
-from aadm_workbench.hoisting.contradiction import contradiction_of
 from aadm_workbench.hoisting.motion import Look, Motion, Running, combined, look_at, motion_of, with_look
-from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.inspection.column import inspect_column
 from aadm_workbench.inspection.hoisting import Before, measure_frame, unread
 from aadm_workbench.inspection.tasks import ColumnTask
-from aadm_workbench.model import HoistingMeasurement, Verdict
+from aadm_workbench.model import HoistingMeasurement, Scan, Verdict
 from aadm_workbench.model.reason import reason_of, renamed
 from aadm_workbench.report.json import encode
 
+from .corners import Corners
 from .folder import FolderWatch, corner_of
 from .state import Frame, frame_line, state_document
 
@@ -72,7 +71,7 @@ class Watcher:
         if task.design is None:
             raise DesignError(task.no_design)
         if not folder.is_dir():
-            raise JobError(f"{folder}: there is no such folder to watch")
+            raise JobError.because("command.no_watched_folder", folder=folder)
         self.task, self.design, self.options, self.say = task, task.design, options, say
         self.frames, self.bad_frames = 0, 0
         self.verdict = Verdict.NOT_MEASURED
@@ -80,11 +79,12 @@ class Watcher:
         self._folder = FolderWatch(folder, now_ns)
         self._running: Running | None = None
         self._looks: tuple[Look, ...] = ()
-        self._last: dict[tuple[int, int] | None, HoistingMeasurement] = {}
         self._places = np.array([bar.centre[:2] for bar in self.design.rebars])
         rules = rules_for(task.settings.profile, "sleeve_rebar_distance")
         self._limit_mm = rules[0].upper if rules else None
+        self._newest: dict[tuple[int, int] | None, HoistingMeasurement] = {}
         self._before_hoisting = self._before()
+        self._corners = Corners(task, self.design, self._before_hoisting)
         self._first_tries: dict[str, float] = {}
 
     def run(self, wait: Callable[[float], None] = sleep) -> Verdict:
@@ -98,7 +98,9 @@ class Watcher:
             try:
                 ready = self._folder.ready()
             except OSError as error:
-                raise AadmError(f"{self._folder.folder}: cannot be listed any more ({error.strerror})") from error
+                raise AadmError.because(
+                    "command.folder_gone", folder=self._folder.folder, why=error.strerror
+                ) from error
             for path in ready:
                 self._frame(path)
                 if self._enough(monotonic() - began):
@@ -135,7 +137,7 @@ class Watcher:
         began, name = perf_counter(), self._folder.name_of(path)
         try:
             scan = self.task.read(name, path=path)
-            measurement = measure_frame(self.task, self.design, scan, self._near(path), self._before_hoisting)
+            measurement = self._measured(scan, self._near(path))
         except (ScanError, OSError) as error:
             if self._may_be_unfinished(path):
                 return
@@ -149,6 +151,13 @@ class Watcher:
         captured_s = self._folder.captured_s(path)
         self._folder.done(path)
         self._keep(measurement, self._near(path), captured_s, perf_counter() - began)
+
+    def _measured(self, scan: Scan, near: tuple[int, int] | None) -> HoistingMeasurement:
+        """The frame by itself; it begins where the last one of its corner ended."""
+        after = self._newest.get(near)
+        measurement = measure_frame(self.task, self.design, scan, near, self._before_hoisting, after)
+        self._newest[near] = measurement
+        return measurement
 
     def _near(self, path: Path) -> tuple[int, int] | None:
         """The corner that a frame was taken from: its subfolder's, else the command's, else the job's."""
@@ -168,10 +177,11 @@ class Watcher:
     ) -> None:
         self.frames += 1
         running, motion = None, None
+        at_s = self._now_ns() / 1e9 if captured_s is None else captured_s
+        measurement = self._corners.with_newest(measurement, near, at_s)
         if measurement.report.verdict in (Verdict.NOT_MEASURED, Verdict.ERROR):
             self.bad_frames += 1
         else:
-            measurement = self._compared(measurement, near)
             running = self._running = combined(self._running, measurement)
             motion = self._moved(measurement, captured_s)
         self.verdict = measurement.report.verdict
@@ -195,17 +205,6 @@ class Watcher:
         look = look_at(measurement, captured_s or 0.0)
         self._looks = (look,) if captured_s is None else with_look(self._looks, look)
         return motion_of(self._looks, self._places, measurement.report.correction, self._limit_mm)
-
-    def _compared(self, measurement: HoistingMeasurement, near: tuple[int, int] | None) -> HoistingMeasurement:
-        """The frame, without a correction where the last frame of some corner contradicts it."""
-        others = [*self._last.items()]
-        self._last[near] = measurement
-        for corner, other in others:
-            # of one camera all frames have the same label: between them the column swings, and is pushed
-            finding = contradiction_of(other, measurement, self.design, swings=corner == near)
-            if finding is not None:
-                return replace(measurement, report=with_contradiction(measurement.report, finding))
-        return measurement
 
 
 def _bad(name: str, reason: str) -> HoistingMeasurement:

@@ -116,6 +116,8 @@ def frame_line(frame: Frame, fitness: Fitness) -> str:
         return f"{name}: {in_words(report.verdict)}: {reason}"
     worst = max((pair for pair in report.pairs if pair.distance_mm is not None), key=lambda p: p.distance_mm or 0.0)
     words = [f"{name}: {in_words(report.verdict)}", f"largest {report.max_mm:.2f} mm at {worst.sleeve}"]
+    if len(report.joined) > 1:
+        words.append(f"from {len(report.joined)} frames together")
     move = frame.motion.rest if frame.motion is not None and fitness.shows_move else None
     if move is not None and move.camera is not None and report.verdict is not Verdict.NOT_MEASURED:
         words.append(

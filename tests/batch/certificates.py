@@ -1,4 +1,4 @@
-"""Certificates for clusters in tests: an authority, what it signs, and a stranger that signs for itself."""
+"""Certificates in tests: an authority, what it signs for this machine, and a stranger that signs for itself."""
 
 import shutil
 import subprocess
@@ -24,7 +24,9 @@ def write_certificates(folder: Path) -> dict[str, Path]:
         request = folder / f"{prefix}request.pem"
         _openssl("req", *new_key, "-keyout", key, "-out", request, "-subj", "/CN=c")
         ca = ["-CA", authority, "-CAkey", authority_key, "-CAcreateserial"]
-        _openssl("x509", "-req", "-in", request, *ca, "-out", signed, "-days", _DAYS)
+        names_of = folder / f"{prefix}names.txt"
+        names_of.write_text("subjectAltName=IP:127.0.0.1\n", encoding="utf-8")
+        _openssl("x509", "-req", "-in", request, *ca, "-out", signed, "-days", _DAYS, "-extfile", names_of)
         found |= dict(zip(names, (authority, signed, key), strict=True))
     return found
 

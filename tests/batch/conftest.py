@@ -79,6 +79,7 @@ def exact_extraction(monkeypatch: pytest.MonkeyPatch) -> None:
         method: str,
         rng: np.random.Generator,
         places: Array | None = None,
+        known: object = None,
     ) -> Extraction:
         up = np.array([0.0, 0.0, 1.0])
         points = tuple(

@@ -51,6 +51,8 @@ def test_depth_scale_is_taken_from_the_camera_file(tmp_path: Path) -> None:
     assert answer["depth_scale_mm"] == camera["depth_scale_mm"]
     assert answer["camera"] == {key: value for key, value in camera.items() if key != "depth_scale_mm"}
     far_mm = np.array(answer["points"])[:, 2]
+    alone = asked(tmp_path, about="camera", file=str(named))
+    assert alone == {"camera": answer["camera"], "depth_scale_mm": answer["depth_scale_mm"]}
     assert 1000.0 < np.median(far_mm) < 1700.0, "the camera of the sample stood 1.3 m away"
 
 
@@ -65,6 +67,25 @@ def test_columns_are_where_the_command_lists_them(tmp_path: Path, capsys: pytest
         T = np.array(column["T_model_column"])
         placed = [(T @ [*point["centre_mm"], 1.0])[:3] for point in column["sleeves"]]
         np.testing.assert_allclose(placed, [one["centre_mm"] for one in listed[column["id"]]["sleeves"]], atol=1e-3)
+
+
+def test_bodies_are_what_the_model_draws(tmp_path: Path) -> None:
+    """Another reader of IFC, ifcopenshell's own, draws the same column in the same place."""
+    import ifcopenshell
+    import ifcopenshell.geom
+
+    answer = asked(tmp_path, about="columns", path=str(FLOOR))
+    settings = ifcopenshell.geom.settings()
+    settings.set("use-world-coords", True)
+    model = ifcopenshell.open(str(FLOOR))
+    for text, faces in list(zip(answer["columns"], answer["bodies"], strict=True))[:2]:
+        column = json.loads(text)
+        shape = ifcopenshell.geom.create_shape(settings, model.by_guid(column["global_id"]))
+        drawn_mm = 1000.0 * np.array(shape.geometry.verts).reshape(-1, 3)
+        T = np.array(column["T_model_column"])
+        placed_mm = np.concatenate([np.array(face) for face in faces]) @ T[:3, :3].T + T[:3, 3]
+        np.testing.assert_allclose(placed_mm.min(axis=0), drawn_mm.min(axis=0), atol=0.1)
+        np.testing.assert_allclose(placed_mm.max(axis=0), drawn_mm.max(axis=0), atol=0.1)
 
 
 NONSENSE = {"no json": "{", "no question": "[1]", "unknown": '{"about": "weather"}', "empty": "", "no subject": "{}"}

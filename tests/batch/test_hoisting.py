@@ -24,6 +24,7 @@ from aadm_workbench.inspection.tasks import plan_job
 from aadm_workbench.model import HoistingMeasurement
 from aadm_workbench.report.hoisting_fitness import seconds_of
 from aadm_workbench.report.json import report_schema
+from aadm_workbench.report.read import read_report
 from aadm_workbench.scan.write import write_depth_tiff
 from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM
 from aadm_workbench.twin.scenes import LAB
@@ -92,6 +93,33 @@ def test_one_picture_under_two_corners_contradicts_itself(folder: Path) -> None:
         assert "near = +x-y" in frame["reasons"][0]
 
 
+def test_frames_of_two_corners_are_put_together_in_a_job_and_in_a_watch(folder: Path) -> None:
+    corners = {"-x-y": (-1, -1), "+x-y": (1, -1)}
+    for name, near in corners.items():
+        depth = scenes.from_corner(near).frame.depth
+        put(folder / name / "a.tiff", 0.0)
+        write_depth_tiff(folder / name / "a.tiff", np.where(depth < _FARTHEST_MM, depth, np.nan), DEPTH_SCALE_MM)
+    for name in ("hang.tiff", "cut.tiff"):
+        (folder / name).unlink()
+    job = (folder / "job.toml").read_text(encoding="utf-8")
+    both = ", ".join(f'{{file = "{name}/a.tiff", near = "{name}"}}' for name in corners)
+    (folder / "job.toml").write_text(job.replace('"hang.tiff", "cut.tiff"', both), encoding="utf-8")
+    main(["check", str(folder / "job.toml"), "--quiet"])
+    report = json.loads((folder / "job-report" / "report.json").read_text(encoding="utf-8"))
+    jsonschema.validate(report, report_schema())
+    (column,) = report["columns"]
+    joint, last = column["hoisting_joint"], column["hoisting"][-1]
+    assert joint["joined"] == ["-x-y/a.tiff", "+x-y/a.tiff"]
+    assert sum(pair["seen"] for pair in joint["pairs"]) > sum(pair["seen"] for pair in last["pairs"])
+    assert all(pair["reason"] == "" for pair in joint["pairs"] if pair["seen"])
+    (again,) = read_report(folder / "job-report" / "report.json").columns
+    assert [frame.name for frame in again.hoisting_frames] == [*joint["joined"], "-x-y/a.tiff + +x-y/a.tiff"]
+    main(["watch", str(folder / "job.toml"), str(folder), "--column", "L-1", "--present", "--frames", "2", "--quiet"])
+    state = json.loads((folder / "aadm-state.json").read_text(encoding="utf-8"))
+    assert sorted(state["frame"]["joined"]) == ["+x-y/a.tiff", "-x-y/a.tiff"]
+    assert sum(pair["seen"] for pair in state["frame"]["pairs"]) == sum(pair["seen"] for pair in joint["pairs"])
+
+
 def test_a_job_can_measure_its_frames_as_published(folder: Path) -> None:
     main(["check", str(folder / "job.toml"), "--quiet", "--method", "fusion"])
     report = json.loads((folder / "job-report" / "report.json").read_text(encoding="utf-8"))
@@ -101,15 +129,23 @@ def test_a_job_can_measure_its_frames_as_published(folder: Path) -> None:
 
 
 def test_watch_measures_new_frames_waits_for_unfinished_ones_and_skips_bad_ones(
-    folder: Path, capsys: pytest.CaptureFixture[str]
+    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     frames = folder / "frames"
     frames.mkdir()
     content = (folder / "hang.tiff").read_bytes()
     (frames / "old.tiff").write_bytes(content)
 
+    watching, skips = threading.Event(), FolderWatch.skip_present
+
+    def skip_present(watched: FolderWatch) -> None:
+        skips(watched)
+        watching.set()
+
+    monkeypatch.setattr(FolderWatch, "skip_present", skip_present)
+
     def camera() -> None:
-        time.sleep(0.6)
+        watching.wait(60.0)
         (frames / "a.tiff").write_bytes(content)
         time.sleep(0.5)
         with (frames / "b.tiff").open("wb") as stream:

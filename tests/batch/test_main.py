@@ -4,7 +4,6 @@ import argparse
 import json
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -82,9 +81,6 @@ def test_help_waits_for_nothing_heavy(tmp_path: Path) -> None:
     loaded = set(python("-c", code, folder=tmp_path).stdout.split())
     assert "aadm_batch.commands.check" in loaded
     assert not loaded & {"numpy", "scipy", "cv2", "rich", "ifcopenshell", "distributed", "open3d"}
-    began = time.perf_counter()
-    python("-m", "aadm_batch", "--help", folder=tmp_path)
-    assert time.perf_counter() - began < 1.5, "0.15 s on an idle machine"
 
 
 @pytest.mark.parametrize(

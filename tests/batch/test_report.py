@@ -152,3 +152,29 @@ def test_a_check_without_the_packages_does_not_start(
     assert main(["check", str(path), "--xlsx"]) == 2
     assert "pip install 'aadm-workbench[reports]'" in capsys.readouterr().err
     assert not path.with_name("job-report").exists()
+
+
+def test_a_format_that_fails_does_not_cost_the_others(
+    report: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: Any, **__: Any) -> None:
+        raise ZeroDivisionError("no such page")
+
+    monkeypatch.setattr("aadm_workbench.report.pages.pdf.write_pdf", broken)
+    assert main(["report", str(report), "--html", "--pdf", "--csv", "--crew"]) == 70
+    said = capsys.readouterr()
+    assert "report.pdf: ZeroDivisionError: no such page" in said.err
+    assert [line.rpartition("/")[2] for line in said.out.splitlines()] == ["report.html", "report.csv", "crew.pdf"]
+    assert {"report.html", "report.csv", "crew.pdf"} <= {path.name for path in report.parent.iterdir()}
+
+
+def test_bcf_of_either_version_in_either_language(report: Path) -> None:
+    for version in ("2.1", "3.0"):
+        out = report.parent / version
+        words = ["report", str(report), "--bcf", "--bcf-version", version, "--language", "zh", "--quiet"]
+        assert main([*words, "--out", str(out)]) == 0
+        with zipfile.ZipFile(out / "report.bcf") as archive:
+            assert f'VersionId="{version}"' in archive.read("bcf.version").decode()
+            markups = [archive.read(name).decode() for name in archive.namelist() if name.endswith("markup.bcf")]
+        assert all("不合格" in text or "未测得" in text or "不确定" in text or "无法检查" in text for text in markups)
+    assert main(["report", str(report), "--bcf", "--bcf-version", "2.1", "--out", str(out)]) == 70

@@ -2,15 +2,18 @@
 
 import hashlib
 import json
+import re
 from pathlib import Path
 from typing import Any
 
+import pypdfium2
 import pytest
 
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.errors import JobError
 from aadm_workbench.inspection.check import CheckSettings
 from aadm_workbench.inspection.tasks import JobPlan, job_entry
+from aadm_workbench.report.ifc.model import ids_path
 from batch.job.file import read_job
 from batch.job.stack import carried_settings
 from batch.main import main
@@ -36,8 +39,55 @@ def run(folder: Path, capfdbinary: pytest.CaptureFixture[bytes], *words: str) ->
 def test_tables_say_what_there_is(folder: Path, capfdbinary: pytest.CaptureFixture[bytes]) -> None:
     code, shown = run(folder, capfdbinary, "--model", str(folder / "demo.ifc"))
     assert code == 11
-    for text in ("KL1", "C-1 – C-2", "its own bars", "set it", "does not go on its bars", "2500 mm away"):
+    for text in ("KL1", "C-1 – C-2", "its own bars", "set it", "does not go on the bars", "2500 mm away"):
         assert text in shown
+
+
+def test_tables_in_chinese(folder: Path, capfdbinary: pytest.CaptureFixture[bytes]) -> None:
+    """No English word is left but names, file names, keys and clauses."""
+    _, shown = run(folder, capfdbinary, "--model", str(folder / "demo.ifc"), "--language", "zh")
+    for text in ("柱顶", "搁置长度变化", "本柱钢筋", "就位时从预拼装位置", "不能就位到钢筋上", "未测得", "C-3："):
+        assert text in shown
+    kept = r"level_u_mm|\[stack\]|<script>alert\(1\)</script>|GB/T|table|mm|KL\d|C-\d|dx|dy|\bu\b"
+    assert re.findall(r"[A-Za-z]{2,}|[:,] ?[一-鿿]|[一-鿿] ?[:,]", re.sub(kept, "", shown)) == []
+
+
+def test_the_report_of_a_job_with_stack_shows_the_tower(folder: Path, tmp_path: Path) -> None:
+    """Where the job asks for it, and there alone; the same plan that the page of the tower shows."""
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    with_stack = report | {"job": report["job"] | {"stack": "braced = true\n"}}
+    (tmp_path / "report.json").write_text(json.dumps(with_stack), encoding="utf-8")
+    words = ("--html", "--model", str(folder / "demo.ifc"), "--quiet")
+    assert main(["report", str(tmp_path / "report.json"), *words]) == 0
+    assert main(["report", str(folder / "report.json"), *words, "--out", str(tmp_path / "without")]) == 0
+    assert main(["stack", str(tmp_path / "report.json"), *words]) == 11
+    shown = (tmp_path / "report.html").read_text(encoding="utf-8")
+    own = (tmp_path / "stack.html").read_text(encoding="utf-8")
+    drawn = re.findall(r"<svg.*?</svg>", own)
+    assert len(drawn) == 1
+    assert drawn[0] in shown
+    for text in ("set_pose = [-2.76, -0.42, 0.000]", "For the setting-out of the next storey", "2500 mm away"):
+        assert text in shown
+        assert text in own
+    assert main(["report", str(tmp_path / "report.json"), "--pdf", *words[1:], "--language", "zh"]) == 0
+    document = pypdfium2.PdfDocument(str(tmp_path / "report.pdf"))
+    paper = "".join(page.get_textpage().get_text_range() for page in document)
+    for text in ("怎么做", "set_pose = [-2.76, -0.42, 0.000]", "供上一层放线使用", "按就位建议"):
+        assert text in paper
+    without = (tmp_path / "without" / "report.html").read_text(encoding="utf-8")
+    assert "setting-out" not in without
+    assert drawn[0] not in without
+
+
+def test_a_model_that_cannot_be_read_costs_the_beams_alone(folder: Path, tmp_path: Path) -> None:
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    report["job"]["stack"] = "height_mm = 3000.0\n"
+    (tmp_path / "report.json").write_text(json.dumps(report), encoding="utf-8")
+    (tmp_path / "broken.ifc").write_text("ISO-10303-21;")
+    assert main(["report", str(tmp_path / "report.json"), "--model", str(tmp_path / "broken.ifc"), "--quiet"]) == 0
+    shown = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "broken.ifc" in shown
+    assert "set it 2.8 mm towards the left" in shown
 
 
 def test_json_and_page(folder: Path, tmp_path: Path, capfdbinary: pytest.CaptureFixture[bytes]) -> None:
@@ -189,8 +239,44 @@ def test_into_the_model_and_out_again(tmp_path: Path, capfdbinary: pytest.Captur
     beams = {one.Name: get_psets(one)["AADM_Setting"] for one in written.by_type("IfcBeam")}
     assert beams["KL1"]["Span"] == pytest.approx(-8.5, abs=0.05)
     assert beams["KL1"]["SpanLimit"] == 10.0
+    assert unfulfilled(tmp_path / "set.ifc") == set()
+    text = (tmp_path / "set.ifc").read_text()
+    for of, name, old, new in (
+        ("says against what", "Against", "IFCLABEL('control_points')", "IFCLABEL('guess')"),
+        ("where, with an uncertainty", "TopUncertainty", "", None),
+        ("held to no limit", "Against", "IFCLABEL('control_points')", "IFCLABEL('bars')"),
+        ("says on which, and its verdict", "SpanUncertainty", "IFCLENGTHMEASURE", "IFCREAL"),
+        ("is no pass says why", "Reasons", "level_u_mm", None),
+    ):
+        spoilt = spoil(text, name, old, new)
+        assert spoilt != text
+        (tmp_path / "spoilt.ifc").write_text(spoilt)
+        assert unfulfilled(tmp_path / "spoilt.ifc", of), (of, name)
     assert main(["writeback", str(tmp_path / "set.ifc"), "--remove", "--out", str(tmp_path / "back.ifc")]) == 0
     assert (tmp_path / "back.ifc").read_bytes() == model.read_bytes()
+
+
+def spoil(text: str, name: str, old: str, new: str | None) -> str:
+    """A model's text with one value of one property set of the tower changed; renamed where ``new`` is None."""
+    lines = text.split("\n")
+    own = set(re.findall(r"#\d+", " ".join(re.findall(r"'AADM_Setting',\$,\(([^)]*)\)", text))))
+    for k, line in enumerate(lines):
+        if line.split("=")[0].strip() in own and f"'{name}'" in line and old in line:
+            lines[k] = line.replace(f"'{name}'", "'Other'") if new is None else line.replace(old, new)
+            return "\n".join(lines)
+    raise AssertionError(f"no {name} with {old}")
+
+
+def unfulfilled(path: Path, named: str = "") -> set[str]:
+    """Which specifications of the IDS of results, of those that are named so, a model does not fulfil, by ifctester."""
+    import ifcopenshell
+
+    ids = pytest.importorskip("ifctester.ids")
+    checks = ids.open(str(ids_path()))
+    checks.specifications = [one for one in checks.specifications if named in one.name]
+    assert checks.specifications
+    checks.validate(ifcopenshell.open(str(path)))
+    return {check.name for check in checks.specifications if not check.status}
 
 
 def test_a_model_is_written_for_one_report_alone(folder: Path, tmp_path: Path) -> None:

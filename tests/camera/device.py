@@ -20,7 +20,7 @@ HEAD = """<?xml version="1.0" encoding="utf-8"?>
 def node_map(features: Mapping[str, Any], choices: Mapping[str, Sequence[str]] | None = None) -> NodeMap:
     """Features with values: numbers, texts as enumerations of one or more entries, truths."""
     found = NodeMap()
-    nodes = [_node(name, value, (choices or {}).get(name, ())) for name, value in features.items()]
+    nodes = [node(name, value, (choices or {}).get(name, ())) for name, value in features.items()]
     top = "".join(f"<pFeature>{name}</pFeature>" for name in features)
     found.load_xml_from_string(
         f'{HEAD}<Category Name="Root">{top}</Category>{"".join(nodes)}<Port Name="Device"/></RegisterDescription>'
@@ -28,7 +28,7 @@ def node_map(features: Mapping[str, Any], choices: Mapping[str, Sequence[str]] |
     return found
 
 
-def _node(name: str, value: Any, entries: Sequence[str]) -> str:
+def node(name: str, value: Any, entries: Sequence[str]) -> str:
     if isinstance(value, bool):
         return f'<Boolean Name="{name}"><Value>{str(value).lower()}</Value></Boolean>'
     if isinstance(value, int):

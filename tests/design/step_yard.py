@@ -113,3 +113,7 @@ def yard(how: Yard | None = None) -> str:
         f"ISO-10303-21;\nHEADER;\n{HEADER.format(name=how.file_name)}FILE_SCHEMA(('{how.schema}'));\nENDSEC;\nDATA;\n"
     )
     return header + "\n".join(step.lines) + "\nENDSEC;\nEND-ISO-10303-21;\n"
+
+
+def polyline(step: Step, *points: tuple[float, ...]) -> str:
+    return step.add(f"IFCPOLYLINE(({','.join(step.point(*point) for point in points)}))")

@@ -11,7 +11,8 @@ import pytest
 from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.model import ColumnDesign
 from tests.design import dialects
-from tests.design.dialects import BENT, BENT_SINCE_IFC4, SLEEVES, SLEEVES_SINCE_IFC4, STRAIGHT, motion, on, shift
+from tests.design.dialects import BENT, BENT_SINCE_IFC4, SLEEVES, SLEEVES_SINCE_IFC4, STRAIGHT
+from tests.design.frames import axes, mapped, motion, on, placement, shift
 from tests.design.yards import Truth, random_yard
 
 EXACT_MM = 1e-3
@@ -30,8 +31,8 @@ def test_a_bar(author: Callable[..., Any], drawn: str, unit: str) -> None:
     # A part of the way in the placement, a part in the mapped item, a part baked in.
     placed, through = motion(rng), motion(rng)
     baked = np.linalg.inv(placed @ through) @ T
-    items = [dialects.mapped(model, draw(model, baked, 25.0, 900.0), through)]
-    model.element("IfcReinforcingBar", items, dialects.placement(model, None, placed))
+    items = [mapped(model, draw(model, baked, 25.0, 900.0), through)]
+    model.element("IfcReinforcingBar", items, placement(model, None, placed))
     (point,) = read_ifc(model.write()).loose_rebars
     assert point.centre == pytest.approx(on(T, (0.0, 0.0, 900.0)), abs=EXACT_MM)
     assert point.axis == pytest.approx(T[:3, 2], abs=1e-7)
@@ -51,8 +52,8 @@ def test_a_sleeve(author: Callable[..., Any], drawn: str, unit: str) -> None:
     T = motion(rng, upright=True)
     placed, outer, inner = motion(rng), motion(rng), motion(rng)
     baked = np.linalg.inv(placed @ outer @ inner) @ T
-    item = dialects.mapped(model, [dialects.mapped(model, [draw(model, baked, 43.0, 58.0, 330.0)], inner)], outer)
-    model.element("IfcDiscreteAccessory", [item], dialects.placement(model, None, placed), Name="スリーブ D25")
+    item = mapped(model, [mapped(model, [draw(model, baked, 43.0, 58.0, 330.0)], inner)], outer)
+    model.element("IfcDiscreteAccessory", [item], placement(model, None, placed), Name="スリーブ D25")
     (point,) = read_ifc(model.write()).loose_sleeves
     assert point.centre == pytest.approx(T[:3, 3], abs=EXACT_MM)
     assert point.axis == pytest.approx(T[:3, 2], abs=1e-7)
@@ -67,7 +68,7 @@ def test_coordinates_of_6700_km(author: Callable[..., Any], drawn: str) -> None:
     T = motion(np.random.default_rng(3), upright=True)
     T[:3, 3] = (6_700_000_000.125, -4_100_000_000.0, 45_678.9)
     profile = model.profile("IfcRectangleProfileDef", XDim=600.0, YDim=600.0)
-    body = model.extrusion(profile, 3000.0, dialects.axes(model, T))
+    body = model.extrusion(profile, 3000.0, axes(model, T))
     model.element("IfcColumn", [body], model.placement(), Name="C-1")
     places = [(-200.0, -200.0), (200.0, -200.0), (200.0, 200.0), (-200.0, 200.0)]
     draw = {**SLEEVES, **SLEEVES_SINCE_IFC4}[drawn]

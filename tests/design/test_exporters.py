@@ -12,7 +12,7 @@ from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.model import ColumnDesign
 from tests.design import dialects
 from tests.design.authoring import Author
-from tests.design.dialects import axes, mapped, on, placement, shift
+from tests.design.frames import axes, mapped, on, placement, shift
 
 Ring = list[tuple[float, float]]
 EXACT_MM = 1e-3

@@ -11,7 +11,7 @@ import numpy as np
 from aadm_workbench.model import Array
 from tests.design import dialects
 from tests.design.authoring import Author
-from tests.design.dialects import axes, on, placement, shift
+from tests.design.frames import axes, mapped, motion, on, placement, shift
 
 SLEEVE_NAMES = (
     ("IfcDiscreteAccessory", "灌浆套筒 GTQ4Z-20"),
@@ -68,13 +68,13 @@ class Yard:
 
     def element(self, ifc_class: str, draw: Callable[[Array], list[Any]], T: Array, **said: Any) -> Any:
         """An element at ``T`` in the yard, by placement, through mapped items, baked in, or some of each."""
-        share = [dialects.motion(self.rng, 900.0) if self.rng.random() < 0.5 else np.eye(4) for _ in range(3)]
+        share = [motion(self.rng, 900.0) if self.rng.random() < 0.5 else np.eye(4) for _ in range(3)]
         placed, outer, inner = share
         baked = np.linalg.inv(placed @ outer @ inner) @ T
         items = draw(baked)
         for through in (inner, outer):
             if self.rng.random() < 0.5 or not np.array_equal(through, np.eye(4)):
-                items = [dialects.mapped(self.model, items, through)]
+                items = [mapped(self.model, items, through)]
         made = self.model.element(ifc_class, items, placement(self.model, self.site, placed), **said)
         if self.rng.random() < 0.3:
             self._draw_in_plan(made)
@@ -93,7 +93,7 @@ class Yard:
     def column(self, number: int) -> None:
         """A column with its sleeves and the bars under it."""
         rng = self.rng
-        T = dialects.motion(rng, 200.0, upright=True)
+        T = motion(rng, 200.0, upright=True)
         T[:3, 3] = (12_000.0 * number, rng.uniform(-500.0, 500.0), 3600.0 + rng.uniform(-50.0, 50.0))
         pattern, size = self._pattern()
         bar = float(self.pick((16.0, 20.0, 25.0, 32.0)))
@@ -152,9 +152,9 @@ class Yard:
 
     def _upright(self, draw: Callable[[Array], list[Any]], T: Array, name: str, number: int) -> Any:
         """A column element: its placement gives the column frame its x, so that stays as it is."""
-        through = dialects.motion(self.rng, 900.0) if self.rng.random() < 0.5 else np.eye(4)
+        through = motion(self.rng, 900.0) if self.rng.random() < 0.5 else np.eye(4)
         items = draw(np.linalg.inv(through))
-        items = [dialects.mapped(self.model, items, through)]
+        items = [mapped(self.model, items, through)]
         at = placement(self.model, self.site, T)
         return self.model.element("IfcColumn", items, at, Name=name, Tag=f"T-{number}")
 
@@ -267,7 +267,7 @@ def random_yard(folder: Path, rng: np.random.Generator) -> Yard:
     far = np.array([6_700_000_123.25, -4_100_000_789.5, 45_678.75]) * float(rng.integers(2))
     in_context = rng.random() < 0.5
     model = Author(folder, schema=schema, unit=unit, wcs=tuple(far) if in_context else (0.0, 0.0, 0.0))
-    T_site = dialects.motion(rng, 10_000.0, upright=True)
+    T_site = motion(rng, 10_000.0, upright=True)
     if not in_context:
         T_site[:3, 3] += far
     if schema != "IFC2X3" and rng.random() < 0.5:

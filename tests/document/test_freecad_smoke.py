@@ -34,6 +34,18 @@ def test_freecad_reads_package_xml(freecad, repository: Path) -> None:
         "result.update(name=package.Name, version=package.Version, license=package.License[0]['name'])\n"
         "result.update(folder=workbench.Subdirectory, classname=workbench.Classname, minimum=workbench.FreeCADMin)\n"
         "result['needs'] = sorted(need['package'] for need in workbench.Depend)\n"
+        "result['runs_here'] = package.supportsCurrentFreeCAD() and workbench.supportsCurrentFreeCAD()\n"
+        "result['urls'] = [[url['type'], url['location'], url.get('branch', '')] for url in package.Urls]\n"
+        "result['people'] = [[one['name'], one['email']] for one in package.Maintainer]\n"
+        # As the Addon Manager itself reads it.
+        "import pathlib, sys\n"
+        "homes = [FreeCAD.getHomePath(), '/usr/share/freecad']\n"
+        "sys.path[:0] = [str(pathlib.Path(home, 'Mod', 'AddonManager')) for home in homes]\n"
+        "from Addon import Addon\n"
+        "addon = Addon('AADM', 'https://example.org/given/by/its/user', Addon.Status.NOT_INSTALLED, 'theirs')\n"
+        f"addon.load_metadata_file({str(repository / 'package.xml')!r})\n"
+        "result['addon'] = [addon.display_name, addon.url, addon.branch, str(addon.repo_type), sorted(addon.tags)]\n"
+        "result['python'] = sorted({*addon.python_requires, *addon.python_optional, *addon.requires})\n"
     )
     assert result["name"] == "AADM"
     assert result["version"] == __version__
@@ -41,6 +53,16 @@ def test_freecad_reads_package_xml(freecad, repository: Path) -> None:
     assert result["folder"] == "./", "without it FreeCAD skips Init.py and InitGui.py"
     assert result["classname"] == "AADMWorkbench"
     assert result["minimum"].startswith("0.20")
+    assert result["runs_here"]
+    assert all(location.startswith("https://") for _, location, _ in result["urls"])
+    assert all(branch for kind, _, branch in result["urls"] if kind == "repository")
+    assert all(name and ("@" in email or not email) for name, email in result["people"])
+    name, url, branch, kind, tags = result["addon"]
+    assert name == "AADM"
+    assert result["urls"] or (url, branch) == ("https://example.org/given/by/its/user", "theirs")
+    assert kind.upper().endswith("PACKAGE")
+    assert "precast" in tags
+    assert result["python"] == [], "what the Addon Manager installs goes into FreeCAD's own interpreter"
     assert result["needs"] == [], "what the Addon Manager installs goes into FreeCAD's own interpreter"
 
 

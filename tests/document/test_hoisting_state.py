@@ -7,7 +7,14 @@ from typing import Any
 
 import pytest
 
-from aadm_workbench.document.hoisting_state import SIDES, Guidance, guidance_of, newest_measurement, read_measurement
+from aadm_workbench.document.hoisting_state import (
+    BESIDE_CAMERA,
+    SIDES,
+    Guidance,
+    guidance_of,
+    newest_measurement,
+    read_measurement,
+)
 from aadm_workbench.errors import ReportError
 
 FRAME = {
@@ -64,6 +71,23 @@ def test_directions_are_the_readers(tmp_path: Path, standing: str, right_mm: flo
     assert guidance.ahead_mm == pytest.approx(ahead_mm)
     assert guidance.turn_deg == -0.5
     assert len(SIDES) == 4
+
+
+def test_who_stands_beside_the_camera_is_told_what_it_sees(tmp_path: Path) -> None:
+    frame = FRAME | {
+        "correction": FRAME["correction"] | {"camera": {"right_mm": -1.5, "away_mm": 4.8, "yaw_deg": -0.5}}
+    }
+    states = {
+        "frame.json": (frame, (-1.5, 4.8)),
+        "state.json": (READY | {"move": READY["move"] | {"right_mm": 0.1, "away_mm": 0.4}}, (0.1, 0.4)),
+        "old.json": (FRAME, (None, None)),  # nothing is shown of which nobody knows from where it is seen
+    }
+    for name, (content, expected) in states.items():
+        found = read_measurement(write(tmp_path, name, content))
+        assert found is not None
+        guidance = guidance_of(found, BESIDE_CAMERA)
+        assert (guidance.right_mm, guidance.ahead_mm) == expected
+        assert guidance.light == ("hold" if expected[0] is None else guidance_of(found, "-y").light)
 
 
 @pytest.mark.parametrize(

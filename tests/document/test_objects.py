@@ -23,6 +23,19 @@ POINT = {
 }
 
 
+SETTING = {
+    "against": "control_points",
+    "foot_mm": [3.0, 4.0],
+    "yaw_deg": 0.0,
+    "top_mm": [3.0, 4.0],
+    "top_u_mm": 2.7,
+    "top_limit_mm": 8.0,
+    "top_verdict": "inconclusive",
+    "set_pose": [-2.0, -0.004, 0.05],
+    "set_pose_top_mm": 3.25,
+}
+
+
 def point(label: str, x: float, y: float, dx: float, verdict: str) -> dict[str, Any]:
     """A point of report.json that was measured dx mm beside its design."""
     return POINT | {
@@ -58,6 +71,7 @@ def report(*, x_mm: float = 5000.0) -> dict[str, Any]:
         "rebars": None,
         "trial_assembly": None,
         "hoisting": [],
+        "setting": SETTING,
     }
     return {
         "schema": 1,
@@ -122,6 +136,7 @@ def saved(freecadcmd: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[st
         "older.Schema = 0\n"
         "older.removeProperty('Turns')\n"
         "older.Result.removeProperty('CheckedAt')\n"
+        "older.Result.removeProperty('Top')\n"
         "older.Document.saveAs(str(folder / 'older.FCStd'))\n",
     )
     read = runner.run(
@@ -150,6 +165,13 @@ def saved(freecadcmd: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[st
         "older = FreeCAD.openDocument(str(folder / 'older.FCStd'))\n"
         "old, = api.columns_in(older)\n"
         "result['older'] = [old.Schema, old.Turns, old.Result.CheckedAt, old.Result.Verdict]\n"
+        "result['setting'] = [found.Top, found.TopVerdict, found.SetPose, old.Result.Top]\n"
+        "from aadm_workbench.document.display.setting import setting_said\n"
+        "entry = found_of(found)['setting']\n"
+        "result['lines'] = setting_said(entry).lines\n"
+        "result['alone'] = setting_said(entry | {'against': 'bars', 'set_pose': None})\n"
+        "result['unknown'] = setting_said(entry | {'top_mm': None, 'top_verdict': 'not_measured', 'set_pose': None})\n"
+        "result['none'] = [setting_said(None), setting_said({})]\n"
     )
     return {"made": made, "read": read}
 
@@ -165,6 +187,23 @@ def test_objects_survive_in_a_fresh_process(saved: dict[str, Any]) -> None:
     assert read["scan"] == [made["sha256"], 5000, "sleeves", "-x"]
     assert made["points"] == [20000, 5000]
     assert read["valid"]
+
+
+def test_a_setting_is_shown_where_a_column_is_looked_at(saved: dict[str, Any]) -> None:
+    """The length of (3, 4) is 5; an older document has no such texts; against bars alone there is no word of a grid."""
+    read = saved["read"]
+    pose = "set_pose = [-2.00, 0.00, 0.050]"
+    assert read["setting"] == ["5.00 mm ± 2.70 mm, against the grid", "inconclusive", pose, ""]
+    top, aim = read["lines"]
+    assert "5.00 mm ± 2.70 mm, against the grid" in top
+    assert "inconclusive" in top
+    assert f"{pose} in the job: the top comes to 3.25 mm" in aim
+    alone = " ".join(map(str, read["alone"]))
+    assert "its own bars alone" in alone
+    assert "grid" not in alone
+    assert read["unknown"][:3] == ["", "not_measured", ""]
+    assert "not predicted" in read["unknown"][3][0]
+    assert read["none"] == [["", "", "", []]] * 2
 
 
 def test_module_paths_are_those_that_files_hold(saved: dict[str, Any]) -> None:

@@ -35,6 +35,7 @@ result["undrawn"] = [name for name in freecad_author.SCENES if not freecad_autho
 for name in set(freecad_author.SCENES) - set(result["undrawn"]):
     path, truth = freecad_author.write(name, folder)
     document = FreeCAD.openDocument(path)
+    sys.modules["scipy"] = None  # FreeCAD need not bring it
     result[name] = dict(shapes=sampled_shapes(document), truth=truth, path=path)
     if name == "links":
         result["selected"] = sampled_shapes(document, [document.Column002])

@@ -14,12 +14,12 @@ from aadm_workbench.model import Kind, Scan
 CLOUD = Scan(np.random.default_rng(0).uniform(0.0, 100.0, (500, 3)))
 
 
-def test_methods_are_the_four() -> None:
-    assert tuple(METHODS) == ("refined", "fusion", "pointcloud", "image")
+def test_methods_are_the_five() -> None:
+    assert tuple(METHODS) == ("refined", "fusion", "pointcloud", "image", "corners")
 
 
 def test_unknown_method_lists_those_there_are() -> None:
-    with pytest.raises(ValueError, match=r"'fushion'.*refined, fusion, pointcloud, image"):
+    with pytest.raises(ValueError, match=r"'fushion'.*refined, fusion, pointcloud, image, corners"):
         extract(CLOUD, Kind.SLEEVE, 26.0, "fushion", np.random.default_rng(0))
 
 

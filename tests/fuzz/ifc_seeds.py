@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from tests.design import dialects
 from tests.design.authoring import Author
-from tests.design.dialects import BENT, BENT_SINCE_IFC4, SLEEVES, SLEEVES_SINCE_IFC4, STRAIGHT, shift
+from tests.design.dialects import BENT, BENT_SINCE_IFC4, SLEEVES, SLEEVES_SINCE_IFC4, STRAIGHT
+from tests.design.frames import mapped, shift
 
 _GLOBAL_ID = re.compile(r"'[0-3][0-9A-Za-z_$]{21}'")
 _TIME = re.compile(r"'\d{4}-\d\d-\d\dT[\d:]+'")
@@ -38,7 +38,7 @@ def yard(author: Author, sleeve: Any, bar: Any, name: str) -> None:
     sleeves, bars = [], []
     for k, (x, y) in enumerate(CORNERS):
         drawn = sleeve(author, np.eye(4), 40.0, 52.0, 310.0)
-        items = [dialects.mapped(author, [drawn], np.eye(4))] if k % 2 else [drawn]
+        items = [mapped(author, [drawn], np.eye(4))] if k % 2 else [drawn]
         placed = author.placement(at, (x, y, 0.0))
         sleeves.append(author.element("IfcDiscreteAccessory", items, placed, Name="灌浆套筒 GTQ4Z-20"))
         items = bar(author, shift(x, y, -800.0), 20.0, 950.0)

@@ -14,7 +14,10 @@ from tests.conftest import ROOT, FreeCADRunner, find_freecad
 from tests.freecad_environment import with_environment
 from tests.gui.model_text import MODEL
 
-_BODIES = ("bare_body.py", "session_body.py", "floor_body.py", "private_body.py")
+_BODIES = tuple(
+    f"{name}_body.py"
+    for name in ("bare", "session", "results", "capture", "floor", "private", "floor_check", "legible", "looks", "end")
+)
 
 
 @pytest.fixture(scope="session")
@@ -42,7 +45,7 @@ def _run(folder: Path, display: str) -> dict[str, Any]:
     camera = tomllib.loads((ROOT / "samples/floor/job.toml").read_text(encoding="utf-8"))["camera"]
     given += f"CAMERA = {''.join(f'{key} = {value!r}' + chr(10) for key, value in camera.items())!r}\n"
     given += f"FREECADCMD = {str(find_freecad('freecadcmd', 'FreeCADCmd'))!r}\n"
-    result = runner.run(given + "\n".join(bodies), timeout_s=480.0)
+    result = runner.run(given + "\n".join(bodies), timeout_s=1200.0)
     if os.environ.get("AADM_DOCUMENTS"):
         # For the other versions of FreeCAD, which must be able to open it.
         shutil.copy(folder / "session.FCStd", Path(os.environ["AADM_DOCUMENTS"]) / f"{result['freecad']}.FCStd")

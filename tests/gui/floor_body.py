@@ -108,7 +108,7 @@ FreeCAD.closeDocument(far.Name)
 measured = folder / "measured"
 measured.mkdir()
 pairs = [{"sleeve": f"S{k}", "rebar": f"R{k}", "seen": True, "rebar_seen": True} for k in range(1, 5)]
-move = {"dx_mm": 8.0, "dy_mm": -5.0, "yaw_deg": 0.4}
+move = {"dx_mm": 8.0, "dy_mm": -5.0, "yaw_deg": 0.4, "right_mm": 8.0, "away_mm": -5.0}
 frame = {"source": "frame-1.tiff", "verdict": "fail", "max_mm": 12.9, "pairs": pairs, "orientation": "declared"}
 frame |= {"height_mm": 90.0, "column_tilt_deg": 0.1, "correction": {**move, "over": ["S1", "S2", "S3", "S4"]}}
 

@@ -208,10 +208,3 @@ result["tried_shows"] = [panel(CheckPanel).column.ColumnId, panel(CheckPanel).co
 result["said_by_try"] = sentences()
 result["open_after_try"] = [one.objectName() for one in window.findChildren(QtGui.QDialog) if one.isVisible()]
 screenshot("tried.png")
-FreeCAD.closeDocument(tried.Name)
-settle(0.2)
-FreeCAD.closeDocument(document.Name)
-settle(0.2)
-
-sys.meta_path.pop(0)
-result["own_packages"] = [before_all, own_packages()]

@@ -17,6 +17,8 @@ pytestmark = pytest.mark.freecad
 
 COMMANDS = [
     "AADM_About",
+    "AADM_CaptureScan",
+    "AADM_CheckAll",
     "AADM_CheckColumn",
     "AADM_Hoisting",
     "AADM_ImportScan",
@@ -58,15 +60,30 @@ def test_workbench_is_listed_and_loads_its_commands_late(session: dict[str, Any]
 @pytest.mark.parametrize("when", ["without_document", "in_empty_document", "with_wrong_selection"])
 def test_every_command_says_what_it_needs(session: dict[str, Any], when: str) -> None:
     said = session[f"said_{when}"]
-    assert len(said) == 5
+    assert len(said) == 6
     for name, sentences in said.items():
         assert len(sentences) == 1, name
         assert "This should not happen" not in sentences[0]
         assert len(sentences[0]) > 20
 
 
-def test_commands_are_grey_without_a_document(session: dict[str, Any]) -> None:
-    assert session["active_without_document"] == []
+def test_a_live_camera_gives_a_column_its_scan(session: dict[str, Any]) -> None:
+    assert session["capture_kept_in"] == "captures", "beside the document"
+    assert "gige://IP" in session["said_without_camera_named"][0]
+    assert "record" in session["said_without_folder"][0]
+    assert "there is no such folder" in session["said_for_no_camera"][0]
+    assert session["said_by_capture"] == []
+    (name,) = session["captures"]
+    kind, count, file = session["captured"]
+    imported = next(scan for scan in session["scans"] if scan[0] == "sleeves")
+    assert (kind, count, file) == ("sleeves", imported[1], name)
+    assert session["capture_undo"] == "Capture"
+    before, after = session["scans_after_capture_undone"]
+    assert before == after
+
+
+def test_without_a_document_one_command_leads_to_one(session: dict[str, Any]) -> None:
+    assert session["active_without_document"] == ["AADM_SampleDesign"]
     assert session["objects_after_nonsense"] == []
 
 

@@ -57,9 +57,20 @@ def test_frames_of_one_moment_do_not_tell_a_rest() -> None:
     """At the turn of a swing a column seems to stand: three frames in a tenth of a second see nothing else."""
     times = np.array([0.0, 0.05, 0.1])
     places = 9.0 * np.cos(2.0 * np.pi * times / 4.5)[:, None] * np.array([1.0, 0.0])
-    found = swing_of(times, places, NOISE_MM)
-    assert found is not None
-    assert found.amplitude_mm > 3.0
+    assert swing_of(times, places, NOISE_MM) is None
+    assert motion_of(looks(places, times), RING, correction(0.9, 0.0), 3.0).still is None
+
+
+def test_frames_at_video_rate_tell_the_swing_too() -> None:
+    times = np.arange(300) / 30.0
+    places = 9.0 * np.cos(2.0 * np.pi * times / 4.5)[:, None] * np.array([0.6, 0.8])
+    seen = looks(places, times)
+    assert seen[-1].time_s == times[-1]
+    assert seen[-1].time_s - seen[0].time_s > 3.0
+    motion = motion_of(seen, RING, correction(0.9 - places[-1, 0], -places[-1, 1]), 3.0)
+    assert motion.swing is not None
+    assert motion.swing.amplitude_mm == pytest.approx(9.0, abs=0.5)
+    assert motion.still is False
 
 
 def test_a_push_begins_anew() -> None:

@@ -254,7 +254,9 @@ def test_texts_of_any_length_never_keep_a_report_from_being_made(
     report["capture"]["operator"] = LONG[sign]
     (tmp_path / "report.json").write_text(json.dumps(report), encoding="utf-8")
     formats = [name for name in FORMATS if name != "fcstd"]
-    for path in write_reports(read_report(tmp_path / "report.json"), formats, tmp_path).values():
+    written = write_reports(read_report(tmp_path / "report.json"), formats, tmp_path)
+    assert written.failed == {}
+    for path in written.files.values():
         assert path.stat().st_size
 
 

@@ -7,7 +7,6 @@ import os
 import resource
 import subprocess
 import sys
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -50,7 +49,6 @@ class Night:
     columns: dict[str, Any]
     text: str
     new_files: frozenset[str]
-    seconds: float
 
 
 def everything_in(folder: Path) -> frozenset[str]:
@@ -61,7 +59,7 @@ def checked(folder: Path, job: str, *arguments: str, method: str = "refined") ->
     """Check a job in a process with little memory."""
     path = folder / "job" / "job.toml"
     path.write_text(f'schema = 1\nunits = "mm"\n{job}', encoding="utf-8")
-    before, began = everything_in(folder), time.perf_counter()
+    before = everything_in(folder)
     done = subprocess.run(
         [sys.executable, "-m", "aadm_batch", "check", str(path), "--jobs", "1", "--method", method, *arguments],
         cwd=ROOT,
@@ -77,8 +75,7 @@ def checked(folder: Path, job: str, *arguments: str, method: str = "refined") ->
     assert report.exists(), said
     text = report.read_text(encoding="utf-8")
     columns = {entry["id"]: entry for entry in json.loads(text)["columns"]}
-    seconds = time.perf_counter() - began
-    return Night(done.returncode, said, columns, text, everything_in(folder) - before, seconds)
+    return Night(done.returncode, said, columns, text, everything_in(folder) - before)
 
 
 def write_all(folder: Path, writers: Mapping[str, Writer]) -> dict[str, str]:
@@ -117,9 +114,8 @@ def check_hostile_column(name: str, scan: str, found: Mapping[str, Any]) -> None
 
 
 def check_that_nothing_else_happened(night: Night) -> None:
-    """Nothing is written elsewhere, nothing takes long, nothing is shown of the program's inside or of the disk."""
+    """Nothing is written elsewhere, nothing is shown of the program's inside or of the disk."""
     assert {name for name in night.new_files if not name.startswith("job/job-report")} == set()
-    assert night.seconds < 120.0
     assert "Traceback" not in night.said
     assert str(ROOT) not in night.text
     assert str(LAB) not in night.text

@@ -113,8 +113,8 @@ def test_every_topic_has_what_viewers_ask_for(per: Any, report: dict[str, Any], 
         assert topic.find("Comment/Viewpoint").get("Guid") == view.get("Guid")
         assert topic.findtext("Viewpoints/Viewpoint") == "viewpoint.bcfv"
         picture = cv2.imdecode(np.frombuffer(held[f"{guid}/{topic.findtext('Viewpoints/Snapshot')}"], np.uint8), 1)
-        assert min(picture.shape[:2]) >= 600
-        assert (picture[120:-60] < 250).any(), "something is drawn"
+        assert min(picture.shape[:2]) >= 500
+        assert (picture[100:-50] < 250).any(), "something is drawn"
         table = held[f"{guid}/{topic.findtext('Topic/DocumentReference/ReferencedDocument')}"]
         rows = list(csv.DictReader(io.StringIO(table.decode("utf-8-sig"))))
         assert {row["column"] for row in rows} == {topic.findtext("Topic/Title").split()[0]}
@@ -274,15 +274,15 @@ def test_a_file_that_is_no_bcf_is_refused(report: dict[str, Any], tmp_path: Path
     broken, newer = tmp_path / "broken.bcf", tmp_path / "newer.bcf"
     broken.write_bytes(b"PK but no archive")
     with zipfile.ZipFile(newer, "w") as archive:
-        archive.writestr("bcf.version", '<Version VersionId="3.0"/>')
+        archive.writestr("bcf.version", '<Version VersionId="4.0"/>')
     with pytest.raises(ReportError, match="cannot be read as a BCF file"):
         write_bcf(typed(report), tmp_path / "a.bcf", existing=broken)
-    with pytest.raises(ReportError, match=r"is of BCF version 3\.0"):
+    with pytest.raises(ReportError, match=r"is of BCF version 4\.0"):
         write_bcf(typed(report), tmp_path / "a.bcf", existing=newer)
     with zipfile.ZipFile(newer, "w") as archive:
         archive.writestr("bcf.version", '<Version VersionId="2.0"><DetailedVersion>2.0 RC</DetailedVersion></Version>')
         archive.writestr("5a0f/markup.bcf", "<Markup/>")
-    with pytest.raises(ReportError, match=r"is of BCF version 2\.0.*save it as BCF 2\.1"):
+    with pytest.raises(ReportError, match=r"is of BCF version 2\.0.*save it as one of these"):
         write_bcf(typed(report), tmp_path / "a.bcf", existing=newer)
     assert not (tmp_path / "a.bcf").exists()
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.model import Array
-from aadm_workbench.report.directions import compass_of, side_labels
+from aadm_workbench.report.directions import compass_of, grid_of, side_labels
 from tests.report.checked_floor import GRID_DEG, place_of
 from tests.report.typed import of_column, typed
 
@@ -39,7 +39,7 @@ def in_model(column: dict[str, Any], vector: Array) -> Array:
 @pytest.mark.parametrize("vector", [(3.0, 4.0), (-2.0, 0.5), (0.0, -1.3), (5.0, 0.0)])
 def test_grid_words_lead_where_the_vector_does(floor: dict[str, Any], name: str, vector: tuple[float, float]) -> None:
     column = next(column for column in floor["columns"] if column["id"] == name)
-    told = compass_of(typed(floor).columns, of_column(column)).in_words(vector)
+    told = compass_of(grid_of(typed(floor)), of_column(column)).in_words(vector)
     assert np.linalg.norm(told_vector(told.en, column["grid"]) - in_model(column, np.array(vector))) < 0.08
     assert re.findall(r"\d+\.\d", told.zh) == re.findall(r"\d+\.\d", told.en)
 
@@ -49,7 +49,7 @@ def test_next_axis_is_named_and_beyond_the_last_the_way_back(floor: dict[str, An
     angle = math.radians(GRID_DEG)
     up = np.array(corner["T_model_column"])[:2, :2].T @ np.array([-math.sin(angle), math.cos(angle)])
     right = np.array(corner["T_model_column"])[:2, :2].T @ np.array([math.cos(angle), math.sin(angle)])
-    compass = compass_of(typed(floor).columns, of_column(corner))
+    compass = compass_of(grid_of(typed(floor)), of_column(corner))
     assert compass.in_words(up).en == "1.0 mm towards grid B"
     assert compass.in_words(-up).en == "1.0 mm away from grid B"
     assert compass.in_words(right).en == "1.0 mm away from grid 2"
@@ -67,8 +67,8 @@ def test_columns_beside_their_axes(floor: dict[str, Any]) -> None:
     for column, other in zip(moved["columns"], floor["columns"], strict=True):
         if column["grid"] is not None:
             vector = (2.0, -3.0)
-            assert compass_of(typed(moved).columns, of_column(column)).in_words(vector) == compass_of(
-                typed(floor).columns, of_column(other)
+            assert compass_of(grid_of(typed(moved)), of_column(column)).in_words(vector) == compass_of(
+                grid_of(typed(floor)), of_column(other)
             ).in_words(vector)
 
 
@@ -77,14 +77,14 @@ def test_without_a_grid_the_plan(floor: dict[str, Any]) -> None:
     for other in floor["columns"]:
         other["grid"] = None
     right = np.array(column["T_model_column"])[:2, :2].T @ np.array([1.0, 0.0])
-    told = compass_of(typed(floor).columns, of_column(column)).in_words(2.0 * right + 0.01)
+    told = compass_of(grid_of(typed(floor)), of_column(column)).in_words(2.0 * right + 0.01)
     assert told.en == "2.0 mm towards the right of the plan"
     assert told.zh == "向平面图右方 2.0 mm"
 
 
 def test_with_one_row_of_columns_grid_and_plan(floor: dict[str, Any]) -> None:
     row = [column for column in floor["columns"] if (column["grid"] or "").startswith("A")]
-    compass = compass_of(typed(floor | {"columns": row}).columns, of_column(row[0]))
+    compass = compass_of(grid_of(typed(floor | {"columns": row})), of_column(row[0]))
     assert [heading.along.en for heading in compass.headings] == ["towards grid 2", "towards the top of the plan"]
     vector = np.array([1.7, 2.2])
     parts = compass.parts(vector)
@@ -93,7 +93,7 @@ def test_with_one_row_of_columns_grid_and_plan(floor: dict[str, Any]) -> None:
 
 def test_without_a_model_the_sides_of_the_column(floor: dict[str, Any]) -> None:
     column = floor["columns"][7]
-    told = compass_of(typed(floor).columns, of_column(column)).in_words((2.0, -1.0)).en
+    told = compass_of(grid_of(typed(floor)), of_column(column)).in_words((2.0, -1.0)).en
     assert told == (
         "2.0 mm towards the side of R4 to R7 (right in the sketch) and "
         "1.0 mm towards the side of R1 to R4 (bottom of the sketch)"
@@ -105,4 +105,25 @@ def test_without_a_model_the_sides_of_the_column(floor: dict[str, Any]) -> None:
 
 
 def test_nothing_to_move(floor: dict[str, Any]) -> None:
-    assert compass_of(typed(floor).columns, of_column(floor["columns"][0])).in_words((0.01, -0.02)) == ("", "")
+    assert compass_of(grid_of(typed(floor)), of_column(floor["columns"][0])).in_words((0.01, -0.02)) == ("", "")
+
+
+def test_the_axes_of_the_model_lead_where_no_other_column_does(floor: dict[str, Any]) -> None:
+    """One column alone knows the next axes from the model's grid, also where it is turned and stands between them."""
+    column = floor["columns"][0]
+    T = np.array(column["T_model_column"])
+    turn = math.radians(GRID_DEG)
+    u, v = np.array([math.cos(turn), math.sin(turn)]), np.array([-math.sin(turn), math.cos(turn)])
+    place = T[:2, 3]
+
+    def axis(tag: str, family: str, through: Any, along: Any) -> dict[str, Any]:
+        ends = [(through + sign * 9000.0 * along).tolist() for sign in (-1.0, 1.0)]
+        return {"tag": tag, "family": family, "start_mm": ends[0], "end_mm": ends[1]}
+
+    grid = [axis(name, "u", place + k * 7000.0 * v, u) for k, name in enumerate("XYZ", start=-1)]
+    grid += [axis(str(k + 7), "v", place + k * 6000.0 * u, v if k else -v) for k in (-1, 0, 1)]
+    alone = typed(floor | {"columns": [column | {"grid": None}], "grid": grid})
+    compass = compass_of(grid_of(alone), alone.columns[0])
+    for way, tag in ((u, "8"), (-u, "6"), (v, "Z"), (-v, "X")):
+        told = compass.in_words(3.0 * (T[:2, :2].T @ way))
+        assert (told.en, told.zh) == (f"3.0 mm towards grid {tag}", f"向 {tag} 轴 3.0 mm")

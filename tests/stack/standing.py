@@ -38,7 +38,8 @@ class Standing:
 
     ``place`` is where it stands in the model, mm, ``turned_deg`` how it is turned there; ``ground`` dx, dy mm and yaw
     degrees of its bars as a group, ``off`` of single points, mm, in the column frame (None: not seen). ``sleeves`` and
-    ``bars`` (12, 2) are drawn errors of all. ``control_u_mm`` None: without control points.
+    ``bars`` (12, 2) are drawn errors of all. ``control_u_mm`` None: without control points. ``leans_deg`` (24, 2) are
+    those of sleeves and bars, ``outer_mm`` the diameter of bars over their ribs.
     """
 
     name: str
@@ -53,6 +54,8 @@ class Standing:
     control_u_mm: float | None = 0.3
     kinds: tuple[Kind, ...] = (Kind.SLEEVE, Kind.REBAR)
     storey: str = "3F"
+    leans_deg: Array = field(default_factory=lambda: np.zeros((24, 2)))
+    outer_mm: float = 22.0
 
     @property
     def T_model_column(self) -> Array | None:
@@ -78,7 +81,7 @@ class Standing:
 
     def report(self) -> ColumnReport:
         """What a check finds."""
-        design = inline_design(self.name, DESIGN)
+        design = inline_design(self.name, DESIGN | {"rebar_outer_diameter": self.outer_mm})
         T = self.T_model_column
         design = replace(design, storey=self.storey, T_model_column=T, global_id=f"id-{self.name}"[:22])
         scans = {kind: (Scan(np.zeros((9, 3)), f"{self.name}-{kind.plural}.ply", "a" * 64),) for kind in self.kinds}
@@ -108,7 +111,8 @@ class Standing:
             if label in self.off and self.off[label] is None:
                 continue
             place = rotation @ np.array([*xy, 0.0]) + FROM_CAMERA
-            axis = rotation @ np.array([0.0, 0.0, 1.0])
+            lean = np.tan(np.radians(self.leans_deg[number - 1 + 12 * (kind is Kind.REBAR)]))
+            axis = rotation @ (np.array([*lean, 1.0]) / np.linalg.norm([*lean, 1.0]))
             points.append(AssemblyPoint("", kind, place, axis, DIAMETERS_MM[kind], self.u_mm**2 * np.eye(3)))
         up = rotation @ np.array([0.0, 0.0, 1.0])
         return Extraction(kind, "refined", tuple(points), None, up, "exact", quality={"point_pitch_mm": 0.5})

@@ -17,6 +17,7 @@ from aadm_workbench.stack.measured import measured_floor
 from aadm_workbench.stack.page import stack_page, write_stack_page
 from aadm_workbench.stack.plan import plan_stack
 from aadm_workbench.stack.result import StackPlan
+from aadm_workbench.stack.shown import tower_shown
 from tests.report.browser import chromium
 from tests.report.typed import typed
 from tests.stack.demo import HOSTILE, demo_model, demo_report
@@ -87,7 +88,7 @@ def test_never_off_grid_without_control_points(untied: StackPlan, language: Any)
 
 
 def test_without_a_model_beams_are_said_to_be_unknown(untied: StackPlan) -> None:
-    assert "no model was named" in stack_page(untied)
+    assert "no IFC model was named" in stack_page(untied)
 
 
 def test_names_are_escaped_and_nothing_runs(plan: StackPlan) -> None:
@@ -134,3 +135,20 @@ def test_a_browser_shows_one_language_at_a_time(plan: StackPlan, tmp_path: Path)
         assert "Set it" not in shown
         assert "供上一层放线使用" in shown
         assert wrong == []
+
+
+def test_nothing_judged_is_no_good_news(untied: StackPlan) -> None:
+    """Where nothing could be held against a limit, nobody is told that all keep theirs."""
+    page = stack_page(untied)
+    assert "could be held against its limit yet" in page
+    assert "Nothing is beyond a limit" not in page
+    assert "which says nothing of the grid" in page
+
+
+def test_a_column_that_must_not_be_hoisted_is_not_sent_on_its_way(plan: StackPlan) -> None:
+    """C-2 goes on its bars, but these stand beyond their limit: whoever reads its line alone must not lift it."""
+    said = {one.names: one.said for one in tower_shown(plan).to_do if one.set_pose}
+    assert set(said) == {"C-1", "C-2", "C-4"}
+    assert "once the engineer has released it, set it" in said["C-2"].en
+    assert "放行后" in said["C-2"].zh
+    assert "released" not in said["C-1"].en + said["C-4"].en

@@ -8,6 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from aadm_workbench.assembly.pose.play import nearest_to, play_limits, within
 from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.assembly.trial.aim import with_aim
 from aadm_workbench.model import StackSettings
 from aadm_workbench.stack.limits import Limits
 from aadm_workbench.stack.measured import MeasuredColumn, measured_floor
@@ -120,6 +121,26 @@ def test_small_bars_have_room_over_the_ribs_alone() -> None:
     (stacked,) = TOWER.stacked([replace(column, pairs=tuple(pairs))])
     assert stacked.advice is not None
     assert -1.5 <= stacked.advice.from_trial[0] < -1.35
+
+
+def test_what_is_done_is_not_advised_again() -> None:
+    """The pose as the page prints it, put into the job: two decimals of it may lie a hair beyond where a limit cuts."""
+    report = typed(report_of(Standing("C-1", ground=(5.0, -2.0, 0.2), off={"R2": (1.2, 0.5)})))
+    (before,) = TOWER.stacked(measured_floor(report).columns)
+    assert before.advice is not None
+    dx, dy, yaw_deg = before.advice.set_pose
+    for asked, cut in (((round(dx, 2), round(dy, 2), round(yaw_deg, 3)), False), ((2.0 * dx, 2.0 * dy, yaw_deg), True)):
+        told = replace(report, columns=(with_aim(report.columns[0], asked),))
+        (after,) = TOWER.stacked(measured_floor(told).columns)
+        said = " ".join(reason.en for reason in after.reasons)
+        assert after.origin == "told"
+        assert ("breaks a limit" in said) is cut
+        if not cut:
+            assert after.advice is None
+            assert "leads there already" in said
+            assert after.top is not None
+            assert before.advice.top is not None
+            assert after.top.offset_mm == pytest.approx(before.advice.top.offset_mm, abs=0.02)
 
 
 def test_nothing_to_gain_is_said(column: MeasuredColumn) -> None:

@@ -50,7 +50,7 @@ def let_down(standing: Standing, found: StackedColumn, rng: np.random.Generator)
     turn, _ = Rotation.align_vectors(*flat)
     shift = goal.mean(axis=0) - turn.apply([*sleeves.mean(axis=0), 0.0])[:2]
     yaw = rng.normal(0.0, SETTINGS.fit_u_mm / (found.measured.radius_mm or 1.0))
-    lean = rng.normal(0.0, SETTINGS.plumb_u_mm, 2)
+    lean = rng.normal(0.0, SETTINGS.plumb_at(3600.0), 2)
     body = turn * Rotation.from_euler("z", yaw)
     top = body.apply([0.0, 0.0, SETTINGS.height_mm or 0.0])[:2] + shift + rng.normal(0.0, SETTINGS.fit_u_mm, 2) + lean
     return top, float(body.as_rotvec()[2])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.twin.blocks import rough_block, rough_heights
 from aadm_workbench.twin.camera import PRO_M
-from aadm_workbench.twin.meshes import rough_block, rough_heights
 from aadm_workbench.twin.parts import Roughness
 from aadm_workbench.twin.scenes import LAB, random_bars, random_foot
 from aadm_workbench.twin.site import SITE, left_by_site

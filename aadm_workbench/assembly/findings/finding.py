@@ -25,8 +25,8 @@ from aadm_workbench.model import (
     worst,
 )
 
-NOT_MEASURED = ("mirrored", "swapped", "turn_contradicted", "other_column")
-"""What was scanned is not what was to be measured; all else that holds back leaves a verdict open."""
+NOT_MEASURED = ("mirrored", "swapped", "turn_contradicted", "other_column", "sleeves_by_design")
+"""What was to be measured was not scanned, or not measured; all else that holds back leaves a verdict open."""
 
 SPOILS_ALL = (*NOT_MEASURED, "same_scan_twice", "scale_differs")
 """These stand before whatever else is said: with them no deviation is to be believed."""

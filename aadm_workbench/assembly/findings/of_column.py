@@ -16,7 +16,7 @@ from aadm_workbench.assembly.findings.mistaken import NamedScan, mistaken_findin
 from aadm_workbench.assembly.findings.rules import findings_of
 from aadm_workbench.assembly.section.findings import section_findings
 from aadm_workbench.assembly.tolerances import sum_up
-from aadm_workbench.extract.method import extract_sizes
+from aadm_workbench.extract.method import BY_DESIGN, extract_sizes
 from aadm_workbench.model import (
     ColumnDesign,
     ColumnReport,
@@ -75,11 +75,16 @@ def with_findings(
         What the verdict of the column counts.
     """
     groups = {kind: one.group for kind, one in seen.items()}
-    scans = {kind: _named(one.scan, method, rng) for kind, one in seen.items()}
+    look = "refined" if method in BY_DESIGN else method
+    scans = {kind: _named(one.scan, look, rng) for kind, one in seen.items()}
     found = _without_turns(
         [*findings_of(design, list(groups.values())), *mistaken_findings(design, groups, scans, others)]
     )
     found += [*shared_id_findings(design), *section_findings(report.section)]
+    if method in BY_DESIGN and Kind.SLEEVE in groups and groups[Kind.SLEEVE].match:
+        by_design = make_finding("sleeves_by_design", [Kind.SLEEVE.plural], method=method)
+        found.append(by_design)
+        report = _without_sleeves(report, by_design.text)
     if Kind.REBAR in seen and method == "refined":
         found += odd_bar_findings(groups[Kind.REBAR], seen[Kind.REBAR].scan, found, rng)
     lost = {kind for kind, group in groups.items() if not group.match}
@@ -178,6 +183,13 @@ def _voided(group: GroupReport, reason: str) -> GroupReport:
         reasons=(reason,),
         absolute=None,
     )
+
+
+def _without_sleeves(report: ColumnReport, reason: str) -> ColumnReport:
+    """The report without deviations of sleeves that were laid where the design has them; the trial stands."""
+    if report.sleeves is None:
+        return report
+    return replace(report, sleeves=replace(_voided(report.sleeves, reason), verdict=Verdict.NOT_MEASURED))
 
 
 def _unmeasured(point: PointResult, reason: str) -> PointResult:

@@ -31,6 +31,7 @@ from aadm_workbench.assembly.pose.eopa import wrap
 from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
 from aadm_workbench.model import Array, ColumnDesign, Finding, Kind, codes_of
+from aadm_workbench.model.scatter import OF_MEDIAN, TO_SIGMA
 
 _FILTERS = {SMOOTHED.code: "smoothed", GAPS_FILLED.code: "gaps_filled", COPIED.code: "edges_fattened"}
 
@@ -42,7 +43,6 @@ U_MM = 1.0
 
 _LENGTH_SIGMAS = 3.0  # of sound bars one in 370 is farther off, before the play
 _FEWEST_KNOWN = 4  # of fewer bars no median tells what is usual, or what all share
-_TO_SIGMA = 1.4826  # of a median of absolute deviations, for the normal law
 
 LEAST_DEG = 0.8
 """Floors, and feet, are square to their columns to half of that; a single bar or sleeve leans by 0.3° by right."""
@@ -136,7 +136,7 @@ def exposed_length_findings(group: SeenGroup, design_exposed_mm: float | None) -
     heights = np.array([float(target.centre[2]) for target, _ in seen])
     over = np.array([length for _, length in seen]) - (heights - np.median(heights))
     usual_mm = float(np.median(over)) if design_exposed_mm is None else design_exposed_mm
-    spread_mm = _TO_SIGMA * float(np.median(np.abs(over - usual_mm))) if design_exposed_mm is None else 0.0
+    spread_mm = TO_SIGMA * float(np.median(np.abs(over - usual_mm))) if design_exposed_mm is None else 0.0
     threshold_mm = PLAY_MM + _LENGTH_SIGMAS * float(np.hypot(U_MM, spread_mm))
     of = "as the others do" if design_exposed_mm is None else "by design"
     for (target, length), deviation in zip(seen, over - usual_mm, strict=True):
@@ -216,8 +216,8 @@ def _shear(group: SeenGroup) -> _Shear | None:
     leans = (axes / (axes @ vertical)[:, None] - vertical)[:, :2]
     own = np.array([np.trace(point.axis_covariance) / 2.0 for point in known])  # type: ignore[arg-type]
     middle = np.median(leans, axis=0)
-    scatter = 1.4826 * float(np.median(np.abs(leans - middle)))
-    u = 1.2533 * math.hypot(scatter, math.sqrt(float(np.median(own)))) / math.sqrt(len(known))
+    scatter = TO_SIGMA * float(np.median(np.abs(leans - middle)))
+    u = OF_MEDIAN * math.hypot(scatter, math.sqrt(float(np.median(own)))) / math.sqrt(len(known))
     return _Shear(middle / vertical[2], math.hypot(u, math.radians(_SHARED_DEG[group.kind]) / 2.0), len(known))
 
 
@@ -292,11 +292,14 @@ def pattern_scale(group: SeenGroup) -> Scale | None:
 
 
 def student_quantile(freedom: float) -> float:
-    """Two-sided 0.01 % of Student's law, by the expansion of Cornish and Fisher: within 4 % from eight degrees on."""
+    """Two-sided 0.01 % of Student's law: within 4 % from eight degrees on.
+
+    The expansion of Cornish and Fisher, its first three terms as Abramowitz and Stegun give them (26.7.5).
+    """
     z = NORMAL_QUANTILE
     first = (z**3 + z) / 4.0
-    second = (5.0 * z**5 + 16.0 * z**3 + 3.0 * z) / 96.0
-    third = (3.0 * z**7 + 19.0 * z**5 + 17.0 * z**3 - 15.0 * z) / 384.0
+    second = (5.0 * z**5 + 16.0 * z**3 + 3.0 * z) / 96.0  # (26.7.5)
+    third = (3.0 * z**7 + 19.0 * z**5 + 17.0 * z**3 - 15.0 * z) / 384.0  # (26.7.5)
     return z + first / freedom + second / freedom**2 + third / freedom**3
 
 

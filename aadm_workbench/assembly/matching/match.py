@@ -204,6 +204,7 @@ def _image_angle(basis: Array, image_up_scan: Array | None) -> float | None:
         return None
     x, y, along = basis @ np.asarray(image_up_scan, dtype=np.float64)
     flat = math.hypot(x, y)
+    # Looked at within 17° of the image's own top, its direction in the plane is that of noise.
     return math.atan2(y, x) if flat > 0.3 * math.hypot(flat, along) else None
 
 
@@ -283,6 +284,7 @@ def _oriented(possible: list[Placement], plausible: list[Placement], up: Array |
     if up is None:
         return Match(tuple(plausible), "resolved" if len(plausible) == 1 else "ambiguous")
     declared = math.radians(up) if isinstance(up, int | float) else math.atan2(float(up[1]), float(up[0]))
+    # Rounded, so that turns which are equal but for the last digits keep their order on every machine.
     ordered = sorted(plausible, key=lambda found: round(_off(found, declared), 9))
     nearest = _off(ordered[0], declared)
     if nearest > DECLARED_WITHIN_RAD:
@@ -293,7 +295,7 @@ def _oriented(possible: list[Placement], plausible: list[Placement], up: Array |
     if _off(best, declared) > DECLARED_WITHIN_RAD and best.log_likelihood - chosen > CONTRADICTS_LOG_RATIO:
         return _contradicted(declared, best, max(alike, key=lambda found: found.log_likelihood))
     if len(alike) > 1:
-        in_place = sorted(alike, key=lambda found: round(found.cost_mm, 6))
+        in_place = sorted(alike, key=lambda found: round(found.cost_mm, 6))  # as above
         return Match(tuple(in_place), "ambiguous", declared=declared)
     others = [found for found in plausible if found is not alike[0]]
     return Match((alike[0], *others), "declared", declared=declared, open_turn=_open_turn(alike[0], others, declared))

@@ -28,6 +28,7 @@ PAIR_LENGTH_MM = 10.0
 _BASE_PAIRS = 40  # each point stands in several, so that some pairs hold no bad one: a choice, not tuned since
 _KEPT_COARSE = 512  # of the cheapest proposals: a choice, not tuned since
 _KEPT_FINE = 96  # of the best that differ: a choice, not tuned since
+_REFINED = 6  # rounds: a choice, not tuned since
 _SAME_TURN_RAD = np.deg2rad(1.5)  # moves a bar 300 mm from the middle by as much as the next number
 _SAME_PLACE_MM = 8.0  # closer than any two features of a pattern
 _SMALLEST_DISTANCE_MM = 0.5  # keeps the weight of a point that is hit: nearer than this all are as good
@@ -102,6 +103,7 @@ def search_placements(measured: Array, design: Array) -> list[PlanarPlacement]:
         yaw, shift = _fit_batch(source, target[nearest], _absolute_weights(distance, gate_mm))
     yaw, shift = _keep_cheapest(source, raster, yaw, shift, _KEPT_FINE, distinct=True)
     placements = _refine(source, target, yaw, shift, gate_mm)
+    # Rounded, so that what is equal but for the last digits keeps its order on every machine.
     ordered = sorted(placements, key=lambda found: (round(found.cost_mm, 6), abs(found.yaw), found.yaw))
     return [_uncentred(found, middle, centre) for found in _distinct(ordered)]
 
@@ -109,7 +111,7 @@ def search_placements(measured: Array, design: Array) -> list[PlanarPlacement]:
 def _gate(design: Array) -> float:
     gaps = np.hypot(*(design[:, None] - design[None]).transpose(2, 0, 1))
     np.fill_diagonal(gaps, np.inf)
-    return min(GATE_MM, 0.45 * float(gaps.min()))
+    return min(GATE_MM, 0.45 * float(gaps.min()))  # less than half way to the next, so that none claims two
 
 
 def _propose(source: Array, target: Array) -> tuple[Array, Array]:
@@ -139,6 +141,7 @@ def _keep_cheapest(
     """The ``count`` cheapest poses on the raster, one for each cell of turn and place."""
     cost = raster.look_up(_apply(source, yaw, shift))[1].sum(axis=1)
     order = np.argsort(cost, kind="stable")
+    # Finer than what the next step brings together; the first look keeps one of each 8 mm that a gate is wide.
     cell = (np.deg2rad(0.5), 1.0) if distinct else (np.deg2rad(2.0), 8.0)
     keys = np.column_stack(
         [np.round(np.sin(yaw) / cell[0]), np.round(np.cos(yaw) / cell[0]), np.round(shift / cell[1])]
@@ -149,8 +152,7 @@ def _keep_cheapest(
 
 
 def _refine(source: Array, target: Array, yaw: Array, shift: Array, gate_mm: float) -> list[PlanarPlacement]:
-    rounds = 6
-    for _ in range(rounds):
+    for _ in range(_REFINED):
         nearest, distance, mutual = _mutual_nearest(_apply(source, yaw, shift), target, gate_mm)
         weights = np.where(mutual, _absolute_weights(distance, gate_mm), 0.0)
         enough = mutual.sum(axis=1) >= 2

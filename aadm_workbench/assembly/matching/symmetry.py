@@ -44,6 +44,7 @@ def symmetric_turns(centres: Array) -> tuple[SymmetricTurn, ...]:
         found = _turn_by(centred, float(np.arctan2(b[1], b[0]) - np.arctan2(a[1], a[0])))
         if found is not None:
             turns.append(found)
+    # Rounded, so that turns which are equal but for the last digits keep their order on every machine.
     return tuple(sorted(turns, key=lambda found: (round(abs(found.angle), 9), -found.angle)))
 
 

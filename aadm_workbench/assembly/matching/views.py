@@ -101,7 +101,7 @@ def _labellings(match: Match, extraction: Extraction, number: int) -> tuple[_Lab
 
 
 def _labelling(placement: Placement, count: int, number: int) -> _Labelling:
-    labels = [-1 - k - 10_000 * number for k in range(count)]
+    labels = [-1 - k - 10_000 * number for k in range(count)]  # no view has as many strangers
     for design, measured in enumerate(placement.matched.tolist()):
         if measured >= 0:
             labels[measured] = design

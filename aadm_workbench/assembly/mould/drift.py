@@ -240,5 +240,6 @@ def cpk_index(limit: float, mean: float, deviation: float, count: int, confidenc
     from scipy.special import ndtri
 
     cpk = (limit - abs(mean)) / (3.0 * deviation)
+    # 9 = 3², of the three standard deviations that the index stands on.
     half = float(ndtri(0.5 + confidence / 2.0)) * math.sqrt(1.0 / (9.0 * count) + cpk**2 / (2.0 * (count - 1)))
     return cpk, (cpk - half, cpk + half)

@@ -75,7 +75,7 @@ def smallest_common_disc(
     multipliers = np.tile(first / first.sum(), (len(p), 1))
     best, best_z = _largest(p, q, weights, z), z.copy()
     bound = proven_bound(p, q, weights, multipliers)
-    level = 1.5 * best + 1e-30
+    level = 1.5 * best + 1e-30  # above the best by half, and above nothing where that is nothing
     open_ = np.flatnonzero(_undecided(best, bound, decide_at, gap))
     for _ in range(_ROUNDS):
         if not len(open_):

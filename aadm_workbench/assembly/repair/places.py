@@ -48,7 +48,7 @@ def _widest(limit_mm: float, room_mm: float, bar_lean: Array, sleeve_lean: Array
     middles = np.linspace(0.0, 1.0, _STEPS)[:, None] * (bar_lean + sleeve_lean) / 2.0
     discs = ((np.zeros(2), limit_mm), (bar_lean, room_mm), (sleeve_lean, room_mm))
     radius = np.min([reach - np.hypot(*(middles - centre).T) for centre, reach in discs], axis=0)
-    best = int(np.argmax(np.round(radius, 9)))
+    best = int(np.argmax(np.round(radius, 9)))  # the first of equals, on every machine
     return FreePlace(middles[best], float(radius[best]))
 
 

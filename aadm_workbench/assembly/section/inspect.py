@@ -66,6 +66,7 @@ def inspect_section(
     profile: Profile,
     *,
     fit_u_mm: float,
+    fit_u_turn: float,
     decision: DecisionRule,
 ) -> SectionReport | None:
     """The section of one foot; None where the design does not say where its section lies.
@@ -76,19 +77,21 @@ def inspect_section(
         Edges by their sides in the column frame, or why one was not measured.
     fit_u_mm
         Standard uncertainty per axis of where the sleeves lay the scan, with which all edges move together.
+    fit_u_turn
+        The same of how they turn it, radians.
     """
     if design.size_mm is None or design.section_middle_mm is None:
         return None
     middle, half = np.array(design.section_middle_mm), np.array(design.size_mm) / 2.0
     lines = {side: _Line.of(edge) for side, edge in seen.items() if not isinstance(edge, Reason)}
     lengths = [_length(name, low, high, lines, seen, design, profile, decision) for name, low, high in _AXES]
-    pattern = _pattern(lines, middle, profile, fit_u_mm, decision)
+    pattern = _pattern(lines, middle, profile, (fit_u_mm, fit_u_turn), decision)
     flat = _flatness(heights, profile, decision)
     square, square_u = _squareness(lines)
     rules = _rules(profile, lengths, pattern, flat)
     return SectionReport(
         verdict=counted_verdict(rules),
-        edges=tuple(_edge(side, seen, lines, middle, half, fit_u_mm) for side in SIDES),
+        edges=tuple(_edge(side, seen, lines, middle, half, (fit_u_mm, fit_u_turn)) for side in SIDES),
         corners=tuple(_corner(*corner, lines, middle, half) for corner in _CORNERS if _both(lines, *corner[1:])),
         lengths=(*lengths, flat),
         pattern=pattern,
@@ -109,7 +112,7 @@ def _edge(
     lines: Mapping[str, _Line],
     middle: Array,
     half: Array,
-    fit_u_mm: float,
+    fit_u: tuple[float, float],
 ) -> SectionEdge:
     axis, sign = "xy".index(side[1]), 1.0 if side[0] == "+" else -1.0
     design_mm = float(half[axis] + sign * middle[axis])
@@ -122,9 +125,9 @@ def _edge(
         side,
         design_mm,
         measured_mm,
-        math.sqrt(variance + found.shared_u_mm**2 + fit_u_mm**2),
+        math.sqrt(variance + found.shared_u_mm**2 + fit_u[0] ** 2),
         math.degrees(found.turn),
-        math.degrees(math.sqrt(found.covariance[1, 1])),
+        math.degrees(math.hypot(math.sqrt(found.covariance[1, 1]), fit_u[1])),
         found.seen,
         tuple(
             EdgeChip((chip.begin_mm + chip.end_mm) / 2.0, chip.end_mm - chip.begin_mm, chip.depth_mm)
@@ -179,9 +182,10 @@ def _judged(found: SectionLength, rule: Rule | None, decision: DecisionRule) -> 
 
 
 def _pattern(
-    lines: Mapping[str, _Line], middle: Array, profile: Profile, fit_u_mm: float, decision: DecisionRule
+    lines: Mapping[str, _Line], middle: Array, profile: Profile, fit_u: tuple[float, float], decision: DecisionRule
 ) -> PatternPlace:
-    """Where the sleeves sit in the section: minus where the section lies about them."""
+    """Where the sleeves sit in the section: minus where the section lies about them. ``fit_u``: mm and radians."""
+    fit_u_mm, fit_u_turn = fit_u
     missing = [name for name, low, high in _AXES if not _both(lines, low, high)]
     if missing:
         reason = Reason("assembly.section_both", axes=missing)
@@ -200,7 +204,7 @@ def _pattern(
         (float(offset[0]), float(offset[1])),
         (float(u[0]), float(u[1])),
         -math.degrees(turn),
-        math.degrees(turn_u),
+        math.degrees(math.hypot(turn_u, fit_u_turn)),
     )
     rule = _rule(profile, "pattern_in_section")
     if rule is None:

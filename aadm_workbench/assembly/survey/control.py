@@ -108,6 +108,7 @@ def fit_control_points(
 def shown_up_deg(pose: ControlPose, image_up_scan: Array) -> float | None:
     """Column-frame direction, degrees from +x, that a direction (3,) of the scan shows; None where it is upright."""
     x, y, z = pose.T_column_scan[:3, :3] @ image_up_scan
+    # Within 17° of upright its direction in plan is that of noise.
     return math.degrees(math.atan2(y, x)) if math.hypot(x, y) > 0.3 * math.hypot(x, y, z) else None
 
 
@@ -185,6 +186,7 @@ def _contradiction(points: Sequence[ControlPoint], pose: ControlPose, scan: Arra
     if lengths[worst] > max(LARGEST_RESIDUAL_MM, _SIGMAS * float(stated[worst])):
         extents = [float(np.sqrt(((v - v.mean(axis=0)) ** 2).sum())) for v in (pose.known, scan)]
         stretch = extents[0] / max(extents[1], 1e-12)
+        # A tenth longer or shorter is no slip of a point: units, or a camera's scale.
         code = "survey.control_contradict" if 0.9 < stretch < 1.1 else "survey.control_contradict.scale"
         return Reason(code, name=points[worst].name, off_mm=lengths[worst], stretch=stretch)
     if vertical_scan is not None:

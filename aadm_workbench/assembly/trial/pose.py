@@ -20,6 +20,7 @@ from aadm_workbench.assembly.pose.best_pose import BestFit
 from aadm_workbench.assembly.pose.eopa import planar_transform, turn
 from aadm_workbench.assembly.tolerances import describe_limit
 from aadm_workbench.model import Array, BestPair, BestPose, PairResult, Reason, Rule, TrialPose, Verdict, in_one, worst
+from aadm_workbench.model.scatter import OF_MEDIAN, TO_SIGMA
 
 _FEWEST = 4
 """With fewer axes, that they agree says little."""
@@ -260,10 +261,8 @@ def _shared(shifts: Array, length_mm: float) -> Array:
     if len(shifts) < _FEWEST:
         return np.zeros(2)
     middle = np.median(shifts, axis=0)
-    # Of the median, from the median of the absolute deviations: 1.4826 makes it a standard deviation, 1.2533 is the
-    # median's own.
-    scatter_mm = 1.4826 * float(np.median(np.abs(shifts - middle)))
-    chance_mm = 1.2533 * scatter_mm / math.sqrt(len(shifts))
+    scatter_mm = TO_SIGMA * float(np.median(np.abs(shifts - middle)))
+    chance_mm = OF_MEDIAN * scatter_mm / math.sqrt(len(shifts))
     length = float(np.hypot(*middle))
     counts = length > max(_SIGMAS * chance_mm, math.tan(_SMALLEST_RAD) * length_mm)
     return np.asarray(middle) if counts else np.zeros(2)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -13,21 +13,27 @@ from aadm_workbench.design.ifc.geometry.shapes import Shapes
 from aadm_workbench.design.ifc.geometry.solids import BROKEN
 from aadm_workbench.design.ifc.names import text_of
 from aadm_workbench.design.recognise.paths import Straight, joined
-from aadm_workbench.model import Array, Reason
+from aadm_workbench.model import Array, GridAxis, Reason
 
 FARTHEST_MM = 1500.0
 """Columns stand off their grid lines by part of their own width; one further off belongs to no crossing."""
 
+_FAMILIES: tuple[Literal["u", "v", "w"], ...] = ("u", "v", "w")
 _PARALLEL_SINE = 0.05  # 3 degrees: axes that meet more flatly cross nowhere near
 
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """A straight grid axis seen from above: through ``point`` (2,) mm along ``along`` (2,) unit, model frame."""
+    """A straight grid axis seen from above: from ``point`` (2,) mm along ``along`` (2,) unit, model frame."""
 
     tag: str
     point: Array
     along: Array
+    length_mm: float
+
+
+Families: TypeAlias = tuple[list[Axis], ...]
+"""The axes of one grid, U, V and W."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,19 +44,42 @@ class Crossing:
     point: Array
 
 
-def crossings(file: Any, shapes: Shapes) -> list[Crossing]:
-    """All crossings of straight axes in a model's grids."""
-    found: list[Crossing] = []
+def grids_of(file: Any, shapes: Shapes) -> list[Families]:
+    """The straight axes of each of a model's grids."""
+    found: list[Families] = []
     for grid in file.by_type("IfcGrid"):
         try:
             T = shapes.placements.of_product(grid)
-            families = [_axes(axes or (), T, shapes) for axes in (grid.UAxes, grid.VAxes, grid.WAxes)]
+            found.append(tuple(_axes(axes or (), T, shapes) for axes in (grid.UAxes, grid.VAxes, grid.WAxes)))
         except BROKEN as error:
             shapes.problems.append(Reason("ifc.grid", global_id=grid.GlobalId, why=error))
-            continue
-        for first, second in combinations(families, 2):
-            found += [met for u in first for v in second if (met := _meeting(u, v)) is not None]
     return found
+
+
+def crossings(grids: Iterable[Families]) -> list[Crossing]:
+    """All crossings of the axes of each grid."""
+    return [
+        met
+        for families in grids
+        for first, second in combinations(families, 2)
+        for u in first
+        for v in second
+        if (met := _meeting(u, v)) is not None
+    ]
+
+
+def grid_axes(grids: Iterable[Families]) -> tuple[GridAxis, ...]:
+    """The axes as reports hold them."""
+    return tuple(
+        GridAxis(axis.tag, name, _place(axis.point), _place(axis.point + axis.length_mm * axis.along))
+        for families in grids
+        for name, axes in zip(_FAMILIES, families, strict=True)
+        for axis in axes
+    )
+
+
+def _place(point: Array) -> tuple[float, float]:
+    return float(point[0]), float(point[1])
 
 
 def grid_position(found: Sequence[Crossing], point: Array) -> str | None:
@@ -68,7 +97,8 @@ def _axes(axes: Sequence[Any], T_model_grid: Array, shapes: Shapes) -> list[Axis
         legs = joined(leg.moved(T_model_grid) for leg in shapes.curves.legs(axis.AxisCurve))
         if len(legs) == 1 and isinstance(legs[0], Straight):
             along = (legs[0].end - legs[0].start)[:2]
-            found.append(Axis(text_of(axis.AxisTag), legs[0].start[:2], along / np.linalg.norm(along)))
+            length_mm = float(np.linalg.norm(along))
+            found.append(Axis(text_of(axis.AxisTag), legs[0].start[:2], along / length_mm, length_mm))
     return found
 
 

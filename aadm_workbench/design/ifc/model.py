@@ -23,7 +23,7 @@ from aadm_workbench.design.ifc.geometry.kernel import closing_kernel
 from aadm_workbench.design.ifc.geometry.placement import frame
 from aadm_workbench.design.ifc.geometry.shapes import Shapes, evaluator
 from aadm_workbench.design.ifc.geometry.solids import BROKEN
-from aadm_workbench.design.ifc.grid import crossings
+from aadm_workbench.design.ifc.grid import Families, crossings, grid_axes, grids_of
 from aadm_workbench.design.ifc.hints import explain
 from aadm_workbench.design.ifc.ids import shared_id_warning, shared_ids, with_shared_ids
 from aadm_workbench.design.ifc.search import FoundFoot, Nearby, SleeveSearch
@@ -31,6 +31,7 @@ from aadm_workbench.design.ifc.sleeves import MOUTH_TO_FOOT_MM, Candidate, left_
 from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc.under import bars_under
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
+from aadm_workbench.design.recognise.body_faces import faces
 from aadm_workbench.design.recognise.shapes import edges
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Reason
 
@@ -42,7 +43,12 @@ _LEVEL_SINE = 0.1  # 6 degrees: what runs more steeply is no course of a wall
 
 
 def read_ifc(
-    path: str | Path, *, columns: str | None = None, sleeves: str | None = None, rebars: str | None = None
+    path: str | Path,
+    *,
+    columns: str | None = None,
+    sleeves: str | None = None,
+    rebars: str | None = None,
+    bodies: dict[str, list[Array]] | None = None,
 ) -> ModelDesign:
     """Columns, sleeves and connecting rebars that an IFC model holds.
 
@@ -56,6 +62,8 @@ def read_ifc(
         A model in STEP format of schema IFC2X3, IFC4 or IFC4X3.
     columns, sleeves, rebars
         Optional selectors in the syntax of ``ifcopenshell.util.selector``.
+    bodies
+        Gets the faces of each column's concrete by its GlobalId, polygons (n, 3) mm in the model frame: for the eye.
 
     Raises
     ------
@@ -70,12 +78,17 @@ def read_ifc(
     shapes = evaluator(opened.mm, opened.radians, coarse=opened.draws_coarsely)
     # Numbers that overflow are looked at where they come out.
     with np.errstate(all="ignore"), closing_kernel(shapes.solids.kernel):
-        found = _found(opened, shapes, columns, sleeves, rebars)
+        found = _found(opened, shapes, columns, sleeves, rebars, bodies)
     return replace(found, seconds=perf_counter() - began - opened.seconds, parse_seconds=opened.seconds)
 
 
 def _found(
-    opened: OpenedIfc, shapes: Shapes, columns: str | None, sleeves: str | None, rebars: str | None
+    opened: OpenedIfc,
+    shapes: Shapes,
+    columns: str | None,
+    sleeves: str | None,
+    rebars: str | None,
+    drawn: dict[str, list[Array]] | None,
 ) -> ModelDesign:
     """What a model holds; elements that are broken are left out one by one."""
     bodies, unreadable = find_columns(opened, shapes, columns)
@@ -85,7 +98,8 @@ def _found(
     searched, lost = _searched(shapes, search, bodies)
     feet, doubles = _one_column_each(searched)
     loose_sleeves, refused = loose_sleeves_of(named, feet)
-    designs, used_bars, broken = _designs(opened, shapes, feet, bars)
+    grids = grids_of(opened.file, shapes)
+    designs, used_bars, broken = _designs(shapes, feet, bars, grids)
     loose_rebars, inside = loose_rebars_of(bars, used_bars, feet, lambda ends: ends_in_walls(opened, shapes, ends))
     not_taken = (
         *unreadable,
@@ -98,6 +112,9 @@ def _found(
         *bars.not_taken,
         *inside,
     )
+    if drawn is not None:
+        for body, _ in feet:
+            drawn[body.element.GlobalId] = faces(shape for part in body.drawn for shape in shapes.of_product(part))
     shared = shared_ids(opened.file)
     return ModelDesign(
         source=opened.source,
@@ -117,6 +134,8 @@ def _found(
         holdings=ifc_names.holdings(opened.file),
         hint=explain(opened, feet, search, not_taken, len(loose_sleeves), len(loose_rebars)),
         T_model_file=_world(opened, shapes),
+        grid=grid_axes(grids),
+        project=next((project.GlobalId for project in opened.file.by_type("IfcProject")), ""),
     )
 
 
@@ -153,10 +172,10 @@ def _one_column_each(
 
 
 def _designs(
-    opened: OpenedIfc, shapes: Shapes, feet: Sequence[tuple[ColumnBody, FoundFoot]], bars: FoundBars
+    shapes: Shapes, feet: Sequence[tuple[ColumnBody, FoundFoot]], bars: FoundBars, grids: Sequence[Families]
 ) -> tuple[list[ColumnDesign], set[int], list[NotTaken]]:
     """The designs of all columns with sleeves, the numbers of the bar ends under them, and columns that are broken."""
-    grid = crossings(opened.file, shapes)
+    grid = crossings(grids)
     number = {id(end): k for k, end in enumerate(bars.ends)}
     designs: list[ColumnDesign] = []
     used: set[int] = set()

@@ -131,12 +131,21 @@ def _plane_patches(normals: Array, edges: IntArray, face_of: IntArray) -> IntArr
 
 
 def _connected(count: int, first: IntArray, second: IntArray) -> IntArray:
-    """Number of the group that each of so many things is in, joined in pairs."""
-    from scipy.sparse import coo_matrix  # slow to import, and only meshes need it
-    from scipy.sparse.csgraph import connected_components
+    """Number of the group that each of so many things is in, joined in pairs; groups in the order of their first.
 
-    graph = coo_matrix((np.ones(len(first)), (first, second)), shape=(count, count))
-    labels: IntArray = connected_components(graph, directed=False)[1].astype(np.int64)
+    Each takes the smallest number of its neighbours, then the one that this has come to, until nothing changes. scipy
+    has it too, but FreeCAD, which samples meshes by this, need not bring scipy.
+    """
+    smallest = np.arange(count)
+    while True:
+        before = smallest.copy()
+        least = np.minimum(smallest[first], smallest[second])
+        np.minimum.at(smallest, before[first], least)
+        np.minimum.at(smallest, before[second], least)
+        smallest = smallest[smallest]
+        if np.array_equal(smallest, before):
+            break
+    labels: IntArray = np.unique(smallest, return_inverse=True)[1].reshape(-1).astype(np.int64)
     return labels
 
 

@@ -25,6 +25,8 @@ VERDICTS: Mapping[str, Rgb] = MappingProxyType(
     }
 )
 DESIGN: Rgb = (0.0, 0.45, 0.70)  # blue of the same palette: no verdict
+BAR: Rgb = (0.76, 0.49, 0.07)  # as in the icons
+GHOST: Rgb = (0.70, 0.70, 0.68)  # concrete, in front of white and of dark alike
 FAR: Rgb = (0.62, 0.62, 0.62)
 """Points further from the design than the scale reaches."""
 
@@ -35,6 +37,14 @@ _SCALE = np.array([[0.05, 0.25, 0.60], [0.35, 0.62, 0.85], [0.78, 0.78, 0.70], [
 def of_verdict(verdict: str) -> Rgb:
     """The colour of a verdict; grey for one that is not known."""
     return VERDICTS.get(verdict, VERDICTS["not_assessed"])
+
+
+def text_on(colour: Rgb) -> Rgb:
+    """Black or white: whichever stands out more from a colour (WCAG 2.2, relative luminance)."""
+    value = np.array(colour)
+    linear = np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
+    luminance = float(linear @ [0.2126, 0.7152, 0.0722])
+    return (0.0, 0.0, 0.0) if (luminance + 0.05) / 0.05 >= 1.05 / (luminance + 0.05) else (1.0, 1.0, 1.0)
 
 
 def of_distances(distances_mm: Array, reach_mm: float) -> Array:

@@ -17,8 +17,9 @@ import FreeCAD
 
 import aadm_workbench.document.scan_cloud  # noqa: F401 - FreeCAD brings back proxies only of modules that are there
 from aadm_workbench.document import gui_document
-from aadm_workbench.document.column import Column, columns_in, make_column
+from aadm_workbench.document.column import Column, make_column
 from aadm_workbench.document.display.reported_design import design_of_report
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.report.file import load_report
 from aadm_workbench.document.result import make_result
 from aadm_workbench.errors import AadmError, ReportError
@@ -131,7 +132,7 @@ def _opened(path: Path) -> Any:
 
 def objects_by_global_id(document: Any) -> dict[str, Any]:
     """Objects of a model by the GlobalId that importers leave on them."""
-    found: dict[str, Any] = {}
+    found = {}
     for obj in document.Objects:
         if getattr(getattr(obj, "Proxy", None), "Type", "") != Column.Type:
             for name in global_ids_of(obj):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
-from aadm_workbench.document.column import columns_in
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.result import JOB_KEYS, found_of, job_of
 from aadm_workbench.errors import ReportError
 from aadm_workbench.model import SUMMED

@@ -95,7 +95,7 @@ class _Equations:
         about_x, about_y = zone.x - fit.centre[:, :1], zone.y - fit.centre[:, 1:]
         distance = np.maximum(np.sqrt(about_x * about_x + about_y * about_y), 1e-9)
         scaled = fit.side * (distance - fit.radius) / fit.width
-        step = 1.0 / (1.0 + np.exp(-np.clip(scaled, -40.0, 40.0)))
+        step = 1.0 / (1.0 + np.exp(-np.clip(scaled, -40.0, 40.0)))  # beyond, single precision knows 0 and 1 alone
         chance = _FOREIGN + (found - _FOREIGN) * step
         rise = (found - _FOREIGN) * step * (1.0 - step)
         spread = chance * (1.0 - chance)

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.model import Array, BoolArray
+from aadm_workbench.model.scatter import TO_SIGMA
 
 WALL_CORRELATION = 2.5
 """Neighbouring wall points share their errors: standard errors are this much larger."""
@@ -132,7 +133,7 @@ def spread(residual: Array) -> float:
     """Robust standard deviation, mm, of residuals (n,) about their median."""
     if len(residual) < _FEWEST:
         return _SPREAD_UNKNOWN_MM
-    return 1.4826 * float(np.median(np.abs(residual - np.median(residual))))
+    return TO_SIGMA * float(np.median(np.abs(residual - np.median(residual))))
 
 
 def tukey(scaled: Array) -> Array:
@@ -209,11 +210,11 @@ class BracketLaw:
         return np.asarray(-(rise + fall) / (own + foreign + _STRAY_SHARE / _STRAY_SPAN_MM))
 
     def _densities(self, behind: Array) -> tuple[Array, Array, Array]:
-        own = (1.0 - self.foreign) * np.exp(-0.5 * (behind / self.width_mm) ** 2) / (2.5066 * self.width_mm)
+        own = (1.0 - self.foreign) * np.exp(-0.5 * (behind / self.width_mm) ** 2) / (2.5066 * self.width_mm)  # √(2π)
         step = _step(-2.0 * behind / self.width_mm)
         tail = np.exp(np.minimum(behind, 0.0) / self.stands_out_mm) / self.stands_out_mm
         return own, self.foreign * step * tail, step
 
 
 def _step(scaled: Array) -> Array:
-    return np.asarray(1.0 / (1.0 + np.exp(-np.clip(scaled, -40.0, 40.0))))
+    return np.asarray(1.0 / (1.0 + np.exp(-np.clip(scaled, -40.0, 40.0))))  # beyond, it is 0 or 1 to 1e-17

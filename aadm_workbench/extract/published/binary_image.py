@@ -67,5 +67,5 @@ def _pitch_of_cloud(xy: Array, cell_mm: float) -> float | None:
         return None
     cells = np.floor((xy - xy.min(axis=0)) / cell_mm).astype(np.int64)
     counts = np.bincount(cells[:, 0] * (int(cells[:, 1].max()) + 1) + cells[:, 1])
-    full = float(np.percentile(counts[counts > 0], 75))
+    full = float(np.percentile(counts[counts > 0], 75))  # cells at edges and in mouths are half empty
     return cell_mm / float(np.sqrt(full)) if full >= _PITCH_CELL_POINTS_MIN else None

@@ -29,6 +29,7 @@ from typing import Any
 import cv2
 import numpy as np
 
+from aadm_workbench.extract.method import BY_DESIGN
 from aadm_workbench.extract.method import METHODS as RECIPES
 from aadm_workbench.extract.plane import facing, from_plane, in_plane
 from aadm_workbench.extract.published.binary_image import binary_image
@@ -41,7 +42,7 @@ from aadm_workbench.extract.published.round_fits import ransac_circle, ransac_cy
 from aadm_workbench.extract.sample import counts_in_cells
 from aadm_workbench.model import Array, FloatArray, Plane, Reason, Scan
 
-METHODS = tuple(method for method in RECIPES if method != "refined")
+METHODS = tuple(method for method in RECIPES if method not in ("refined", *BY_DESIGN))
 _SLICE_MM = 2.0  # as of the pass-through filter along z
 # of what most slices hold; what the nearest edge of the column is deep (a choice, not tuned since)
 _EMPTY_SHARE, _EDGE_MM = 0.02, 8.0
@@ -141,7 +142,7 @@ def _extremes(found: Array) -> tuple[int, ...]:
 def _split(points: FloatArray) -> tuple[Array, Array] | None:
     """The foot of the column and the bars (n, 3) mm, by their y."""
     y = points[:, 1].astype(np.float64)
-    low, high = np.quantile(y, [0.0005, 0.9995])
+    low, high = np.quantile(y, [0.0005, 0.9995])  # strays do not stretch it
     counts, edges = np.histogram(y, np.arange(low - _SLICE_MM, high + 2 * _SLICE_MM, _SLICE_MM))
     empty = counts < _EMPTY_SHARE * np.median(counts[counts > 0])
     change = np.flatnonzero(np.diff(np.concatenate([[False], empty, [False]]).astype(int)))
@@ -152,7 +153,7 @@ def _split(points: FloatArray) -> tuple[Array, Array] | None:
     column = points[y < edges[begin]].astype(np.float64)
     # the foot begins where the nearest edge of the column ends, and reaches down to the emptiest band
     nearest = column[column[:, 2] < np.quantile(column[:, 2], 0.001) + _EDGE_MM]
-    top = float(np.quantile(nearest[:, 1], 0.995)) - _SLICE_MM
+    top = float(np.quantile(nearest[:, 1], 0.995)) - _SLICE_MM  # all but strays
     foot = column[column[:, 1] >= top]
     return foot, points[y >= edges[end]].astype(np.float64)
 
@@ -168,6 +169,7 @@ def _sleeves(
     plane = facing(plane, np.zeros(3))
     inliers = foot[np.abs(plane.height(foot)) < threshold_mm]
     flat = in_plane(projected_onto(inliers, plane), plane)[:, :2]
+    # From a camera that is close to one at 2 m; beyond, what was counted is no face.
     pitch_mm = float(np.clip(_CELL_MM / np.sqrt(np.median(counts_in_cells(flat, _CELL_MM))), 0.3, 3.0))
     find = _hough_centres if method == "fusion" else _edge_centres
     centres = find(open3d, flat, pitch_mm, radius_mm, rng)
@@ -201,6 +203,7 @@ def _edge_centres(open3d: Any, flat: Array, pitch_mm: float, radius_mm: float, r
     lifted = np.column_stack([edge, np.zeros(len(edge))])
     clusters = dbscan(open3d, lifted, 3.0 * pitch_mm, 3, np.pi * radius_mm / (2.0 * pitch_mm))
     fits = [ransac_circle(edge[cluster], radius_mm, max(_CIRCLE_MM, pitch_mm), rng) for cluster in clusters]
+    # Less than two fifths of a cluster on its circle: it is the outline of something else.
     return np.array([fit.centre for fit in fits if fit is not None and fit.inliers.mean() > 0.4]).reshape(-1, 2)
 
 

@@ -34,7 +34,7 @@ def image_points(
 
 def _rows(camera: Camera, points: Array) -> slice:
     v = points[:, 1] / points[:, 2] * camera.fy + camera.cy
-    low, high = np.quantile(v, [0.002, 0.998])
+    low, high = np.quantile(v, [0.002, 0.998])  # strays do not stretch it
     return slice(max(int(low), 0), min(int(high) + 2, camera.height))
 
 
@@ -42,6 +42,7 @@ def _mouths(depth: FloatArray, camera: Camera, rows: slice, sleeve_mm: float) ->
     """Ellipses of surface that stands out in depth from what is beside it, lifted with the depth of their middle."""
     part = np.nan_to_num(depth[rows].astype(np.float32))
     filled = cv2.morphologyEx(part, cv2.MORPH_CLOSE, _CLOSING)
+    # 16 mm a grey level bring 4 m into a byte, which is all that this filter takes; 5 pixels close thin gaps.
     around = cv2.medianBlur(np.clip(filled / 16.0, 0, 255).astype(np.uint8), 5)
     step = np.abs(cv2.Sobel(filled, cv2.CV_32F, 0, 1, ksize=3)) > _JUMP_MM
     steady = ((~step) & (around > 0)).astype(np.uint8)
@@ -49,6 +50,7 @@ def _mouths(depth: FloatArray, camera: Camera, rows: slice, sleeve_mm: float) ->
     found = []
     for label in range(1, count):
         width = stats[label, cv2.CC_STAT_WIDTH]
+        # Forty pixels are less than the smallest mouth has.
         middle_mm = float(np.median(filled[labels == label])) if stats[label, cv2.CC_STAT_AREA] > 40 else 0.0
         if middle_mm <= 0 or abs(width * middle_mm / camera.fx / sleeve_mm - 1.0) > _AXIS_MISFIT:
             continue
@@ -65,6 +67,7 @@ def _mouths(depth: FloatArray, camera: Camera, rows: slice, sleeve_mm: float) ->
 def _strips(depth: FloatArray, camera: Camera, rows: slice, rebar_mm: float) -> Array:
     """Upright strips as wide as a bar, lifted at the middle of their upper end with the depth of their front."""
     part = np.nan_to_num(depth[rows].astype(np.float32))
+    # Across a bar depth changes by itself, as on any cylinder: only what is far beyond that ends it.
     step = np.abs(cv2.Sobel(part, cv2.CV_32F, 1, 0, ksize=3)) > 16.0 * _JUMP_MM
     strip = ((~step) & (part > 0)).astype(np.uint8)
     count, labels, stats, _ = cv2.connectedComponentsWithStats(strip, connectivity=4)
@@ -75,7 +78,7 @@ def _strips(depth: FloatArray, camera: Camera, rows: slice, rebar_mm: float) -> 
             continue
         body = part[top : top + height, left : left + width][labels[top : top + height, left : left + width] == label]
         upper = body[: max(len(body) // 8, 4)]  # a camera that looks up sees the lower end of a bar farther away
-        front_mm = float(np.quantile(upper, 0.1))
+        front_mm = float(np.quantile(upper, 0.1))  # nearest but for strays
         if abs(width * front_mm / camera.fx / rebar_mm - 1.0) > _STRIP_MISFIT:
             continue
         found.append([left + 0.5 * (width - 1), top + rows.start, front_mm + rebar_mm / 2])

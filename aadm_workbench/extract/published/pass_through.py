@@ -81,13 +81,13 @@ def near_is_low(z: FloatArray, viewpoint: Array | None) -> bool:
     middle = float(np.median(z))
     if viewpoint is not None:
         return bool(viewpoint[2] < middle)
-    low, high = np.quantile(z, [0.002, 0.998])
+    low, high = np.quantile(z, [0.002, 0.998])  # strays lie on either side
     return bool(middle - low >= high - middle)
 
 
 def _slices(z: FloatArray) -> tuple[Array, Array]:
     """Histogram of z in slices; strays beyond the outermost thousandths do not stretch it."""
-    low, middle, high = np.quantile(z, [0.0005, 0.5, 0.9995])
+    low, middle, high = np.quantile(z, [0.0005, 0.5, 0.9995])  # as said above
     # Nor do strays without number and measure: no scan of a component is as deep as this.
     low, high = max(low, middle - DEEPEST_MM), min(high, middle + DEEPEST_MM)
     edges = np.arange(low - SLICE_MM, high + 2.0 * SLICE_MM, SLICE_MM)

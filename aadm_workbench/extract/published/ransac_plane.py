@@ -8,6 +8,7 @@ import numpy as np
 
 from aadm_workbench.errors import MissingDependencyError, install_of
 from aadm_workbench.model import FloatArray, Plane
+from aadm_workbench.model.scatter import TO_SIGMA
 
 SAMPLE = 3  # points that make a plane
 SCORED = 50_000  # more of them place a plane no better
@@ -41,7 +42,7 @@ def ransac_plane(
         return None
     scored = points[rng.integers(0, len(points), SCORED)] if len(points) > SCORED else points
     scored = scored.astype(np.float64)
-    open3d.utility.random.seed(int(rng.integers(2**31)))
+    open3d.utility.random.seed(int(rng.integers(2**31)))  # it takes a C int
     cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(scored))
     model, _ = cloud.segment_plane(inlier_distance_mm, SAMPLE, iterations, 1.0)
     length = float(np.linalg.norm(model[:3]))
@@ -50,4 +51,4 @@ def ransac_plane(
     plane = Plane(np.asarray(model[:3]) / length, -float(model[3]) / length)
     height = np.abs(plane.height(scored))
     inliers = height[height < inlier_distance_mm]
-    return Plane(plane.normal, plane.offset, 1.4826 * float(np.median(inliers)) if len(inliers) else 0.0)
+    return Plane(plane.normal, plane.offset, TO_SIGMA * float(np.median(inliers)) if len(inliers) else 0.0)

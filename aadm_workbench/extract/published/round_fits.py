@@ -88,14 +88,15 @@ def _least_squares(
     found = np.array([*start, 0.0, 0.0])
     for _ in range(_ROUNDS):
         inliers = np.abs(_residual(found, xy, height)) < inlier_distance_mm
-        if inliers.sum() < 8:
+        if inliers.sum() < 8:  # barely more than unknowns
             return None
-        free = 5 if leaning else 3
+        free = 5 if leaning else 3  # centre, radius, and two slopes
         fixed = found[free:]
 
         def residual(free_part: Array, fixed: Array = fixed, inliers: BoolArray = inliers) -> Array:
             return _residual(np.concatenate([free_part, fixed]), xy[inliers], height[inliers])
 
+        # A slope of 0.02 moves what is 50 mm down by one millimetre.
         scale = np.array([1.0, 1.0, 1.0, 0.02, 0.02])[:free]
         found = np.concatenate([least_squares(residual, found[:free], x_scale=scale).x, fixed])
     inliers = np.abs(_residual(found, xy, height)) < inlier_distance_mm

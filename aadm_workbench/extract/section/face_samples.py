@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -11,10 +11,11 @@ import numpy as np
 from aadm_workbench.extract.patches import plane_of_pixel
 from aadm_workbench.extract.plane import from_plane, in_plane
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm
-from aadm_workbench.model import Array, Plane, Scan
+from aadm_workbench.model import Array, IntArray, Plane, Scan
 
 _CELL_PITCHES = 1.6  # fewer than one cell in ten of a sound face then stays empty by chance
 _LOOK_MM = 60.0  # beyond the outline: what is farther away is no part of the foot
+_LINES_OF_SIGHT = 1500  # of a pinhole eight numbers are sought; of other lenses it is asked how far they are off
 _CELLS_MAX = 4_000_000  # 4 MB: feet of 2 m at 1 mm
 
 
@@ -26,8 +27,22 @@ class Asked:
     height: Array
 
 
-Ask: TypeAlias = Callable[[Array], Asked]
-"""Asks at all places of the scan that lie at (n, 2) mm, or nearest to these; none is given twice."""
+@dataclass(frozen=True, eq=False)
+class Area:
+    """A rectangle on the face, mm in its axes: ``half_mm`` to both sides of ``middle`` (2,) along ``along`` (2,).
+
+    And ``reach_mm`` to both sides across; of places along and across, each so many-th (``every``) is asked.
+    """
+
+    middle: Array
+    along: Array
+    half_mm: float
+    reach_mm: float
+    every: tuple[int, int] = (1, 1)
+
+
+Ask: TypeAlias = Callable[[Area], Asked]
+"""Asks at places of the scan in an area, and at some about it; none is given twice."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +74,7 @@ def face_samples(scan: Scan, sample: Thinned, face: Plane, band_mm: float, outli
         return None
     pitch_mm = point_pitch_mm(sample, local)
     eye = None if scan.viewpoint is None else in_plane(scan.viewpoint[None], face)[0]
-    homography = plane_of_pixel(scan, sample, face) if sample.taken is not None else None
+    homography = plane_of_pixel(scan, _sparser(sample), face)
     if homography is not None:
         return FaceSamples(_by_lines_of_sight(scan, face, homography), pitch_mm, eye)
     # The cell of the last point ends half a cell beyond it on average, and the face half a pitch.
@@ -67,19 +82,44 @@ def face_samples(scan: Scan, sample: Thinned, face: Plane, band_mm: float, outli
     return FaceSamples(_by_cells(scan, face, band_mm, outline, pitch_mm), _CELL_PITCHES * pitch_mm, None, wider_mm)
 
 
+def _sparser(sample: Thinned) -> Thinned:
+    """Fewer pixels of a thinned scan: where lines of sight of a pinhole run, a thousand tell as well as all."""
+    if sample.taken is None:
+        return sample
+    chosen = np.zeros_like(sample.taken)
+    every = int(np.sqrt(len(sample.points) / _LINES_OF_SIGHT)) + 1
+    chosen[::every, ::every] = sample.taken[::every, ::every]
+    return replace(sample, points=sample.points[chosen[sample.taken]], taken=chosen)
+
+
 def _by_lines_of_sight(scan: Scan, face: Plane, homography: Array) -> Ask:
     back = np.asarray(np.linalg.inv(homography), np.float64)
-    rows, columns = scan.points.shape[:2]
 
-    def ask(places: Array) -> Asked:
-        at = np.rint(_through(back, places)).astype(np.int64)
-        inside = (at >= 0).all(axis=1) & (at[:, 0] < columns) & (at[:, 1] < rows)
-        number = np.unique(at[inside, 1] * columns + at[inside, 0])
-        row, column = np.divmod(number, columns)
-        xy = _through(homography, np.column_stack([column, row]).astype(np.float64))
-        return Asked(xy, np.asarray(face.height(scan.points[row, column]), np.float64))
+    def ask(area: Area) -> Asked:
+        row, column = _pixels_in(area, back, scan.points.shape[:2])
+        right, down = column.astype(np.float64), row.astype(np.float64)
+        x, y, w = (one * right + other * down + rest for one, other, rest in homography.tolist())
+        return Asked(np.column_stack([x / w, y / w]), np.asarray(face.height(scan.points[row, column]), np.float64))
 
     return ask
+
+
+def _pixels_in(area: Area, back: Array, shape: tuple[int, ...]) -> tuple[IntArray, IntArray]:
+    """Rows and columns (n,) of pixels: of each line of pixels that crosses an area those about its middle line."""
+    across = np.array([-area.along[1], area.along[0]])
+    begin, end = _through(back, area.middle + area.half_mm * np.array([[-1.0], [1.0]]) * area.along)
+    aside = np.abs(np.subtract(*_through(back, area.middle + area.reach_mm * np.array([[-1.0], [1.0]]) * across))) / 2.0
+    main = int(np.argmax(np.abs(end - begin)))  # 0: the area runs along rows
+    run = end[main] - begin[main]
+    slope = (end[1 - main] - begin[1 - main]) / run
+    reach = aside[1 - main] + abs(slope) * aside[main] + 1.0
+    first, last = sorted((begin[main], end[main]))
+    line = np.arange(max(int(np.floor(first)), 0), min(int(np.ceil(last)), shape[1 - main] - 1) + 1, area.every[0])
+    middle = np.rint(begin[1 - main] + slope * (line - begin[main])).astype(np.int64)
+    beside = middle + np.arange(-int(reach), int(reach) + 1, area.every[1])[:, None]
+    inside = (beside >= 0) & (beside < shape[main])
+    lines = np.broadcast_to(line, beside.shape)[inside]
+    return (beside[inside], lines) if main == 0 else (lines, beside[inside])
 
 
 def _through(homography: Array, places: Array) -> Array:
@@ -100,14 +140,26 @@ def _by_cells(scan: Scan, face: Plane, band_mm: float, outline: Array, pitch_mm:
     at = at[(at >= 0).all(axis=1) & (at[:, 0] < columns) & (at[:, 1] < rows)]
     filled[at[:, 1], at[:, 0]] = True
 
-    def ask(places: Array) -> Asked:
-        cell = np.floor((places - low) / cell_mm).astype(np.int64)
+    def ask(area: Area) -> Asked:
+        cell = np.floor((_grid(area, cell_mm) - low) / cell_mm).astype(np.int64)
         inside = (cell >= 0).all(axis=1) & (cell[:, 0] < columns) & (cell[:, 1] < rows)
         row, column = np.divmod(np.unique(cell[inside, 1] * columns + cell[inside, 0]), columns)
         xy: Array = low + (np.column_stack([column, row]) + 0.5) * cell_mm
         return Asked(xy, np.where(filled[row, column], 0.0, np.nan))
 
     return ask
+
+
+def _grid(area: Area, step_mm: float) -> Array:
+    """Places (n, 2) mm in an area."""
+    across = np.array([-area.along[1], area.along[0]])
+    along_mm, across_mm = (step_mm * many for many in area.every)
+    # Half a step more than the reach: so that its end is among them.
+    s, d = np.meshgrid(
+        np.arange(-area.half_mm, area.half_mm + along_mm, along_mm),
+        np.arange(-area.reach_mm - across_mm, area.reach_mm + across_mm + across_mm / 2.0, across_mm),
+    )
+    return np.asarray(area.middle + np.outer(s.ravel(), area.along) + np.outer(d.ravel(), across))
 
 
 def outline_on_face(corners: Array, T_scan_column: Array, face: Plane) -> Array:

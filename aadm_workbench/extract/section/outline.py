@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from aadm_workbench.extract.foot_face import FACE_BAND_MM
 from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.sample import Thinned
-from aadm_workbench.extract.section.edge_lines import EdgeLine, edge_line
+from aadm_workbench.extract.section.edge_lines import EdgeLine, FoundEdge, edge_lines, find_edge
 from aadm_workbench.extract.section.face_samples import face_samples, from_face, outline_on_face
 from aadm_workbench.extract.section.rims import KnownMouths
 from aadm_workbench.extract.section.strips import Chip
@@ -40,7 +41,12 @@ class SeenEdge:
 
 
 def section_edges(
-    scan: Scan, sample: Thinned, extraction: Extraction, T_scan_column: Array, outline: Array
+    scan: Scan,
+    sample: Thinned,
+    extraction: Extraction,
+    T_scan_column: Array,
+    outline: Array,
+    diameters_mm: Sequence[float],
 ) -> dict[str, SeenEdge | Reason]:
     """Edges of the face by their sides, or why one is not measured.
 
@@ -52,6 +58,8 @@ def section_edges(
         The sleeves of this scan: its plane, and mouths whose edges show what the camera does to edges.
     outline
         (4, 2) mm, corners of the section by design, column frame, from (−x, −y) counter-clockwise seen from above.
+    diameters_mm
+        Of the bores, by design: what a camera loses at rims widens the bores that it sees.
     """
     face = extraction.plane
     if face is None:
@@ -61,15 +69,17 @@ def section_edges(
     samples = face_samples(scan, sample, face, band_mm, corners)
     if samples is None:
         return dict.fromkeys(SIDES, Reason("extract.section_thin"))
-    mouths = _mouths(extraction)
+    mouths = _mouths(extraction, np.asarray(diameters_mm, np.float64))
     # Seen from outside, as the face's axes are, the corners run clockwise: the face lies to the left of the way back.
-    found: dict[str, SeenEdge | Reason] = {}
+    found: dict[str, FoundEdge | Reason] = {}
     for number, side in enumerate(SIDES):
         ends = corners[number], corners[(number + 1) % 4]
         start, end = ends if _area(corners) > 0.0 else ends[::-1]
-        line = edge_line(samples, start, end, mouths, band_mm)
-        found[side] = line if isinstance(line, Reason) else _in_column(line, side, face, T_scan_column)
-    return found
+        found[side] = find_edge(samples, start, end, mouths, band_mm)
+    return {
+        side: line if isinstance(line, Reason) else _in_column(line, side, face, T_scan_column)
+        for side, line in edge_lines(samples, found, mouths).items()
+    }
 
 
 def _area(corners: Array) -> float:
@@ -77,11 +87,12 @@ def _area(corners: Array) -> float:
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2.0
 
 
-def _mouths(extraction: Extraction) -> KnownMouths:
+def _mouths(extraction: Extraction, diameters_mm: Array) -> KnownMouths:
     assert extraction.plane is not None
     centres = np.array([point.centre for point in extraction.points]).reshape(-1, 3)
-    radii = np.array([point.diameter_mm / 2.0 for point in extraction.points])
-    return KnownMouths(in_plane(centres, extraction.plane)[:, :2], radii)
+    measured = np.array([point.diameter_mm for point in extraction.points])
+    nearest = np.abs(measured[:, None] - diameters_mm).argmin(axis=1) if len(measured) else np.zeros(0, np.int64)
+    return KnownMouths(in_plane(centres, extraction.plane)[:, :2], diameters_mm[nearest] / 2.0)
 
 
 def _in_column(line: EdgeLine, side: str, face: Plane, T_scan_column: Array) -> SeenEdge:

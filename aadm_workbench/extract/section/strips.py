@@ -7,11 +7,11 @@ camera loses; chips and whatever hides a part of a face end strips too early, an
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 
 from aadm_workbench.model import Array, BoolArray, IntArray, Reason
+from aadm_workbench.model.scatter import TO_SIGMA
 
 _STRIP_PITCHES = 6.0  # along the edge: some fifty places tell where a strip ends, and a chip of 5 mm fills one
 _FEWEST_STRIPS = 8  # of fewer a line has no scatter
@@ -21,10 +21,10 @@ _LEAST_CHANCE = 0.02  # flying pixels, lost ones: nothing is quite sure
 _FOUND_MIN, _FLUSH_MAX = 0.25, 0.15  # thinner is no face; denser is something that goes on beyond the edge
 _SEEN_MIN = 0.5  # of the strips of an edge: half of one may be out of the picture or behind something
 _TUKEY, _ROUNDS = 4.0, 8  # of the scatter; rounds settle in four
+_SETTLED_PITCHES = 0.002  # a micrometre: what a line still moves by from round to round
 _STARTS, _LIKE_PITCHES, _BEYOND_COST = 14, 1.5, 2.0  # some hundred lines are tried; of strips on a line; of one beyond
 _ROUGHEST_MM = 1.5  # of strips: an edge that is broken all along is none
-_LEAST_SCATTER_PITCHES = 0.05  # strips are never better than that
-_NEIGHBOURS = 1.5  # neighbouring strips share their errors: standard errors are so much larger
+_LEAST_SCATTER_PITCHES = 0.29  # 1/√12: a strip along rows of pixels ends anywhere between two of them
 _CHIP_MM, _CHIP_SIGMAS = 1.5, 5.0  # from which depth on a gap in an edge is a chip and no scatter
 OUT_OF_PICTURE = Reason("extract.section_out")
 
@@ -53,15 +53,24 @@ class Strips:
     width_mm: float
 
 
-def ends_of_strips(s: Array, d: Array, on: BoolArray, half_mm: float, reach_mm: float, step: float) -> Strips | Reason:
-    """Where the face ends in strips of places (n,) along (s) and across (d) an edge; or why nobody can tell."""
+def ends_of_strips(
+    s: Array, d: Array, on: BoolArray, half_mm: float, reach_mm: float, steps_mm: tuple[float, float]
+) -> Strips | Reason:
+    """Where the face ends in strips of places (n,) along (s) and across (d) an edge; or why nobody can tell.
+
+    Parameters
+    ----------
+    steps_mm
+        Between places, along and across.
+    """
+    step = steps_mm[1]
     count = max(int(2.0 * half_mm / (_STRIP_PITCHES * step)), _FEWEST_STRIPS)
     strip = np.clip(((s + half_mm) / (2.0 * half_mm) * count).astype(np.int64), 0, count - 1)
     within, without = d < -_WITHIN_SHARE * reach_mm, d > _WITHIN_SHARE * reach_mm
     asked_within, asked_without, on_within, on_without = (
         np.bincount(strip[chosen], minlength=count) for chosen in (within, without, on & within, on & without)
     )
-    quarter = 0.5 * (1.0 - _WITHIN_SHARE) * 2.0 * reach_mm * (2.0 * half_mm / count) / step**2
+    quarter = 0.5 * (1.0 - _WITHIN_SHARE) * 2.0 * reach_mm * (2.0 * half_mm / count) / (steps_mm[0] * step)
     share = on_within / np.maximum(asked_within, 1)
     usable = (asked_within > _ASKED_MIN * quarter) & (share > _FOUND_MIN)
     if usable.sum() < max(_FEWEST_STRIPS, _SEEN_MIN * count):
@@ -88,16 +97,22 @@ def _likeliest_ends(strip: IntArray, d: Array, on: BoolArray, count: int, found:
     The middle between the two places that the end lies between; NaN for a strip without places.
     """
     inside, outside = min(found, 1.0 - _LEAST_CHANCE), max(flush, _LEAST_CHANCE)
-    order = np.lexsort((d, strip))
+    # One key for both: places of a strip in their order across, strip after strip.
+    span = float(np.ptp(d)) + 1.0 if len(d) else 1.0
+    order = np.argsort(strip * (2.0 * span) + d, kind="stable")
     gain = np.where(on[order], np.log(inside / outside), np.log((1.0 - inside) / (1.0 - outside)))
     begin = np.searchsorted(strip[order], np.arange(count + 1))
-    before = np.concatenate([[0.0], np.cumsum(gain)])
-    sorted_d = d[order]
+    usable = np.flatnonzero(np.diff(begin) > 1)
     end = np.full(count, np.nan)
-    for k, (first, last) in enumerate(pairwise(begin.tolist())):
-        if last - first > 1:
-            best = first + int(np.argmax(before[first + 1 : last]))
-            end[k] = (sorted_d[best] + sorted_d[best + 1]) / 2.0
+    if len(usable) == 0:
+        return end
+    after, sorted_d = np.cumsum(gain), d[order]
+    after[begin[1:][np.diff(begin) > 0] - 1] = -np.inf  # something must lie beyond an end
+    best = np.full(count, np.nan)
+    best[usable] = np.maximum.reduceat(after, begin[usable])
+    at_best = np.flatnonzero(after == best[strip[order]])
+    at = at_best[np.searchsorted(strip[order][at_best], usable)]
+    end[usable] = (sorted_d[at] + sorted_d[at + 1]) / 2.0
     return end
 
 
@@ -121,14 +136,16 @@ def line_through(strips: Strips, pitch_mm: float) -> StripLine | Reason:
     residual = strips.end - design @ _outermost(strips, pitch_mm)
     normal, scatter = design.T @ design, 0.0
     for _ in range(_ROUNDS):
-        scatter = max(1.4826 * float(np.median(np.abs(residual))), _LEAST_SCATTER_PITCHES * pitch_mm)
+        scatter = max(TO_SIGMA * float(np.median(np.abs(residual))), _LEAST_SCATTER_PITCHES * pitch_mm)
         weight = np.maximum(1.0 - (residual / (_TUKEY * scatter)) ** 2, 0.0) ** 2
         normal = design.T @ (weight[:, None] * design)
         found = np.linalg.solve(normal, design.T @ (weight * strips.end))
-        residual = strips.end - design @ found
+        before, residual = residual, strips.end - design @ found
+        if np.abs(residual - before).max() < _SETTLED_PITCHES * pitch_mm:
+            break
     if np.mean(residual > -_TUKEY * scatter) < _SEEN_MIN or scatter > _ROUGHEST_MM:
         return Reason("extract.section_hidden")
-    covariance = (_NEIGHBOURS * scatter) ** 2 * np.linalg.inv(normal)
+    covariance = scatter**2 * np.linalg.inv(normal)
     return StripLine(float(found[0]), float(found[1]), covariance, scatter, residual)
 
 

@@ -8,7 +8,9 @@ COMMANDS = MappingProxyType(
     {
         "AADM_SampleDesign": ("sample_design", "SampleDesign"),
         "AADM_ImportScan": ("import_scan", "ImportScan"),
+        "AADM_CaptureScan": ("capture_scan", "CaptureScan"),
         "AADM_CheckColumn": ("check_column", "CheckColumn"),
+        "AADM_CheckAll": ("check_all", "CheckAll"),
         "AADM_RunJob": ("run_job", "RunJob"),
         "AADM_Hoisting": ("hoisting", "Hoisting"),
         "AADM_WriteResults": ("write_results", "WriteResults"),
@@ -24,7 +26,9 @@ COMMANDS = MappingProxyType(
 TOOLBAR = (
     "AADM_SampleDesign",
     "AADM_ImportScan",
+    "AADM_CaptureScan",
     "AADM_CheckColumn",
+    "AADM_CheckAll",
     "AADM_RunJob",
     "AADM_Hoisting",
     "AADM_WriteResults",

@@ -14,7 +14,7 @@ from aadm_workbench.document.private_process import command, made_environment
 from aadm_workbench.errors import NoEnvironmentError
 from aadm_workbench.gui.command import Command
 from aadm_workbench.gui.panels.environment import install
-from aadm_workbench.gui.resources import icon_path
+from aadm_workbench.gui.resources import icon
 from aadm_workbench.gui.sentences import sentences
 from aadm_workbench.private.environment import left_over, remove_folder
 
@@ -48,7 +48,7 @@ class AboutWindow(QtGui.QDialog):
         self.text = QtGui.QLabel(about_text())
         self.text.setTextInteractionFlags(QtCore.Qt.TextSelectableByMouse)
         picture = QtGui.QLabel()
-        picture.setPixmap(FreeCADGui.getIcon(icon_path("aadm")).pixmap(64, 64))
+        picture.setPixmap(icon("aadm").pixmap(64, 64))
         head = QtGui.QHBoxLayout()
         head.addWidget(picture)
         head.addWidget(self.text, 1)

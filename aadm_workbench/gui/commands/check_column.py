@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import FreeCAD
 
-from aadm_workbench.gui.chosen import has_columns, the_column
-from aadm_workbench.gui.command import Command
+from aadm_workbench.gui.chosen import the_column
+from aadm_workbench.gui.command import Command, has_document
 
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
 
@@ -22,8 +22,8 @@ class CheckColumn(Command):
     )
 
     def IsActive(self) -> bool:
-        """Where there are columns; which one is asked for is said when it runs."""
-        return has_columns()
+        """Where a document is open; what it lacks is said and offered when it runs."""
+        return has_document()
 
     def run(self) -> None:
         """Open the panel."""

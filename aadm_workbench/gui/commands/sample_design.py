@@ -6,9 +6,9 @@ from typing import Any
 
 import FreeCAD
 
-from aadm_workbench.errors import AadmError, DesignError
+from aadm_workbench.errors import DesignError
 from aadm_workbench.gui.chosen import model_objects
-from aadm_workbench.gui.command import Command, has_document
+from aadm_workbench.gui.command import Command
 from aadm_workbench.gui.panels.sampling import of_ifc_file, sample
 from aadm_workbench.gui.sentences import show_error
 
@@ -28,16 +28,10 @@ class SampleDesign(Command):
         "Takes sleeves and rebars from the selected columns of the model, or from all columns where none is selected",
     )
 
-    def IsActive(self) -> bool:
-        """Where a document is open."""
-        return has_document()
-
     def run(self) -> None:
         """Sample, and open the panel of the first column."""
         document = FreeCAD.ActiveDocument
-        if document is None:
-            raise AadmError(translate("AADM", "No document is open: open the model first."))
-        if not document.Objects:
+        if document is None or not document.Objects:
             _offer_ifc(document)
             return
         sample(document, model_objects() or None)
@@ -47,6 +41,6 @@ def _offer_ifc(document: Any) -> None:
     """An empty document may take its columns from an IFC file; FreeCAD need not have imported it."""
     said = translate(
         "AADM_SampleDesign",
-        "The document is empty: open or import the model first, or take the columns of an IFC file.",
+        "There is no model yet: open or import one first, or take the columns of an IFC file.",
     )
     show_error(translate("AADM_SampleDesign", "Sample design"), DesignError(said), of_ifc_file(document))

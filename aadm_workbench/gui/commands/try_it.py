@@ -30,8 +30,8 @@ class TryIt(Command):
     )
 
     def run(self) -> None:
-        """Take the columns of the sample's model, then run its job."""
-        from aadm_workbench.gui.panels.sampling import sample
+        """Open the sample's job: the columns of its model, their scans; then check it."""
+        from aadm_workbench.gui.panels.check_all import open_job
 
         if not (_FLOOR / "job.toml").is_file():
             raise AadmError(
@@ -40,18 +40,14 @@ class TryIt(Command):
                 )
             )
         command([])  # before a document is opened: what is missing is offered first
-        # A copy of the model, so that results which are written beside it do not lie in the addon.
-        folder = Path(tempfile.mkdtemp(prefix="aadm-sample-"))
-        model = shutil.copy(_FLOOR / "floor3.ifc", folder)
-        document = FreeCAD.newDocument("AADM_sample_floor")
-        sample(document, None, Path(model)).after = lambda columns: _check(folder / "report")
+        # A copy of all of it, so that neither the job nor its results lie in the addon.
+        folder = Path(tempfile.mkdtemp(prefix="aadm-sample-")) / _FLOOR.name
+        shutil.copytree(_FLOOR, folder)
+        open_job(FreeCAD.newDocument("AADM_sample_floor"), folder / "job.toml", _check)
 
 
-def _check(report: Path) -> None:
-    from aadm_workbench.gui.panels.job import open_panel
-
-    panel = open_panel(str(_FLOOR / "job.toml"), _show_worst)
-    panel.folder.set_text(str(report))
+def _check(panel: Any) -> None:
+    panel.after = _show_worst
     panel.start()
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import FreeCAD
 
-from aadm_workbench.document.column import columns_in
+from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.report.of_document import report_of
 from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.command import Command

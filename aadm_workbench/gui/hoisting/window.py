@@ -11,6 +11,7 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from aadm_workbench.document.hoisting_state import (
+    BESIDE_CAMERA,
     SIDES,
     Guidance,
     Measurement,
@@ -22,14 +23,14 @@ from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.hoisting.picture import HoistingPicture
 from aadm_workbench.gui.language import in_language
 from aadm_workbench.gui.panels.file_line import FileLine
-from aadm_workbench.gui.resources import icon_path
+from aadm_workbench.gui.resources import icon
 from aadm_workbench.gui.sentences import show_error
 
 translate = FreeCAD.Qt.translate
 _LOOK_EVERY_MS = 300  # a person sees no delay, and reading a small file costs nothing
 
 
-class HoistingWindow(QtGui.QWidget):
+class HoistingWindow(QtGui.QMainWindow):
     """Looks into a folder again and again, and shows the newest measurement."""
 
     def __init__(self, folder: str = "") -> None:
@@ -37,13 +38,14 @@ class HoistingWindow(QtGui.QWidget):
         self.setObjectName("AADM_Hoisting")
         self.setAttribute(QtCore.Qt.WA_DeleteOnClose)
         self.setWindowTitle(translate("AADM_Hoisting", "Hoisting guidance"))
-        self.setWindowIcon(QtGui.QIcon(icon_path("hoisting")))
+        self.setWindowIcon(icon("hoisting"))
         self.resize(1100, 760)
         self.folder = FileLine(translate("AADM_Hoisting", "Folder that is measured into"), "", folder)
         self.folder.changed.connect(lambda _: self.look())
         self.recorded = QtGui.QPushButton(translate("AADM_Hoisting", "Recorded result…"))
         self.recorded.clicked.connect(self._choose_recorded)
         self.standing = QtGui.QComboBox()
+        self.standing.addItem(translate("AADM_Hoisting", "I stand beside the camera"), BESIDE_CAMERA)
         for side in SIDES:
             self.standing.addItem(translate("AADM_Hoisting", "I stand at the side {side}").format(side=side), side)
         self.standing.currentIndexChanged.connect(lambda _: self._show())
@@ -56,7 +58,9 @@ class HoistingWindow(QtGui.QWidget):
         head.addWidget(self.folder, 1)
         for part in (self.recorded, self.standing, self.full):
             head.addWidget(part)
-        layout = QtGui.QVBoxLayout(self)
+        middle = QtGui.QWidget()
+        self.setCentralWidget(middle)
+        layout = QtGui.QVBoxLayout(middle)
         layout.addLayout(head)
         layout.addWidget(self.picture, 1)
         self.measurement: Measurement | None = None

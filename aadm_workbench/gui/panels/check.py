@@ -10,21 +10,27 @@ import FreeCAD
 import numpy as np
 from PySide import QtCore, QtGui
 
-from aadm_workbench.document.checking import check_work, keep
+from aadm_workbench.document.checking import check_work, keep, lay_scans
 from aadm_workbench.document.column import DECISIONS, METHODS
-from aadm_workbench.document.display.colours import of_verdict
+from aadm_workbench.document.display.colours import of_verdict, text_on
 from aadm_workbench.document.display.marks import pitch_of
 from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.display.result_rows import DISTANCE, Row
+from aadm_workbench.document.display.setting import setting_said
 from aadm_workbench.document.places import world_point
 from aadm_workbench.document.result import found_of
+from aadm_workbench.document.scan_cloud import fill_scan
+from aadm_workbench.document.scan_reading import asked_again
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.document.words import in_words
+from aadm_workbench.gui.chosen import look_at
 from aadm_workbench.gui.language import in_language
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, is_there, show_panel
 from aadm_workbench.gui.result_table import ResultTable
 from aadm_workbench.gui.sentences import sentences
+from aadm_workbench.gui.settings import most_points
 from aadm_workbench.gui.view_camera import active_view, zoom_to
+from aadm_workbench.private.answers import ReadScan
 
 translate = FreeCAD.Qt.translate
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP
@@ -65,6 +71,10 @@ class CheckPanel(WorkingPanel):
         form.addRow(translate("AADM_Check", "Tolerances"), self.tolerances)
         form.addRow(translate("AADM_Check", "Decision"), self.decision)
         self.layout.addLayout(form)
+        self.show_scans = QtGui.QPushButton(translate("AADM_Check", "Show its scans"))
+        self.show_scans.setToolTip(translate("AADM_Check", "Reads the points of its scans into the view"))
+        self.show_scans.clicked.connect(lambda checked=False: self.read_scans())
+        self.layout.addWidget(self.show_scans)
         self.add_start(translate("AADM_Check", "Check"))
 
     def _add_result(self) -> None:
@@ -97,6 +107,23 @@ class CheckPanel(WorkingPanel):
             result = keep(self.column, report)
         tell(f"{self.column.ColumnId}: {in_words(result.Verdict)}")
         self.refresh()
+        look_at([result])
+
+    def read_scans(self) -> None:
+        """Read the points of scans that nobody has looked into yet, one after the other."""
+        with sentences(self.title):
+            cloud = next((one for one in self.column.Scans if not one.PointCount), None)
+            if cloud is not None:
+                work = asked_again(cloud, most_points()).work()
+                self.have_done(work, lambda read: self._take_points(cloud, read))
+
+    def _take_points(self, cloud: Any, read: ReadScan) -> None:
+        with undo_step(self.column.Document, translate("AADM_Check", "Show its scans")):
+            fill_scan(cloud, self.column, read)
+            if self.column.Result is not None:
+                lay_scans(self.column, found_of(self.column.Result))
+        self.refresh()
+        self.read_scans()
 
     def closing(self) -> None:
         """A check that still runs is ended, and no point stays picked."""
@@ -108,18 +135,20 @@ class CheckPanel(WorkingPanel):
         """Show what the column holds now."""
         scans = [f"{cloud.Kind}: {Path(cloud.File).name}" for cloud in self.column.Scans]
         self.scans.setText("\n".join(scans) or translate("AADM_Check", "none yet: Import scan"))
+        self.show_scans.setVisible(any(not cloud.PointCount for cloud in self.column.Scans))
         result = self.column.Result
         for part in (self.shows, self.only_failing, self.table):
             part.setVisible(result is not None)
         if result is None:
             self.verdict.setText(translate("AADM_Check", "Not checked yet"))
+            self.verdict.setStyleSheet("")
             self.reasons.setText("")
             return
-        colour = QtGui.QColor.fromRgbF(*of_verdict(result.Verdict)).name()
         said = translate("AADM_Check", "{verdict} · goes on: {goes_on}").format(
             verdict=in_words(result.Verdict).upper(), goes_on=in_words(result.GoesOn)
         )
-        self.verdict.setText(f'<span style="font-size: large; font-weight: bold; color: {colour}">{said}</span>')
+        self.verdict.setText(said)
+        self.verdict.setStyleSheet(_chip(result.Verdict))
         found = found_of(result)
         advice = (found.get("repair") or {}).get("advice")
         notes = [f"→ {in_language(advice)}"] if advice else []
@@ -127,7 +156,7 @@ class CheckPanel(WorkingPanel):
         more = len(result.Reasons) - _SHOWN_REASONS
         if more > 0:
             lines.append(translate("AADM_Check", "… and {count} more, see the table").format(count=more))
-        lines += notes
+        lines += [*notes, *setting_said(found.get("setting")).lines]
         self.reasons.setText("\n".join(lines))
         self._say_what_is_shown()
         self._fill_table()
@@ -166,6 +195,12 @@ def open_panel(column: Any) -> CheckPanel:
     panel = CheckPanel(column)
     show_panel(panel)
     return panel
+
+
+def _chip(verdict: str) -> str:
+    """A style that stands out on light and on dark alike: the verdict's colour lies behind the text."""
+    behind, text = (QtGui.QColor.fromRgbF(*rgb).name() for rgb in (of_verdict(verdict), text_on(of_verdict(verdict))))
+    return f"background: {behind}; color: {text}; font-weight: bold; padding: 4px; border-radius: 3px"
 
 
 def _profiles() -> tuple[str, ...]:

@@ -19,6 +19,8 @@ from aadm_workbench.gui.sentences import sentences
 from aadm_workbench.model import AssemblyPoint
 
 translate = FreeCAD.Qt.translate
+REBAR_PLACE = 1
+"""Place in the table of what can be changed there: at FreeCAD's own width of the panel it is still seen."""
 
 
 class DesignPanel(TaskPanel):
@@ -53,9 +55,9 @@ class DesignPanel(TaskPanel):
         self.table.setHorizontalHeaderLabels(
             [
                 translate("AADM_Design", "Sleeve"),
+                translate("AADM_Design", "Its rebar"),
                 translate("AADM_Design", "Diameter"),
                 "x, y",
-                translate("AADM_Design", "Its rebar"),
                 translate("AADM_Design", "Why"),
             ]
         )
@@ -63,13 +65,13 @@ class DesignPanel(TaskPanel):
         self.table.setSelectionBehavior(QtGui.QAbstractItemView.SelectRows)
         for row, sleeve in enumerate(self.design.sleeves):
             x, y = (length_text(float(value)) for value in sleeve.centre[:2])
-            texts = (sleeve.label, length_text(sleeve.diameter_mm), f"{x}, {y}", "", self._why(row))
+            texts = (sleeve.label, "", length_text(sleeve.diameter_mm), f"{x}, {y}", self._why(row))
             for place, text in enumerate(texts):
                 item = QtGui.QTableWidgetItem(text)
                 item.setFlags(item.flags() & ~QtCore.Qt.ItemIsEditable)
                 item.setToolTip(text)
                 self.table.setItem(row, place, item)
-            self.table.setCellWidget(row, 3, self._rebar_chooser(row))
+            self.table.setCellWidget(row, REBAR_PLACE, self._rebar_chooser(row))
         self.table.resizeColumnsToContents()
         self.table.horizontalHeader().setStretchLastSection(True)
 
@@ -87,7 +89,7 @@ class DesignPanel(TaskPanel):
 
     def chosen_rebars(self) -> list[int]:
         """Number of the rebar that each sleeve has now."""
-        return [self.table.cellWidget(row, 3).currentIndex() for row in range(self.table.rowCount())]
+        return [self.table.cellWidget(row, REBAR_PLACE).currentIndex() for row in range(self.table.rowCount())]
 
     def swap(self, row: int, chosen: int) -> None:
         """A sleeve takes a rebar; the sleeve that had it takes the one that becomes free."""
@@ -95,7 +97,7 @@ class DesignPanel(TaskPanel):
         free = next((rebar for rebar in range(len(self.design.rebars)) if rebar not in taken), None)
         other = next((one for one, rebar in enumerate(taken) if rebar == chosen and one != row), None)
         if other is not None and free is not None:
-            self.table.cellWidget(other, 3).setCurrentIndex(free)
+            self.table.cellWidget(other, REBAR_PLACE).setCurrentIndex(free)
 
     def apply(self) -> None:
         """Keep what was chosen, in one undo step."""

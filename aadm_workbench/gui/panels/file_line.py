@@ -8,6 +8,7 @@ import FreeCAD
 from PySide import QtCore, QtGui
 
 translate = FreeCAD.Qt.translate
+_FOLDER = QtGui.QStyle.SP_DirOpenIcon
 
 
 class FileLine(QtGui.QWidget):
@@ -22,7 +23,8 @@ class FileLine(QtGui.QWidget):
         super().__init__()
         self._title, self._patterns, self._save = title, patterns, save
         self.line = QtGui.QLineEdit(value)
-        button = QtGui.QToolButton(text="…")
+        style = self.style()
+        button = QtGui.QToolButton(icon=style.standardIcon(QtGui.QStyle.SP_FileIcon if patterns else _FOLDER))
         button.setToolTip(translate("AADM", "Choose"))
         button.clicked.connect(self._choose)
         layout = QtGui.QHBoxLayout(self)
@@ -30,7 +32,7 @@ class FileLine(QtGui.QWidget):
         layout.addWidget(self.line, 1)
         layout.addWidget(button)
         if folder:
-            another = QtGui.QToolButton(text="…/")
+            another = QtGui.QToolButton(icon=style.standardIcon(_FOLDER))
             another.setToolTip(translate("AADM", "Choose a folder: a capture as the camera saves it"))
             another.clicked.connect(self._choose_folder)
             layout.addWidget(another)

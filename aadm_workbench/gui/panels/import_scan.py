@@ -11,10 +11,12 @@ import FreeCADGui
 from PySide import QtGui
 
 from aadm_workbench.design.directions import UP_DEG
-from aadm_workbench.document.column import columns_in
 from aadm_workbench.document.display.messages import tell
+from aadm_workbench.document.groups import columns_in
+from aadm_workbench.document.job.floor import owner_by_name
+from aadm_workbench.document.job.scan_names import guessed_kind
 from aadm_workbench.document.scan_cloud import KINDS, UNITS
-from aadm_workbench.document.scan_reading import AskedScan, guessed_kind, take_scan
+from aadm_workbench.document.scan_reading import AskedScan, take_scan
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError, ScanError
 from aadm_workbench.gui import settings
@@ -42,6 +44,8 @@ class ImportPanel(WorkingPanel):
         self.columns = columns_in(document)
         self.column = QtGui.QComboBox()
         self.column.addItems([one.Label for one in self.columns])
+        if column is None and files:
+            column = owner_by_name(files[0], self.columns)
         if column in self.columns:
             self.column.setCurrentIndex(self.columns.index(column))
         self.file = FileLine(translate("AADM_Import", "Scan"), _FORMATS, str(files[0]) if files else "", folder=True)
@@ -57,6 +61,9 @@ class ImportPanel(WorkingPanel):
         self.depth_scale = QtGui.QDoubleSpinBox(decimals=5, maximum=1000.0, singleStep=0.01)
         self.depth_scale.setSpecialValueText(translate("AADM_Import", "not given"))
         self.depth_scale.setSuffix(" mm")
+        self.depth_scale.setToolTip(
+            translate("AADM_Import", "Millimetres in one step of a 16-bit depth map, where its camera's file has none")
+        )
         self._lay_out()
         self.file.changed.connect(self._file_chosen)
         self._file_chosen(self.file.text())
@@ -70,7 +77,7 @@ class ImportPanel(WorkingPanel):
             (translate("AADM_Import", "Its unit"), self.units),
             (translate("AADM_Import", "Up in the picture"), self.up),
             (translate("AADM_Import", "Camera"), self.camera),
-            (translate("AADM_Import", "Step of a 16-bit depth map"), self.depth_scale),
+            (translate("AADM_Import", "Depth step"), self.depth_scale),
         ):
             form.addRow(text, widget)
         self.layout.addLayout(form)
@@ -80,14 +87,17 @@ class ImportPanel(WorkingPanel):
 
     def _file_chosen(self, file: str) -> None:
         if file:
-            self.kind.setCurrentIndex(KINDS.index(guessed_kind(file)))
+            self.kind.setCurrentIndex(KINDS.index(guessed_kind(Path(file).name) or KINDS[0]))
         self.camera.setEnabled(True)
 
     def start(self) -> None:
         """Have the file read."""
         with sentences(self.title):
             if not self.columns:
-                show_error(self.title, self._no_column(), of_ifc_file(self.document))
+                # The scan is not forgotten over the model.
+                file = Path(self.file.text())
+                back = of_ifc_file(self.document, lambda _: open_panel(self.document, [file]))
+                show_error(self.title, self._no_column(), back)
                 return
             asked = self._asked()
             self.have_done(asked.work(), lambda read: self._take(asked, read))

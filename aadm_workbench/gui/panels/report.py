@@ -31,7 +31,7 @@ _FORMS = (
     ("csv", QT_TRANSLATE_NOOP("AADM_Report", "CSV tables"), False),
     ("bcf", QT_TRANSLATE_NOOP("AADM_Report", "BCF topics for the BIM coordinator"), False),
     ("crew", QT_TRANSLATE_NOOP("AADM_Report", "Page for the crew"), False),
-    ("fcstd", QT_TRANSLATE_NOOP("AADM_Report", "FreeCAD document with the results alone"), False),
+    ("fcstd", QT_TRANSLATE_NOOP("AADM_Report", "FreeCAD document of the results"), False),
     ("scan-card", QT_TRANSLATE_NOOP("AADM_Report", "Card for scanning"), False),
 )
 

@@ -17,10 +17,11 @@ from aadm_workbench.document.report.annotate import global_ids_of
 from aadm_workbench.document.sampling import columns_work, file_work, take_columns
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.errors import AadmError, NoEnvironmentError
-from aadm_workbench.gui.chosen import select
+from aadm_workbench.gui.chosen import NoColumnError, look_at, select
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, close_panel, show_panel
-from aadm_workbench.gui.sentences import sentences, show_error
+from aadm_workbench.gui.sentences import WAYS_ON, Offer, sentences, show_error
 from aadm_workbench.gui.settings import decision, method, tolerances
+from aadm_workbench.gui.view_camera import active_view
 from aadm_workbench.private.answers import FoundColumns
 
 translate = FreeCAD.Qt.translate
@@ -35,7 +36,8 @@ class SamplingPanel(WorkingPanel):
         super().__init__(translate("AADM_SampleDesign", "Sample design"), document)
         self.document, self.objects = document, objects
         self.file = file or native_file_of(document)
-        self.after: Callable[[list[Any]], None] = _open_design
+        self.after: After = _open_design
+        self.is_alone = not document.Objects
         self.layout.addWidget(QtGui.QLabel(self.file.name if self.file is not None else document.Label))
         self.add_start(translate("AADM_SampleDesign", "Sample"))
         self.layout.addStretch(1)
@@ -51,7 +53,9 @@ class SamplingPanel(WorkingPanel):
     def _take(self, answer: FoundColumns) -> None:
         objects = None if self.file is not None else self.objects
         if self.file is not None and self.objects:
-            answer = {**answer, "columns": _of_selected(answer["columns"], self.objects)}
+            kept = _of_selected(answer["columns"], self.objects)
+            bodies = dict(zip(answer["columns"], answer["bodies"], strict=False))
+            answer = {**answer, "columns": kept, "bodies": [bodies.get(text, []) for text in kept]}
         with undo_step(self.document, translate("AADM_SampleDesign", "Sample design")):
             columns = take_columns(self.document, answer, objects=objects, file=self.file)
             for column in columns:
@@ -61,8 +65,10 @@ class SamplingPanel(WorkingPanel):
         tell(translate("AADM_SampleDesign", "{count} columns were sampled").format(count=len(columns)))
         close_panel(self)
         select(columns[:1])
-        if self.file is not None:
-            FreeCADGui.SendMsgToActiveView("ViewFit")
+        view = active_view()
+        if view is not None and self.is_alone:
+            view.viewIsometric()  # seen from above, columns are squares
+        look_at(columns)
         self.after(columns)
 
     def show_error(self, error: BaseException) -> None:
@@ -80,17 +86,34 @@ def sample(document: Any, objects: Sequence[Any] | None = None, file: Path | Non
     return panel
 
 
-def of_ifc_file(document: Any) -> tuple[str, Callable[[], None]]:
-    """The offer to take the columns of an IFC file, which FreeCAD need not be able to open."""
-    return translate("AADM_SampleDesign", "IFC file…"), lambda: _choose(document)
+After = Callable[[list[Any]], object]
 
 
-def _choose(document: Any) -> None:
+def of_ifc_file(document: Any, after: After | None = None) -> Offer:
+    """The offer to take the columns of an IFC file, which FreeCAD need not be able to open; ``after`` gets them.
+
+    Where there is no document, one is made for them.
+    """
+    return translate("AADM_SampleDesign", "IFC file…"), lambda: _choose(document, after)
+
+
+def ways_to_columns() -> tuple[Offer, ...]:
+    """What leads from a document without columns, or from none, to one with some."""
+    document = FreeCAD.ActiveDocument
+    from_file = of_ifc_file(document)
+    if document is None or not document.Objects:
+        return (from_file,)
+    return ((translate("AADM_SampleDesign", "Sample design"), lambda: sample(document)), from_file)
+
+
+def _choose(document: Any, after: After | None) -> None:
     title = translate("AADM_SampleDesign", "Take the columns of an IFC file")
     chosen, _ = QtGui.QFileDialog.getOpenFileName(FreeCADGui.getMainWindow(), title, "", "IFC (*.ifc *.ifczip)")
     if chosen:
         with sentences(title):
-            sample(document, None, Path(chosen))
+            panel = sample(document or FreeCAD.newDocument(Path(chosen).stem), None, Path(chosen))
+            if after is not None:
+                panel.after = after
 
 
 def _of_selected(columns: list[str], objects: Sequence[Any]) -> list[str]:
@@ -103,3 +126,6 @@ def _open_design(columns: list[Any]) -> None:
     from aadm_workbench.gui.panels.design import open_panel
 
     open_panel(columns[0])
+
+
+WAYS_ON[NoColumnError] = ways_to_columns

@@ -12,7 +12,7 @@ from PySide import QtGui
 from aadm_workbench.document.private_process import Work
 from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.aadm_process import PrivateWork
-from aadm_workbench.gui.resources import icon_path
+from aadm_workbench.gui.resources import icon
 from aadm_workbench.gui.sentences import sentences, show_error
 
 translate = FreeCAD.Qt.translate
@@ -32,7 +32,7 @@ class TaskPanel:
         self.title, self.owner = title, owner
         self.form = QtGui.QWidget()
         self.form.setWindowTitle(title)
-        self.form.setWindowIcon(QtGui.QIcon(icon_path(self.ICON)))
+        self.form.setWindowIcon(icon(self.ICON))
         self.layout = QtGui.QVBoxLayout(self.form)
 
     def getStandardButtons(self) -> int:

@@ -107,6 +107,7 @@ SENTENCES: dict[str, Sentence] = {
     "assembly.fit_few_weights": Sentence("only {count} points have a weight", "只有 {count} 个点有权重"),
     "assembly.fit_not_finite": Sentence("a coordinate is not finite", "坐标不是有限数"),
     "assembly.fit_on_line": Sentence("the {name:word} points lie on one line", "{name:word}点在一条直线上"),
+    "assembly.follows": Sentence("follows from {culprits:and}: {what}", "由 {culprits:and} 引起：{what}"),
     "assembly.from_centre": Sentence(
         "{rebar} is {distance_mm:.2f} mm from the centre of {sleeve}, {limit}",
         "{rebar} 距 {sleeve} 中心 {distance_mm:.2f} mm，{limit}",

@@ -10,10 +10,29 @@ SENTENCES: dict[str, Sentence] = {
         "working distance, or focus it, and scan again",
         "图像失焦：表面边缘在数个像素内弯曲；请将相机移至工作距离或重新对焦后再扫描",
     ),
+    "extract.by_design": Sentence("where the design has it, by the corners of the foot", "按设计位置，由柱底角点推得"),
     "extract.circle_through": Sentence("circle through {count:d} edge points", "过 {count:d} 个边缘点的圆"),
     "extract.copied": Sentence(
         "the camera copied depths over the edges of this scan: its surfaces are larger than what was measured",
         "相机把深度复制到了该扫描的边缘之外：表面比实测的大",
+    ),
+    "extract.corners_design": Sentence(
+        "the corners method needs a design that places the sleeves in the section: use a model, or write size in "
+        "[columns.design] with centres about the section's middle",
+        "corners 方法需要设计给出套筒在截面内的位置：请使用模型，或在 [columns.design] 中写 size，且 centres "
+        "以截面中心为原点",
+    ),
+    "extract.corners_few": Sentence(
+        "{found:d} corners of the foot were found, two are needed: bring all of the foot into the picture",
+        "只找到 {found:d} 个柱底角点，需要两个：请将整个柱底摄入画面",
+    ),
+    "extract.corners_turn": Sentence(
+        "the corners fit in {ways:d} ways, and the sleeves lie differently in each: declare up",
+        "角点有 {ways:d} 种吻合方式，套筒位置各不相同：请声明 up",
+    ),
+    "extract.corners_view": Sentence(
+        "the corners method needs a scan that says from where it was taken",
+        "corners 方法需要已知拍摄位置的扫描",
     ),
     "extract.cylinder": Sentence("cylinder through sides and rim", "过侧面和边缘的圆柱"),
     "extract.edges_and_sides": Sentence(
@@ -112,6 +131,10 @@ SENTENCES: dict[str, Sentence] = {
     "extract.section_askew": Sentence(
         "what ends the face here runs askew to the section: something hides a part of it",
         "此处底面的边界与截面不平行：有物遮挡",
+    ),
+    "extract.section_blurred": Sentence(
+        "heights before this edge are disturbed over more than three pixels: the camera is out of focus there",
+        "该边前三个像素以上的高度均受扰动：相机在此处失焦",
     ),
     "extract.section_border": Sentence(
         "a cloud without its camera does not tell an edge of the foot from the border of the picture",

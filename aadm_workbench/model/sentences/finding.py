@@ -174,6 +174,11 @@ SENTENCES: dict[str, Sentence] = {
         "截面两边 {between} 间实测 {measured_mm:.1f} mm（±{U_mm:.1f} mm），设计为 {design_mm:g} mm"
         "（±{limit_mm:g} mm，未核实）",
     ),
+    "finding.sleeves_by_design": Sentence(
+        "the method {method} lays the sleeves where the design has them and measures none: this is a baseline of the "
+        "literature and no check of this column; use refined",
+        "{method} 方法按设计位置放置套筒，未测量任何套筒：这只是文献基准方法，不能作为本柱的检查；请使用 refined",
+    ),
     "finding.smoothed": Sentence(
         "the scan of the {group:word} was smoothed: its noise is shared by neighbouring pixels, and edges run "
         "into each other. Turn smoothing off in the camera's software (surface smoothing, Gaussian, median or "

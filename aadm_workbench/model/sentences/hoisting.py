@@ -95,6 +95,10 @@ SENTENCES: dict[str, Sentence] = {
         "画面中没有带 {diameter_mm:g} mm 套筒的柱底",
     ),
     "hoisting.no_limit": Sentence("no limit is given", "未给出限值"),
+    "hoisting.no_such_method": Sentence(
+        "the method {method} measures no hanging columns; use refined",
+        "{method} 方法不能测量悬吊中的柱；请使用 refined",
+    ),
     "hoisting.no_tilt": Sentence("the tilt of the column is not known", "不知柱的倾斜"),
     "hoisting.no_time": Sentence(
         "when the frame was captured is not known: take a new one",

@@ -30,4 +30,78 @@ SENTENCES: dict[str, Sentence] = {
         "(--debug shows where)",
         "{model} 无法求值：其中有内容不合其格式（{error}）；请重新导出（--debug 可显示位置）",
     ),
+    "run.defect": Sentence(
+        '--defect "{text}" is none: write COLUMN: POINT DX,DY in mm, as in "C-302: R5 +7.5,0", or "C-301: S7 plugged"',
+        '--defect "{text}" 无法识别：格式为 COLUMN: POINT DX,DY（mm），例如 "C-302: R5 +7.5,0"，或 "C-301: S7 plugged"',
+    ),
+    "run.defect_column": Sentence(
+        "--defect names column {column}, but these are made: {ids}; name one of them, or ask for more with --columns",
+        "--defect 指定了柱 {column}，但生成的柱为：{ids}；请指定其中之一，或用 --columns 增加",
+    ),
+    "run.defect_far": Sentence(
+        '--defect "{text}": at most {most_mm:g} mm, beyond that a bar stands in the place of another',
+        '--defect "{text}"：最多 {most_mm:g} mm，再远就到了另一根钢筋的位置',
+    ),
+    "run.defect_point": Sentence(
+        '--defect "{text}": a column has points 1 to {most:d}',
+        '--defect "{text}"：每根柱只有 1 至 {most:d} 号测点',
+    ),
+    "run.journal_changed": Sentence(
+        "{file}: was changed while it was written; check again without --resume",
+        "{file}：写入期间被改动；请不带 --resume 重新检查",
+    ),
+    "run.journal_full": Sentence(
+        "{file}: the results so far cannot be kept ({why}); make room or let it be written",
+        "{file}：已得到的结果无法保存（{why}）；请腾出空间或允许写入",
+    ),
+    "run.journal_long": Sentence(
+        "{file}: has more than {most} lines, which no check writes; check without --resume",
+        "{file}：超过 {most} 行，检查不会写出这样的文件；请不带 --resume 检查",
+    ),
+    "run.journal_refused": Sentence(
+        "{file}: results cannot be kept there: {why}",
+        "{file}：结果无法保存在那里：{why}",
+    ),
+    "run.no_events": Sentence(
+        "{target}: events cannot be written there ({why})", "{target}：无法把事件写到那里（{why}）"
+    ),
+    "run.no_port": Sentence(
+        "{address}: names no port; an address is like tls://HOST:8786 (--scheduler)",
+        "{address}：未给出端口；地址形如 tls://HOST:8786（--scheduler）",
+    ),
+    "run.no_process": Sentence(
+        "no worker process can be started on this machine: {why}", "本机无法启动工作进程：{why}"
+    ),
+    "run.no_scheduler": Sentence(
+        "no scheduler of Dask answers at {address} ({why}); start one with: dask scheduler",
+        "{address} 处没有 Dask 调度器应答（{why}）；启动命令：dask scheduler",
+    ),
+    "run.no_worker": Sentence("no worker can be used: {why}", "没有可用的工作进程：{why}"),
+    "run.no_worker_for": Sentence(
+        "there has been no worker for {seconds:.0f} s; start one with: dask worker ADDRESS",
+        "已有 {seconds:.0f} s 没有工作进程；启动命令：dask worker 地址",
+    ),
+    "run.scheduler_gone": Sentence(
+        "the scheduler of Dask is gone; look at its own messages", "Dask 调度器已退出；请查看其自身的消息"
+    ),
+    "run.tls_address": Sentence(
+        "{address}: certificates go with an address that begins with tls:// (--scheduler)",
+        "{address}：证书只用于以 tls:// 开头的地址（--scheduler）",
+    ),
+    "run.tls_asked": Sentence(
+        "{address}: asks for certificates; name them with --tls-ca, --tls-cert and --tls-key",
+        "{address}：要求证书；请用 --tls-ca、--tls-cert、--tls-key 给出",
+    ),
+    "run.tls_no_file": Sentence(
+        "{file}: there is no such file (--tls-ca, --tls-cert, --tls-key)",
+        "{file}：没有这个文件（--tls-ca、--tls-cert、--tls-key）",
+    ),
+    "run.tls_unusable": Sentence(
+        "{files}: cannot be used as authority, certificate and key in PEM format ({why})",
+        "{files}：不能作为 PEM 格式的根证书、证书和私钥使用（{why}）",
+    ),
+    "run.worker_folder": Sentence("{folder}: the folder of the workers {why}", "{folder}：工作进程的文件夹{why}"),
+    "run.worker_refused": Sentence(
+        "no worker can be used: {name} gets no work: {why}", "没有可用的工作进程：{name} 不被分配工作：{why}"
+    ),
 }

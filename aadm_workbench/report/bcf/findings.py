@@ -6,18 +6,11 @@ import uuid
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from aadm_workbench.assembly.following import blame_of, name_of
 from aadm_workbench.model import ColumnReport, JobReport, Kind, PairResult, PointResult, Verdict, worst
 
 _TOPICS = uuid.UUID("b2b1b1de-53d5-5f0b-8a5e-0c7c6b3f9a41")
-_TITLE_LENGTH = 200  # a line in the lists of viewers; the description has all
 _SETTLED = (Verdict.PASS, Verdict.NOT_ASSESSED)
-_SAYS = {
-    Verdict.PASS: "passes",
-    Verdict.FAIL: "fails",
-    Verdict.INCONCLUSIVE: "is inconclusive",
-    Verdict.NOT_MEASURED: "was not measured",
-    Verdict.ERROR: "could not be checked",
-}
 
 
 @dataclass(frozen=True)
@@ -46,18 +39,16 @@ class Finding:
         return called if self.number is None else f"{called} S{self.number}/R{self.number}"
 
     @property
-    def title(self) -> str:
-        """One line: what, how it came out, and the first reason."""
-        said = f"{self.name} {_SAYS[self.verdict]}"
-        said += f": {self.reasons[0]}" if self.reasons else ""
-        return said if len(said) <= _TITLE_LENGTH else f"{said[: _TITLE_LENGTH - 1]}…"
-
-    @property
     def numbers(self) -> tuple[int, ...]:
-        """Numbers of the pairs that the topic selects: its own, or all that are not a pass."""
+        """Numbers of the pairs that the topic selects: its own, or all that are not a pass by themselves."""
         if self.number is not None:
             return (self.number,)
-        return tuple(k for k in pair_numbers(self.column) if _pair_verdict(self.column, k) not in _SETTLED)
+        follows = {*blame_of(self.column).follows}
+        return tuple(
+            number
+            for number in pair_numbers(self.column)
+            if any(one.verdict not in _SETTLED and name_of(one) not in follows for one in _judged(self.column, number))
+        )
 
 
 def findings(report: JobReport, per: str) -> Iterator[Finding]:
@@ -151,4 +142,4 @@ def _labels(column: ColumnReport, verdict: Verdict, kinds: Sequence[str]) -> tup
     trial_speaks = trial is not None and trial.verdict not in _SETTLED
     places = [column.storey, column.grid, column.piece_mark]
     named = ["AADM", verdict.value.replace("_", " "), *kinds, *(["trial assembly"] if trial_speaks else [])]
-    return tuple(dict.fromkeys([*named, *(place for place in places if place)]))
+    return tuple(dict.fromkeys([*named, *(place for place in places if place and place.strip())]))

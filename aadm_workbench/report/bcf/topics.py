@@ -1,4 +1,4 @@
-"""BCF 2.1: a topic per column that is not a pass, for the BIM coordinator's viewer.
+"""BCF: a topic per column that is not a pass, for the BIM coordinator's viewer; versions 2.1 and 3.0.
 
 A topic keeps its GUID over all runs, so that a later report updates it, and closes it once the column passes. What
 people have written into an earlier file stays: their comments, their topics, whom they made responsible.
@@ -6,10 +6,7 @@ people have written into an earlier file stays: their comments, their topics, wh
 
 from __future__ import annotations
 
-import io
-import uuid
 import xml.etree.ElementTree as ElementTree
-import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -17,31 +14,24 @@ from pathlib import Path
 from typing import Literal
 
 from aadm_workbench.atomic import write_atomically
-from aadm_workbench.bounded import ArchiveBounds, BoundsError, check_xml, entry_bytes, opened_archive
 from aadm_workbench.errors import ReportError
 from aadm_workbench.model import JobReport
 from aadm_workbench.report.bcf import markup as bcf_markup
-from aadm_workbench.report.bcf.findings import Finding, findings
-from aadm_workbench.report.bcf.viewpoint import viewpoint
-from aadm_workbench.report.sheets.csv import csv_content
-
-_VERSION = (
-    b"<?xml version='1.0' encoding='utf-8'?>\n"
-    b'<Version VersionId="2.1"><DetailedVersion>2.1</DetailedVersion></Version>\n'
+from aadm_workbench.report.bcf.container import (
+    MARKUP,
+    document_place,
+    new_files,
+    packed,
+    put_document,
+    read_files,
+    read_markup,
+    with_words,
 )
-_PROJECTS = uuid.UUID("0f6f7f3c-1f7e-5d8d-9f43-6a1d3a6f2b57")
-_MARKUP = "markup.bcf"
-_ZIP_EPOCH = (1980, 1, 1, 0, 0, 0)  # the first date that a ZIP file knows: the same report gives the same bytes
-
-BCF_BOUNDS = ArchiveBounds("BCF file", entries=20_000, entry_bytes=2**26, all_bytes=2**28)
-"""A thousand topics with pictures of 150 KB and five files each are half of this."""
-
-_SHOWN = 40  # characters of a name in a message
-_DEEPEST_XML = 64
-"""Markup has six levels; what other programs add to it may have some more."""
-
-_MOST_ELEMENTS = 200_000
-"""A topic with ten thousand comments has half as many."""
+from aadm_workbench.report.bcf.findings import Finding, findings
+from aadm_workbench.report.bcf.forms import Form, Version, xml_bytes
+from aadm_workbench.report.bcf.viewpoint import viewpoint_bytes, viewpoint_guid
+from aadm_workbench.report.sheets.csv import csv_content
+from aadm_workbench.report.words.labels import Language
 
 
 @dataclass(frozen=True)
@@ -62,8 +52,10 @@ def write_bcf(
     per: Literal["column", "pair"] = "column",
     snapshots: Mapping[str, bytes] | None = None,
     written: datetime | None = None,
+    version: Version | None = None,
+    language: Language = "en",
 ) -> BcfOutcome:
-    """Write the topics of a report as a BCF 2.1 file.
+    """Write the topics of a report as a BCF file.
 
     Parameters
     ----------
@@ -80,74 +72,112 @@ def write_bcf(
         Pictures (PNG) by column id instead of the drawn plan of the foot.
     written
         When the topics were written; by default the date of the capture, else now.
+    version
+        Of BCF; by default that of ``existing``, 2.1 for a new file.
+    language
+        Of titles, comments and pictures.
 
     Raises
     ------
     ReportError
-        Where ``existing`` is no BCF file of version 2.1.
+        Where ``existing`` is no BCF file of that version, or a topic of it is none.
     AadmError
         Where the file cannot be written.
     """
     if per not in ("column", "pair"):
         raise ReportError(f"topics can be made per column or per pair, not per {per}")
     date = (written or _capture_date(report)).astimezone(UTC).isoformat(timespec="seconds")
-    files = {"bcf.version": _VERSION, "project.bcfp": _project(report)} if existing is None else _files(existing)
+    files, form = _begun(report, existing, version)
+    writer = _Writer(report, files, form, language, date)
     done: dict[str, list[str]] = {"opened": [], "updated": [], "closed": [], "unchanged": []}
     for finding in findings(report, per):
-        outcome = _apply(files, report, finding, date, (snapshots or {}).get(finding.column.id))
+        outcome = writer.apply(finding, (snapshots or {}).get(finding.column.id))
         if outcome:
             done[outcome].append(finding.name)
-    write_atomically(path, _zip(files))
+    writer.finish()
+    write_atomically(path, packed(files))
     return BcfOutcome(**{name: tuple(names) for name, names in done.items()})
 
 
-def _apply(
-    files: dict[str, bytes], report: JobReport, finding: Finding, date: str, picture: bytes | None
-) -> str | None:
-    """Put one finding into the files; how its topic came out, or None where it has none."""
-    place = f"{finding.guid}/{_MARKUP}"
-    was_there = place in files
-    if not finding.is_open and not (was_there and finding.verdict == "pass"):
-        return None
-    root = _markup(files[place], place) if was_there else bcf_markup.new_markup(report, finding, date)
-    if not finding.is_open:
-        closed = bcf_markup.close(root, finding, report, date)
-        if closed:
-            files[place] = bcf_markup.markup_bytes(root)
-        return "closed" if closed else "unchanged"
-    before = bcf_markup.markup_bytes(root)
-    bcf_markup.write_finding(root, report, finding, date)
-    attached = _attachments(report, finding, picture)
-    changed = bcf_markup.markup_bytes(root) != before or any(files.get(name) != attached[name] for name in attached)
-    if was_there and not changed:
-        return "unchanged"
-    if was_there:
-        bcf_markup.stamp(root, date)
-    files.update({place: bcf_markup.markup_bytes(root), **attached})
-    return "updated" if was_there else "opened"
+def _begun(report: JobReport, existing: Path | None, version: Version | None) -> tuple[dict[str, bytes], Form]:
+    """The files to go on from."""
+    if existing is None:
+        return new_files(report, version or "2.1"), Form(version or "2.1")
+    files, form = read_files(existing)
+    if version is not None and version != form.version:
+        raise ReportError(
+            f"{existing}: is of BCF version {form.version}, and {version} was asked for, but no file holds two; leave "
+            " the version out to go on with it, or write into another folder"
+        )
+    return files, form
 
 
-def _attachments(report: JobReport, finding: Finding, picture: bytes | None) -> dict[str, bytes]:
-    """The files of a topic's folder beside its markup."""
-    # OpenCV takes longer to import than everything else here takes to run.
-    from aadm_workbench.report.bcf.snapshot import foot_picture
+class _Writer:
+    """Puts findings into the files of one BCF file."""
 
-    content = {
-        bcf_markup.VIEWPOINT: viewpoint(finding),
-        bcf_markup.SNAPSHOT: picture or foot_picture(finding),
-        bcf_markup.TABLE: csv_content(report, [finding.column]),
-    }
-    return {f"{finding.guid}/{name}": held for name, held in content.items()}
+    def __init__(self, report: JobReport, files: dict[str, bytes], form: Form, language: Language, date: str) -> None:
+        self.report, self.files, self.form, self.date = report, files, form, date
+        self.language: Language = language
+        self._labels: dict[str, None] = {}
 
+    def apply(self, finding: Finding, picture: bytes | None) -> str | None:
+        """Put one finding into the files; how its topic came out, or None where it has none."""
+        place = f"{finding.guid}/{MARKUP}"
+        was_there = place in self.files
+        if not finding.is_open and not (was_there and finding.verdict == "pass"):
+            return None
+        root = read_markup(self.files[place], place) if was_there else None
+        if not finding.is_open:
+            assert root is not None, "a pass makes no topic"
+            return self._close(root, finding, place)
+        return self._open(root, finding, place, picture)
 
-def _project(report: JobReport) -> bytes:
-    name = bcf_markup.xml_text(str(report.job["name"]))
-    root = ElementTree.Element("ProjectExtension")
-    project = ElementTree.SubElement(root, "Project", ProjectId=str(uuid.uuid5(_PROJECTS, name)))
-    ElementTree.SubElement(project, "Name").text = name
-    ElementTree.SubElement(root, "ExtensionSchema")
-    written: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
-    return written
+    def _close(self, root: ElementTree.Element, finding: Finding, place: str) -> str:
+        if not bcf_markup.close(root, finding, self.report, self.date, self.form, self.language):
+            return "unchanged"
+        self.files[place] = xml_bytes(root)
+        return "closed"
+
+    def _open(self, root: ElementTree.Element | None, finding: Finding, place: str, picture: bytes | None) -> str:
+        """Write a topic, new or not; what has not changed stays as it is, byte for byte."""
+        was_there = root is not None
+        if root is None:
+            root = bcf_markup.new_markup(self.report, finding, self.date, self.form, self.language)
+        before = xml_bytes(root)
+        attached, view_guid = self._attached(finding, picture)
+        bcf_markup.write_finding(root, self.report, finding, self.date, self.form, self.language, view_guid)
+        self._labels |= dict.fromkeys(finding.labels)
+        same = all(self.files.get(name) == held for name, held in attached.items())
+        if was_there and same and xml_bytes(root) == before:
+            return "unchanged"
+        if was_there:
+            bcf_markup.stamp(root, self.date, self.form)
+        self.files |= {place: xml_bytes(root), **attached}
+        if self.form.is_3:
+            guid = bcf_markup.table_guid(finding)
+            put_document(self.files, guid, f"{finding.name}.csv", self.files[document_place(guid)])
+        return "updated" if was_there else "opened"
+
+    def _attached(self, finding: Finding, picture: bytes | None) -> tuple[dict[str, bytes], str]:
+        """The files of a topic beside its markup, and the GUID of its viewpoint."""
+        # What draws a picture takes longer to import than everything else here takes to run.
+        from aadm_workbench.report.bcf.snapshot import foot_picture
+
+        picture = picture or foot_picture(finding, self.language)
+        view_guid = viewpoint_guid(finding, self.form, picture)
+        table = csv_content(self.report, [finding.column])
+        at = document_place(bcf_markup.table_guid(finding)) if self.form.is_3 else f"{finding.guid}/{bcf_markup.TABLE}"
+        files = {
+            f"{finding.guid}/{bcf_markup.VIEWPOINT}": viewpoint_bytes(finding, self.form, view_guid),
+            f"{finding.guid}/{bcf_markup.SNAPSHOT}": picture,
+            at: table,
+        }
+        return files, view_guid
+
+    def finish(self) -> None:
+        """What belongs to no topic."""
+        if self.form.is_3:
+            with_words(self.files, self._labels)
 
 
 def _capture_date(report: JobReport) -> datetime:
@@ -157,51 +187,3 @@ def _capture_date(report: JobReport) -> datetime:
     except ValueError:
         return datetime.now(tz=UTC)
     return taken if taken.tzinfo else taken.replace(tzinfo=UTC)
-
-
-def _files(path: Path) -> dict[str, bytes]:
-    """The content of an earlier file, in its order."""
-    try:
-        with opened_archive(path, BCF_BOUNDS) as archive:
-            files = {entry.filename: entry_bytes(archive, entry) for entry in archive.infolist() if not entry.is_dir()}
-    except (OSError, BoundsError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise ReportError(
-            f"{path}: cannot be read as a BCF file ({reason}); name another, or start without it"
-        ) from error
-    version = _parsed(files["bcf.version"], f"{path}: bcf.version") if "bcf.version" in files else None
-    found = version.get("VersionId", "") if version is not None else "no"
-    if found != "2.1":
-        raise ReportError(
-            f"{path}: is of BCF version {found}, but topics of 2.1 are written, and no file holds both; save it as BCF "
-            "2.1 in the program that it comes from, or start a new file"
-        )
-    return files
-
-
-def _markup(content: bytes, place: str) -> ElementTree.Element:
-    root = _parsed(content, place)
-    if root.tag != "Markup":
-        raise ReportError(f"{place} is no markup of a topic, but <{root.tag[:_SHOWN]}>; start a new BCF file")
-    return root
-
-
-def _parsed(content: bytes, place: str) -> ElementTree.Element:
-    try:
-        check_xml(content, deepest=_DEEPEST_XML, most_elements=_MOST_ELEMENTS)
-        return ElementTree.fromstring(content)
-    except (BoundsError, ElementTree.ParseError) as error:
-        reason = str(error) if isinstance(error, BoundsError) else f"is no XML ({error})"
-        raise ReportError(f"{place} {reason}; start a new BCF file") from error
-
-
-def _zip(files: Mapping[str, bytes]) -> bytes:
-    """An archive with the same bytes for the same files."""
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w") as archive:
-        for name, held in files.items():
-            entry = zipfile.ZipInfo(name, _ZIP_EPOCH)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = 0o644 << 16
-            archive.writestr(entry, held)
-    return content.getvalue()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import uuid
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterable
@@ -10,19 +11,21 @@ import numpy as np
 
 from aadm_workbench.model import Array, ColumnReport, Kind, PointResult
 from aadm_workbench.report.bcf.findings import Finding, points_of
+from aadm_workbench.report.bcf.forms import Form, xml_bytes
 from aadm_workbench.report.words.labels import COLOUR
 
 _METRES = 1e-3  # BCF has metres alone
+_ASPECT_RATIO = 1.0  # a foot is about as wide as it is deep
 _FIELD_OF_VIEW_DEG = 60.0  # what viewers have by themselves
 _DISTANCE_IN_FOOT_SIZES = 1.3  # the foot fills two thirds of that view
 _ASIDE_IN_FOOT_SIZES = 0.35  # 15 degrees: bores are seen to be bores
 _SMALLEST_FOOT_MM = 200.0  # where a design tells no size: no column is smaller
 
 
-def viewpoint(finding: Finding) -> bytes:
-    """The file of a topic's viewpoint, BCF 2.1; coordinates in metres of the model."""
-    root = ElementTree.Element("VisualizationInfo", Guid=viewpoint_guid(finding))
-    _components(root, finding)
+def viewpoint_bytes(finding: Finding, form: Form, guid: str) -> bytes:
+    """The file of a topic's viewpoint; coordinates in metres of the model."""
+    root = ElementTree.Element("VisualizationInfo", Guid=guid)
+    _components(root, finding, form)
     position, direction, up = _camera(finding.column)
     camera = ElementTree.SubElement(root, "PerspectiveCamera")
     for name, vector in (("CameraViewPoint", position), ("CameraDirection", direction), ("CameraUpVector", up)):
@@ -30,14 +33,15 @@ def viewpoint(finding: Finding) -> bytes:
         for axis, value in zip("XYZ", vector, strict=True):
             ElementTree.SubElement(element, axis).text = repr(round(float(value), 9) + 0.0)
     ElementTree.SubElement(camera, "FieldOfView").text = repr(_FIELD_OF_VIEW_DEG)
-    ElementTree.indent(root)
-    written: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
-    return written
+    if form.is_3:
+        ElementTree.SubElement(camera, "AspectRatio").text = repr(_ASPECT_RATIO)
+    return xml_bytes(root)
 
 
-def viewpoint_guid(finding: Finding) -> str:
-    """The GUID of a topic's viewpoint: the same in every run."""
-    return str(uuid.uuid5(uuid.UUID(finding.guid), "viewpoint"))
+def viewpoint_guid(finding: Finding, form: Form, picture: bytes) -> str:
+    """The GUID of a topic's viewpoint: the same as long as viewpoint and picture are."""
+    content = viewpoint_bytes(finding, form, "") + picture
+    return str(uuid.uuid5(uuid.UUID(finding.guid), f"viewpoint {hashlib.sha256(content).hexdigest()}"))
 
 
 def _camera(column: ColumnReport) -> tuple[Array, Array, Array]:
@@ -56,7 +60,7 @@ def _camera(column: ColumnReport) -> tuple[Array, Array, Array]:
     return position, direction, up / np.linalg.norm(up)
 
 
-def _components(root: ElementTree.Element, finding: Finding) -> None:
+def _components(root: ElementTree.Element, finding: Finding, form: Form) -> None:
     """Select what the topic is about, show the column with its sleeves and bars alone, colour them by verdict."""
     points = [point for kind in Kind for point in finding.column.points(kind)]
     shown = _ids([finding.column, *points])
@@ -73,7 +77,8 @@ def _components(root: ElementTree.Element, finding: Finding) -> None:
         if finding.verdict == verdict:
             coloured += _ids([finding.column])
         if coloured:
-            _list(ElementTree.SubElement(coloring, "Color", Color=_opaque(colour)), coloured)
+            element = ElementTree.SubElement(coloring, "Color", Color=_opaque(colour))
+            _list(ElementTree.SubElement(element, "Components") if form.is_3 else element, coloured)
 
 
 def _opaque(colour: str) -> str:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from aadm_workbench.assembly.following import name_of
 from aadm_workbench.model import ColumnReport, GroupReport, Kind
+from aadm_workbench.report.drawing.layout import Layout
 from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow, rectangle
 
 SIDE = 200.0
@@ -14,19 +16,29 @@ SIDE = 200.0
 _MARGIN = 24.0  # about the foot: labels of its outermost points
 _LIMIT_RADIUS = 15.0  # of the ring that stands for the limit: seen, and clear of its neighbours
 _LIMIT_OF_PITCH = 0.42  # of the distance of neighbours: rings do not touch
+_ALARM_RING = 3.0  # about a point that fails, with half of its line
 _LONGEST_ARROW = 38.0  # two and a half rings: what is far beyond its limit still ends on the sketch
 _FACTORS = (200, 100, 50, 40, 25, 20, 15, 10, 8, 5, 4, 3, 2, 1)  # magnifications that a person can divide by
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A point of a sketch: its design place and its offset, mm, column frame, and what was said of it."""
+    """A point of a sketch: its design place and its offset, mm, column frame, and what was said of it.
+
+    ``follows`` where it fails only because another does.
+    """
 
     label: str
     design_mm: Point
     offset_mm: Point | None
     limit_mm: float | None
     verdict: str
+    follows: bool = False
+
+    @property
+    def is_alarming(self) -> bool:
+        """Whether one has to look at it."""
+        return self.verdict in ("fail", "inconclusive") and not self.follows
 
 
 @dataclass(frozen=True)
@@ -38,8 +50,8 @@ class FootSketch:
     limit_mm: float | None
 
 
-def group_marks(group: GroupReport) -> list[Mark]:
-    """The points of sleeves or of rebars, measured minus design."""
+def group_marks(group: GroupReport, follows: Collection[str] = ()) -> list[Mark]:
+    """The points of sleeves or of rebars, measured minus design; ``follows`` are labels that others let fail."""
     return [
         Mark(
             point.label,
@@ -47,25 +59,34 @@ def group_marks(group: GroupReport) -> list[Mark]:
             point.offset_mm,
             point.limit_mm,
             point.verdict,
+            point.label in follows,
         )
         for point in group.points
     ]
 
 
-def pair_marks(column: ColumnReport) -> list[Mark]:
-    """Bars against their sleeves at the pose that is shown, rebar minus sleeve, drawn at the sleeve."""
+def pair_marks(column: ColumnReport, follows: Collection[str] = ()) -> list[Mark]:
+    """Bars against their sleeves at the pose that is shown, rebar minus sleeve, drawn at the sleeve.
+
+    ``follows`` are pairs, ``S1/R1``, that others let fail.
+    """
     places = {point.label: (point.design_mm[0], point.design_mm[1]) for point in column.points(Kind.SLEEVE)}
     return [
-        Mark(pair.sleeve, places[pair.sleeve], pair.offset_mm, pair.limit_mm, pair.verdict)
+        Mark(pair.sleeve, places[pair.sleeve], pair.offset_mm, pair.limit_mm, pair.verdict, name_of(pair) in follows)
         for pair in column.pairs
         if pair.sleeve in places
     ]
 
 
 def foot_sketch(
-    marks: Sequence[Mark], size_mm: Sequence[float] | None, diameter_mm: float, marked: Collection[str] = ()
+    marks: Sequence[Mark],
+    size_mm: Sequence[float] | None,
+    diameter_mm: float,
+    marked: Collection[str] = (),
+    *,
+    from_below: bool = False,
 ) -> FootSketch:
-    """Outline, points, rings of the limit and arrows, seen from above with +y at the top.
+    """Outline, points, rings of the limit and arrows with +y at the top, seen from above, or from below: mirrored.
 
     Parameters
     ----------
@@ -76,6 +97,8 @@ def foot_sketch(
     marked
         Labels of the points that get a ring more.
     """
+    if from_below:
+        marks = [_mirrored(mark) for mark in marks]
     reach = _reach(marks, size_mm)
     scale = (SIDE - 2.0 * _MARGIN) / (2.0 * reach)
     limit_mm = next((mark.limit_mm for mark in marks if mark.limit_mm), None)
@@ -85,15 +108,55 @@ def foot_sketch(
     if size_mm is not None:
         x, y = size_mm[0] / 2.0 * scale, size_mm[1] / 2.0 * scale
         shapes.append(rectangle((SIDE / 2 - x, SIDE / 2 - y), (SIDE / 2 + x, SIDE / 2 + y), "outline"))
-    shapes += _axes()
+    shapes += _axes(from_below=from_below)
     radius = max(2.2, diameter_mm / 2.0 * scale)
+    places = {
+        mark.label: (SIDE / 2 + mark.design_mm[0] * scale, SIDE / 2 + mark.design_mm[1] * scale) for mark in marks
+    }
+    layout = _taken(marks, places, scale, factor, max(radius, ring), shapes)
     for mark in marks:
-        shapes += _mark(mark, scale, factor, radius, ring)
+        at = places[mark.label]
+        shapes += _mark(mark, at, scale, factor, radius, ring)
         if mark.label in marked:
-            at = (SIDE / 2 + mark.design_mm[0] * scale, SIDE / 2 + mark.design_mm[1] * scale)
             shapes.append(Circle(at, max(radius, ring) + 4.5, "ring-named"))
+    # What fails has the first choice of a place.
+    for mark in sorted(marks, key=lambda mark: not mark.is_alarming):
+        shapes += _name(layout, mark, places[mark.label], max(radius, ring), marked=mark.label in marked)
     shapes.sort(key=_layer)
     return FootSketch(Sketch(SIDE, SIDE, tuple(shapes)), factor, limit_mm)
+
+
+def _taken(
+    marks: Sequence[Mark], places: dict[str, Point], scale: float, factor: int, reach: float, axes: Sequence[Shape]
+) -> Layout:
+    """Where no name may stand: points with their rings, arrows that leave these, the axes in the corner."""
+    layout = Layout(SIDE, SIDE)
+    for shape in axes:
+        if isinstance(shape, Label):
+            layout.keep_label(shape)
+        elif isinstance(shape, Polyline) and not shape.closed:
+            layout.keep_line(shape.points[0], shape.points[-1])
+    for mark in marks:
+        at = places[mark.label]
+        layout.keep_circle(at, reach + (_ALARM_RING if mark.is_alarming else 0.0))
+        if mark.offset_mm is not None and _length(mark.offset_mm) * scale * factor > reach:
+            layout.keep_line(at, _end(mark.offset_mm, at, scale, factor))
+    return layout
+
+
+def _end(offset_mm: Point, at: Point, scale: float, factor: int) -> Point:
+    return at[0] + offset_mm[0] * scale * factor, at[1] + offset_mm[1] * scale * factor
+
+
+def _name(layout: Layout, mark: Mark, at: Point, reach: float, *, marked: bool) -> Iterator[Shape]:
+    """Towards the middle of the foot, where no arrow of another point and no edge is; elsewhere where that is taken."""
+    sign = {"fail": " ✗", "inconclusive": " ?", "not_measured": " –"}.get(mark.verdict, "")
+    sign = f" ({sign.strip()})" if mark.follows and sign else sign
+    failed = mark.verdict == "fail" and not mark.follows
+    inwards = (SIDE / 2 - at[0], SIDE / 2 - at[1])
+    radius = reach + (_ALARM_RING if mark.is_alarming else 0.0) + (_ALARM_RING if marked else 0.0)
+    style = "text-fail" if failed else "text"
+    yield from layout.beside(at, f"{mark.label}{sign}", 7.5, radius, inwards, style=style, bold=failed)
 
 
 def _layer(shape: Shape) -> tuple[int, str]:
@@ -131,33 +194,32 @@ def _length(vector: Point) -> float:
     return float((vector[0] ** 2 + vector[1] ** 2) ** 0.5)
 
 
-def _axes() -> Iterator[Shape]:
-    """Where x and y point, in the lower left corner."""
-    for end, name in (((16.0, 3.0), "x"), ((3.0, 16.0), "y")):
-        yield arrow((3.0, 3.0), end, "guide", 3.0)
-        yield Label((end[0] + 3.5, end[1]) if name == "x" else (end[0], end[1] + 4.0), name, 7.0, "text-faint")
+def _mirrored(mark: Mark) -> Mark:
+    offset = mark.offset_mm
+    mirrored = None if offset is None else (-offset[0], offset[1])
+    return replace(mark, design_mm=(-mark.design_mm[0], mark.design_mm[1]), offset_mm=mirrored)
 
 
-def _mark(mark: Mark, scale: float, factor: int, radius: float, ring: float) -> Iterator[Shape]:
-    x, y = SIDE / 2 + mark.design_mm[0] * scale, SIDE / 2 + mark.design_mm[1] * scale
-    yield Circle((x, y), radius, "design")
+def _axes(*, from_below: bool) -> Iterator[Shape]:
+    """Where x and y point, in a lower corner."""
+    corner, across = (SIDE - 3.0, -1.0) if from_below else (3.0, 1.0)
+    yield arrow((corner, 3.0), (corner + 13.0 * across, 3.0), "guide", 3.0)
+    yield Label((corner + 16.5 * across, 3.0), "x", 7.0, "text-faint")
+    yield arrow((corner, 3.0), (corner, 16.0), "guide", 3.0)
+    yield Label((corner, 20.0), "y", 7.0, "text-faint")
+
+
+def _mark(mark: Mark, at: Point, scale: float, factor: int, radius: float, ring: float) -> Iterator[Shape]:
+    yield Circle(at, radius, "design")
     if mark.limit_mm is not None and mark.offset_mm is not None:
-        yield Circle((x, y), mark.limit_mm * scale * factor, "limit")
-    if mark.verdict in ("fail", "inconclusive"):
-        yield Circle((x, y), max(radius, ring) + 2.0, "ring-fail" if mark.verdict == "fail" else "limit")
+        yield Circle(at, mark.limit_mm * scale * factor, "limit")
+    if mark.is_alarming:
+        yield Circle(at, max(radius, ring) + 2.0, "ring-fail" if mark.verdict == "fail" else "ring-open")
     if mark.offset_mm is None:
-        yield from _unmeasured((x, y), radius)
+        yield from _unmeasured(at, radius)
     else:
-        end = (x + mark.offset_mm[0] * scale * factor, y + mark.offset_mm[1] * scale * factor)
-        yield arrow((x, y), end, mark.verdict, 3.6)
-    sign = {"fail": " ✗", "inconclusive": " ?", "not_measured": " –"}.get(mark.verdict, "")
-    # Towards the middle of the foot, where no arrow of another point and no edge is.
-    inwards = (SIDE / 2 - x, SIDE / 2 - y)
-    apart = max(radius, ring) + 8.5
-    away = _length(inwards) or 1.0
-    at = (x + inwards[0] / away * apart, y + inwards[1] / away * apart)
-    failed = mark.verdict == "fail"
-    yield Label(at, f"{mark.label}{sign}", 7.5, "text-fail" if failed else "text", bold=failed)
+        style = "follows" if mark.follows else mark.verdict
+        yield arrow(at, _end(mark.offset_mm, at, scale, factor), style, 3.6)
 
 
 def _unmeasured(at: Point, radius: float) -> Iterator[Shape]:

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from aadm_workbench.model import Array, ColumnReport
+from aadm_workbench.model import Array, ColumnReport, GridAxis
+from aadm_workbench.report.drawing.layout import Layout, box_of
 from aadm_workbench.report.drawing.sketch import Label, Link, Point, Polyline, Shape, Sketch, rectangle
 from aadm_workbench.report.words.labels import SIGN
 
 WIDTH = 1000.0
 """Of the drawing, in its own units; the page gives it its size."""
 _MARGIN = 70.0  # about the columns: tags of the axes
+_EDGE = 26.0  # between the end of an axis and the edge: its name
 _SMALLEST, _LARGEST = 12.0, 44.0  # of a column's square: still clicked, and not larger than its name needs
 _HIGHEST = 620.0  # of the drawing: a long floor leaves room on the page
 
@@ -26,13 +29,22 @@ class Plan:
     sketch: Sketch
 
 
-def floor_plans(columns: Sequence[ColumnReport], anchors: dict[str, str]) -> list[Plan]:
+def floor_plans(
+    columns: Sequence[ColumnReport],
+    anchors: dict[str, str],
+    axes: Sequence[GridAxis] = (),
+    most_tiles: int | None = None,
+) -> list[Plan]:
     """A plan for each storey, and one of tiles for columns without a place.
 
     Parameters
     ----------
     anchors
         Where a click on a column leads, by its id.
+    axes
+        Of the model's grid; without any, lines join columns that stand on one axis by their names.
+    most_tiles
+        In one plan: as many as fit on a page. None for all.
     """
     storeys: dict[str, list[ColumnReport]] = defaultdict(list)
     tiles = []
@@ -41,8 +53,9 @@ def floor_plans(columns: Sequence[ColumnReport], anchors: dict[str, str]) -> lis
             tiles.append(column)
         else:
             storeys[column.storey or ""].append(column)
-    plans = [Plan(storey, True, _placed(storeys[storey], anchors)) for storey in sorted(storeys)]
-    return plans + ([Plan("", False, _tiles(tiles, anchors))] if tiles else [])
+    plans = [Plan(storey, True, _placed(storeys[storey], anchors, axes)) for storey in sorted(storeys)]
+    step = most_tiles or max(len(tiles), 1)
+    return plans + [Plan("", False, _tiles(tiles[k : k + step], anchors)) for k in range(0, len(tiles), step)]
 
 
 def place_mm(T: Array) -> Point:
@@ -55,7 +68,7 @@ def grid_tags(column: ColumnReport) -> tuple[str, ...]:
     return tuple(tag for tag in (column.grid or "").split("/") if tag)
 
 
-def _placed(columns: Sequence[ColumnReport], anchors: dict[str, str]) -> Sketch:
+def _placed(columns: Sequence[ColumnReport], anchors: dict[str, str], axes: Sequence[GridAxis]) -> Sketch:
     places = [place_mm(column.T_model_column) for column in columns if column.T_model_column is not None]
     low = (min(x for x, _ in places), min(y for _, y in places))
     span = (max(x for x, _ in places) - low[0], max(y for _, y in places) - low[1])
@@ -64,7 +77,13 @@ def _placed(columns: Sequence[ColumnReport], anchors: dict[str, str]) -> Sketch:
     inset = (WIDTH - span[0] * scale) / 2.0
     at = [(inset + (x - low[0]) * scale, _MARGIN + (y - low[1]) * scale) for x, y in places]
     half = min(_LARGEST, max(_SMALLEST, 0.3 * _nearest(at))) / 2.0
-    shapes: list[Shape] = [*_grid_lines(columns, at)]
+    frame = (WIDTH, height)
+
+    def placed(mm: Point) -> Point:
+        return inset + (mm[0] - low[0]) * scale, _MARGIN + (mm[1] - low[1]) * scale
+
+    lines = [(axis.tag, placed(axis.start_mm), placed(axis.end_mm)) for axis in axes]
+    shapes: list[Shape] = [*(_axis_lines(lines, frame) if lines else _grid_lines(columns, at))]
     for column, place in zip(columns, at, strict=True):
         shapes.append(_column(column, place, half, anchors))
     return Sketch(WIDTH, height, tuple(shapes))
@@ -104,6 +123,41 @@ def _column(column: ColumnReport, at: Point, half: float, anchors: dict[str, str
         Label((at[0], at[1] - half - size * 0.75), name, size, "text-fail" if verdict == "fail" else "text", bold=True),
     )
     return Link(anchors[column.id], column.id, shapes)
+
+
+def _axis_lines(lines: Sequence[tuple[str, Point, Point]], frame: Point) -> Iterator[Shape]:
+    """Axes of the model as far as they run through the drawing, their names at their ends where there is room."""
+    layout = Layout(*frame)
+    for tag, start, end in lines:
+        ends = _within(start, end, frame)
+        if ends is None:
+            continue
+        yield Polyline(ends, "axis")
+        for near, far in (ends, ends[::-1]):
+            length = math.dist(near, far) or 1.0
+            away = ((near[0] - far[0]) / length, (near[1] - far[1]) / length)
+            label = Label((near[0] + 12.0 * away[0], near[1] + 12.0 * away[1]), tag, 17.0, "text-faint", bold=True)
+            if layout.is_free(box_of(label)):
+                layout.keep_label(label)
+                yield label
+                break
+
+
+def _within(start: Point, end: Point, frame: Point) -> tuple[Point, Point] | None:
+    """The part of a line that lies in the drawing, clear of its edge (Liang and Barsky 1984); None where none does."""
+    first, last = 0.0, 1.0
+    for p0, p1, high in ((start[0], end[0], frame[0]), (start[1], end[1], frame[1])):
+        along, low = p1 - p0, _EDGE
+        if abs(along) < 1e-9:
+            if not low <= p0 <= high - _EDGE:
+                return None
+            continue
+        a, b = sorted(((low - p0) / along, (high - _EDGE - p0) / along))
+        first, last = max(first, a), min(last, b)
+    if first >= last:
+        return None
+    x, y = end[0] - start[0], end[1] - start[1]
+    return (start[0] + first * x, start[1] + first * y), (start[0] + last * x, start[1] + last * y)
 
 
 def _grid_lines(columns: Sequence[ColumnReport], at: Sequence[Point]) -> Iterator[Shape]:

@@ -46,6 +46,8 @@ STYLES: dict[str, Style] = {
     "fill-error": Style("#7a1f5c", "#e0a3cb", 1.6),
     "fill-not_assessed": Style(COLOUR["not_assessed"], "#ffffff", 1.2),
     "ring-fail": Style(COLOUR["fail"], None, 2.2),
+    "ring-open": Style("#b87a00", None, 1.6, (3.0, 1.6)),
+    "follows": Style("#8a6a55", "#ffffff", 0.9, (2.0, 1.2)),
     "ring-mark": Style(INK, "#ffd84d", 1.2),
     "move": Style(MOVE, MOVE, 3.0),
     "window": Style(COLOUR["pass"], "#bfe6d6", 0.8),

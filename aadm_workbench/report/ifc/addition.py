@@ -53,7 +53,15 @@ class Addition:
         self._text = text
         self._radians = opened.radians
         self._taken = {found.decode() for found in _OURS_ALREADY.findall(text.content)}
+        self._known: dict[tuple[object, ...], Any] = {}
         self._history = self._owner_history()
+
+    def once(self, ifc_class: str, key: Sequence[object], **attributes: Any) -> Any:
+        """An entity without an identity of its own, which all that say the same share: half of the bytes of a floor."""
+        known = (ifc_class, *key)
+        if known not in self._known:
+            self._known[known] = self.new(ifc_class, **attributes)
+        return self._known[known]
 
     def new(self, ifc_class: str, **attributes: Any) -> Any:
         """An entity."""
@@ -106,15 +114,18 @@ class Addition:
     def _property(self, name: str, measure: str, value: Scalar) -> Any:
         if measure == ENUMERATED:
             return self.new(measure, Name=name, EnumerationValues=[self.value("IfcLabel", value)])
-        return self.new("IfcPropertySingleValue", Name=name, NominalValue=self.value(measure, value))
+        key = (name, measure, type(value).__name__, value)
+        return self.once("IfcPropertySingleValue", key, Name=name, NominalValue=self.value(measure, value))
 
     def point(self, *xyz_mm: float) -> Any:
         """A point, given in mm."""
-        return self.new("IfcCartesianPoint", Coordinates=[self.length(value) + 0.0 for value in xyz_mm])
+        place = [self.length(value) + 0.0 for value in xyz_mm]
+        return self.once("IfcCartesianPoint", place, Coordinates=place)
 
     def direction(self, vector: Array) -> Any:
         """A direction."""
-        return self.new("IfcDirection", DirectionRatios=[float(value) + 0.0 for value in vector])
+        ratios = [float(value) + 0.0 for value in vector]
+        return self.once("IfcDirection", ratios, DirectionRatios=ratios)
 
     def axes(self, T_parent_own: Array) -> Any:
         """A frame (4, 4), its shift in mm; the directions are left out where they are the parent's."""

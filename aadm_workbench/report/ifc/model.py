@@ -7,6 +7,7 @@ the same as written once.
 from __future__ import annotations
 
 import hashlib
+import stat
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -31,7 +32,9 @@ from aadm_workbench.report.ifc.marks import Marks
 from aadm_workbench.report.ifc.points import write_points
 from aadm_workbench.report.ifc.records import add_records, add_report_link
 from aadm_workbench.report.ifc.removal import Stripped, keep_book, without_results
+from aadm_workbench.report.ifc.section_set import SECTION_SET, section_properties
 
+_WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 _SHORT_HASH = 12  # 48 bits: no two states of a model share them
 
 
@@ -114,6 +117,8 @@ def write_ifc(
     for column in checked:
         element = of_column[column.id]
         assigner.assign(element, ifc_sets.COLUMN_SET, ifc_sets.column_properties(report, column))
+        if section := section_properties(report, column):
+            assigner.assign(element, SECTION_SET, section)
         if element.id() in frames:
             marks.draw(column, element, frames[element.id()])
         add_records(addition, report, column, element)
@@ -280,10 +285,18 @@ def _put(content: bytes, out: Path, model: Path, keep_as: str) -> tuple[bool, Pa
     if is_there(place) and place.read_bytes() == content:
         return False, None
     backup = None
+    mode = place.stat().st_mode if in_place else None
+    if mode is not None and not mode & _WRITABLE:
+        raise ReportError(
+            f"{model} may only be read, so that nobody changes it: allow writing it, or write another file (--out)"
+        )
     if keep_as and in_place:
         kept = model.with_name(f"{model.name}.{keep_as[:_SHORT_HASH]}.bak")
         if not is_there(kept):
             write_atomically(kept, model.read_bytes())
             backup = kept
     write_atomically(place, content)
+    if mode is not None:
+        # The new file is one in the place of the old; whoever could read that can read this.
+        place.chmod(stat.S_IMODE(mode))
     return True, backup

@@ -140,8 +140,8 @@ def _trial(column: ColumnReport) -> _Told:
 
 
 def _hoisting(column: ColumnReport) -> _Told:
-    """The last frame that was measured."""
-    frames = [(frame, frame.correction) for frame in column.hoisting if frame.correction is not None]
+    """The last frame that was measured, or what all of them tell together."""
+    frames = [(frame, frame.correction) for frame in column.hoisting_frames if frame.correction is not None]
     for last, move in frames[-1:]:
         yield "HoistingVerdict", _LABEL, last.verdict
         yield "HoistingDistance", _LENGTH, last.max_mm
@@ -157,6 +157,7 @@ def _audit(report: JobReport) -> _Told:
     yield "Decision", _LABEL, report.job.get("decision")
     yield "CaptureDate", _LABEL, report.capture.get("date") or None
     yield "Operator", _TEXT, report.capture.get("operator") or None
+    yield "CameraProfile", _TEXT, report.capture.get("camera_profile") or None
     yield "Job", _TEXT, report.job["name"]
     yield "JobSha256", _LABEL, report.job["sha256"]
     yield "Tool", _LABEL, f"{report.tool['name']} {report.tool['version']}"

@@ -23,14 +23,15 @@ from aadm_workbench.model import (
     RepairStep,
     codes_of,
 )
-from aadm_workbench.report.directions import SMALLEST_MM, Compass, compass_of
+from aadm_workbench.report.directions import SMALLEST_MM, Compass, compass_of, grid_of
 from aadm_workbench.report.hoist import Hoist, hoist_of
 from aadm_workbench.report.words.labels import Phrase, phrase
 from aadm_workbench.report.words.reasons import in_both_languages, recognised
 
 Light: TypeAlias = Literal["green", "amber", "red"]
 
-_SMALLEST_TURN_DEG = 0.005  # what is shown as 0.00 is no turn
+SMALLEST_TURN_DEG = 0.005
+"""What is shown as 0.00 is no turn."""
 _NOTICED_TILT_DEG = 0.2  # 0.6 mm at the height of 180 mm that one measures at
 
 
@@ -69,8 +70,8 @@ def crew_advice(report: JobReport, column: ColumnReport) -> CrewAdvice:
     Where a frame was taken while the column hung over its bars, the last one says where to move it; before that the
     check says whether it may be hoisted, and what has to be done first.
     """
-    hoist, compass = hoist_of(column), compass_of(report.columns, column)
-    for frame in reversed(column.hoisting):
+    hoist, compass = hoist_of(column), compass_of(grid_of(report), column)
+    for frame in reversed(column.hoisting_frames):
         if frame.correction is not None and column.verdict != "fail" and column.goes_on != "fail":
             return _hanging(column, frame, frame.correction, hoist, compass)
     repair = column.repair
@@ -82,6 +83,21 @@ def crew_advice(report: JobReport, column: ColumnReport) -> CrewAdvice:
     headline = phrase("crew.stop" if failed else "crew.wait")
     shifts = tuple(_bends(repair)) if failed and repair is not None else ()
     return CrewAdvice(light, headline, tuple(_first(column, repair, compass)), shifts, 0.0, hoist, compass)
+
+
+def in_steps(advice: CrewAdvice) -> Phrase:
+    """The steps of an advice in one line, numbered where they are several."""
+    release = phrase("crew.after_release")
+    told = [
+        Phrase(f"{step.text.en} ({release.en})", f"{step.text.zh}（{release.zh}）") if step.release else step.text
+        for step in advice.steps
+    ]
+    if len(told) == 1:
+        return told[0]
+    return Phrase(
+        " ".join(f"{number}. {text.en}" for number, text in enumerate(told, start=1)),
+        " ".join(f"{number}. {text.zh}" for number, text in enumerate(told, start=1)),
+    )
 
 
 def _hanging(
@@ -103,7 +119,7 @@ def _hanging(
 
 def _turn(column: ColumnReport, yaw_deg: float) -> Iterator[Step]:
     """Counter-clockwise from above where the yaw is above zero."""
-    if abs(yaw_deg) < _SMALLEST_TURN_DEG:
+    if abs(yaw_deg) < SMALLEST_TURN_DEG:
         return
     size = column.size_mm or _extent(column)
     corner_mm = math.radians(abs(yaw_deg)) * math.hypot(*size) / 2.0
@@ -129,7 +145,7 @@ def _beside_camera(seen: CameraMove | None) -> Phrase:
     ]
     if not ways:
         return Phrase("", "")
-    told = _with_way("crew.from_camera", Phrase(", ".join(way.en for way in ways), ",".join(way.zh for way in ways)))
+    told = _with_way("crew.from_camera", Phrase(", ".join(way.en for way in ways), "，".join(way.zh for way in ways)))
     return Phrase(f" {told.en}", told.zh)
 
 
@@ -155,7 +171,8 @@ def _first(column: ColumnReport, repair: RepairReport | None, compass: Compass) 
         yield from (Step(phrase(f"crew.scan_{part}")) for kind, part in _PARTS.items() if kind not in column.groups)
         return
     trial = column.trial_assembly
-    if trial is not None and trial.in_the_way:
+    named = {step.rebar for step in repair.steps} if repair is not None and repair.action != "disposal_plan" else set()
+    if trial is not None and not {*trial.in_the_way} <= named:
         yield Step(phrase("crew.in_the_way", labels=", ".join(trial.in_the_way)))
     held = [finding.text for finding in column.findings if finding.holds_back]
     yield from (Step(in_both_languages(text)) for text in held)
@@ -227,7 +244,20 @@ def _repair(column: ColumnReport, repair: RepairReport, compass: Compass) -> Ite
         if column.verdict == "inconclusive":
             yield _scan_closer(column)
         yield from (_of_pair(step, compass) for step in repair.steps)
+        yield from _left_over(repair)
         yield Step(phrase("crew.scan_bars_again"))
+
+
+def _left_over(repair: RepairReport) -> Iterator[Step]:
+    """What stays beyond its limit of position once the steps are done: the column goes on, and the engineer decides."""
+    after = {step.rebar: step for step in repair.steps if step.position_after_mm is not None}
+    known = [after[label] for label in repair.still_fails if label in after]
+    for step in known:
+        values = {"rebar": step.rebar, "mm": f"{step.position_after_mm:.1f}", "limit": f"{step.position_limit_mm:g}"}
+        yield Step(phrase("crew.still_off_by", **values))
+    rest = [label for label in repair.still_fails if label not in after]
+    if rest:
+        yield Step(phrase("crew.still_off", labels=", ".join(rest)))
 
 
 def _scan_closer(column: ColumnReport) -> Step:

@@ -10,7 +10,8 @@ from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.pages.crew import CrewAdvice, Step, crew_advice
 from aadm_workbench.report.pages.crew_sketch import crew_sketch, sleeves_from_below
-from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, lines_of, pages, reportlab, write, write_lines
+from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, pages, write, write_lines
+from aadm_workbench.report.pages.pdf_text import lines_of, reportlab, width_of
 from aadm_workbench.report.words.labels import COLOUR, FAINT, HEAD, INK, WARN, Language, phrase
 
 _LIGHT = {"green": COLOUR["pass"], "amber": "#e0a100", "red": COLOUR["fail"]}
@@ -141,8 +142,8 @@ class _Page:
         if below is not None and not bars_matter and not advice.shifts:
             self._caption("crew.from_below", (_LEFT, low + side + 3.0 * MM), side)
             draw_sketch(canvas, below, (_LEFT, low), side)
-        elif column.rebars or column.sleeves:
-            shown = "crew.from_above" if column.rebars else "crew.sleeves_from_above"
+        elif column.rebars or column.sleeves or advice.shifts:
+            shown = "crew.sleeves_from_above" if column.sleeves and not column.rebars else "crew.from_above"
             self._caption(shown, (_LEFT, low + side + 3.0 * MM), side)
             draw_sketch(canvas, crew_sketch(column, advice, self.first), (_LEFT, low), side)
             if below is not None:
@@ -164,7 +165,8 @@ class _Page:
     def _caption(self, name: str, at: tuple[float, float], width: float) -> None:
         text = phrase(name)
         said = f"{text.in_language(self.first)} · {text.in_language(self.second)}"
-        write_lines(self.canvas, at, said, 9.0, width, colour=FAINT, most=1)
+        size = next((size for size in (9.0, 8.0, 7.0, 6.0) if width_of(said, size) <= width), 6.0)
+        write_lines(self.canvas, at, said, size, width, colour=FAINT, most=1)
 
     def _signature(self, at: tuple[float, float], width: float) -> None:
         canvas, colors = self.canvas, reportlab("lib.colors")

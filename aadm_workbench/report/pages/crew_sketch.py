@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
+from aadm_workbench.assembly.following import blame_of
 from aadm_workbench.model import ColumnReport, Kind, PointResult
-from aadm_workbench.report.directions import Compass
+from aadm_workbench.report.directions import SMALLEST_MM, Compass
+from aadm_workbench.report.drawing.layout import Layout
 from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow
-from aadm_workbench.report.pages.crew import CrewAdvice, Shift
+from aadm_workbench.report.pages.crew import SMALLEST_TURN_DEG, CrewAdvice, Shift
 from aadm_workbench.report.words.labels import Language
 
 SIDE = 220.0
 """Of the drawing, in its own units; the page gives it its size."""
+_DOT, _RING = 5.5, 10.5  # radii of a point, and of the ring about one to look at
 _MARGIN = 36.0  # about the foot: labels and arrows of its outermost points
 _ARROW = 26.0  # long enough to show a direction, whatever the distance
 _MOVE = 52.0  # the arrow of the whole column: twice those of bars
@@ -22,15 +25,17 @@ _TURN_RADIUS = 30.0  # of the bow that shows a turn: within the innermost bars
 def crew_sketch(column: ColumnReport, advice: CrewAdvice, language: Language) -> Sketch:
     """Bars (sleeves, where no bars were scanned), seen from above, turned as the plan lies.
 
-    Arrows are not to scale: they show where to, and the number beside them how far.
+    Arrows are not to scale: they show where to, and the number beside them how far. A column of which only hoisting
+    frames are known has its outline, and the arrow.
     """
     points = column.points(Kind.REBAR) or column.points(Kind.SLEEVE)
     frame = _Frame(column, points, advice.compass.turn_deg)
     shifts = {shift.label: shift for shift in advice.shifts}
-    shapes = [*_outline(column, frame), *_edge_names(advice.compass, language), *_marked(points, frame, shifts)]
+    layout = Layout(SIDE, SIDE)
+    shapes = [*_outline(column, frame), *_edge_names(advice.compass, language, layout)]
     if "" in shifts:
-        shapes += _move(shifts[""], frame, advice.turn_deg)
-    return Sketch(SIDE, SIDE, tuple(shapes))
+        shapes += _move(shifts[""], frame, advice.turn_deg, layout)
+    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, shifts, {*blame_of(column).follows}, layout)))
 
 
 def sleeves_from_below(column: ColumnReport) -> Sketch | None:
@@ -39,21 +44,40 @@ def sleeves_from_below(column: ColumnReport) -> Sketch | None:
     if all(point.verdict in ("pass", "not_assessed") for point in points):
         return None
     frame = _Frame(column, points, 0.0, mirrored=True)
-    return Sketch(SIDE, SIDE, (*_outline(column, frame), *_marked(points, frame, {})))
+    marked = _marked(points, frame, {}, {*blame_of(column).follows}, Layout(SIDE, SIDE))
+    return Sketch(SIDE, SIDE, (*_outline(column, frame), *marked))
 
 
-def _marked(points: Sequence[PointResult], frame: _Frame, shifts: dict[str, Shift]) -> Iterator[Shape]:
-    """Every point with its name; those that fail or have to be moved are ringed."""
+def _marked(
+    points: Sequence[PointResult], frame: _Frame, shifts: dict[str, Shift], follows: Collection[str], layout: Layout
+) -> Iterator[Shape]:
+    """Every point with its name; those that fail by themselves or have to be moved are ringed, and named first."""
+    alarming = {
+        point.label
+        for point in points
+        if point.label in shifts or (point.verdict in ("fail", "not_measured") and point.label not in follows)
+    }
+    dot = min(_DOT, 0.34 * _apart(points, frame))
     for point in points:
         at = frame.place(point.design_mm)
-        shift = shifts.get(point.label)
-        alarming = shift is not None or point.verdict in ("fail", "not_measured")
-        yield from _dot(point, at)
-        if alarming:
-            yield Circle(at, 10.5, "ring-fail")
-        yield _name(point, at, frame, shift, alarming=alarming)
-        if shift is not None:
-            yield from _bend(shift, at, frame)
+        layout.keep_circle(at, _RING if point.label in alarming else dot)
+        yield from _dot(point, at, dot)
+        if point.label in alarming:
+            yield Circle(at, _RING, "ring-fail")
+        if point.label in shifts:
+            layout.keep_line(at, _end(shifts[point.label], at, frame))
+    for point in points:
+        if point.label in shifts:
+            yield from _bend(shifts[point.label], frame.place(point.design_mm), frame, layout)
+    for point in sorted(points, key=lambda point: point.label not in alarming):
+        yield from _name(point, frame, layout, dot, alarming=point.label in alarming)
+
+
+def _apart(points: Sequence[PointResult], frame: _Frame) -> float:
+    """Smallest distance of two points in the sketch."""
+    places = [frame.place(point.design_mm) for point in points]
+    found = [math.dist(place, other) for k, place in enumerate(places) for other in places[k + 1 :]]
+    return min((apart for apart in found if apart > 1.0), default=SIDE)
 
 
 class _Frame:
@@ -91,61 +115,60 @@ def _outline(column: ColumnReport, frame: _Frame) -> Iterator[Shape]:
         yield Polyline(tuple(frame.place(c) for c in ((-x, -y), (x, -y), (x, y), (-x, y))), "outline", closed=True)
 
 
-def _dot(point: PointResult, at: Point) -> Iterator[Shape]:
+def _dot(point: PointResult, at: Point, radius: float) -> Iterator[Shape]:
     missing = point.verdict == "not_measured"
     style = f"fill-{point.verdict}" if point.verdict in ("fail", "inconclusive", "not_measured") else "bar"
-    yield Circle(at, 5.5, style)
+    yield Circle(at, radius, style)
     if missing:
-        yield Label(at, "?", 9.0, bold=True)
+        yield Label(at, "?", 1.6 * radius, bold=True)
 
 
-def _name(point: PointResult, at: Point, frame: _Frame, shift: Shift | None, *, alarming: bool) -> Label:
-    """Outside of the pattern, where no arrow of the column stands; on the other side where the bar's own arrow does."""
+def _name(point: PointResult, frame: _Frame, layout: Layout, dot: float, *, alarming: bool) -> Iterator[Shape]:
+    """Outside of the pattern, where no arrow of the column stands; elsewhere where that is taken."""
+    at = frame.place(point.design_mm)
     outwards = (at[0] - SIDE / 2.0, at[1] - SIDE / 2.0)
     straight = (math.copysign(1.0, outwards[0]), 0.0)
     if abs(outwards[1]) > abs(outwards[0]):
         straight = (0.0, math.copysign(1.0, outwards[1]))
-    if shift is not None:
-        x, y = frame.turned(shift.vector_mm)
-        if x * straight[0] + y * straight[1] > 0.0:
-            straight = (-straight[0], -straight[1])
-    apart = _apart(at, straight, frame, 19.0 if alarming else 13.5)
-    place = (at[0] + straight[0] * apart, at[1] + straight[1] * apart)
-    return Label(place, point.label, 11.0 if alarming else 9.0, "text-fail" if alarming else "text", bold=alarming)
+    radius, size = (_RING + 1.2, 11.0) if alarming else (dot, 9.0)
+    style = "text-fail" if alarming else "text"
+    sign = {"fail": " ✗", "inconclusive": " ?", "not_measured": " –"}.get(point.verdict, "") if alarming else ""
+    yield from layout.beside(at, f"{point.label}{sign}", size, radius, straight, style=style, bold=alarming)
 
 
-def _apart(at: Point, straight: Point, frame: _Frame, least: float) -> float:
-    """How far from its point a name stands: beyond the outline where that is near, so that no line runs through it."""
-    axis = 0 if straight[0] else 1
-    to_edge = frame.half[axis] - straight[axis] * (at[axis] - SIDE / 2.0)
-    return max(least, to_edge + (12.0 if axis == 0 else 8.0)) if 0.0 < to_edge < 24.0 else least
-
-
-def _bend(shift: Shift, at: Point, frame: _Frame) -> Iterator[Shape]:
+def _end(shift: Shift, at: Point, frame: _Frame) -> Point:
+    """Where the arrow of a bar ends."""
     x, y = frame.turned(shift.vector_mm)
-    length = math.hypot(x, y)
+    length = math.hypot(x, y) or 1.0
+    return at[0] + x / length * _ARROW, at[1] + y / length * _ARROW
+
+
+def _bend(shift: Shift, at: Point, frame: _Frame, layout: Layout) -> Iterator[Shape]:
+    length = math.hypot(*shift.vector_mm)
     if length > 0.0:
-        end = (at[0] + x / length * _ARROW, at[1] + y / length * _ARROW)
+        end = _end(shift, at, frame)
         yield arrow(at, end, "move", 9.0)
-        beyond = (at[0] + x / length * (_ARROW + 9.0), at[1] + y / length * (_ARROW + 9.0))
-        yield Label(beyond, f"{length:.1f} mm", 10.0, "text-move", bold=True)
+        ahead = (end[0] - at[0], end[1] - at[1])
+        yield from layout.beside(end, f"{length:.1f} mm", 10.0, 2.0, ahead, style="text-move", bold=True)
 
 
-def _move(shift: Shift, frame: _Frame, turn_deg: float) -> Iterator[Shape]:
+def _move(shift: Shift, frame: _Frame, turn_deg: float, layout: Layout) -> Iterator[Shape]:
     x, y = frame.turned(shift.vector_mm)
     length = math.hypot(x, y)
     middle = (SIDE / 2.0, SIDE / 2.0)
-    if length >= 0.05:
+    if length >= SMALLEST_MM:
         end = (middle[0] + x / length * _MOVE, middle[1] + y / length * _MOVE)
+        layout.keep_line(middle, end)
         yield arrow(middle, end, "move", 16.0)
-        beside = (middle[0] + 0.55 * x / length * _MOVE, middle[1] + 0.55 * y / length * _MOVE)
-        across = (-y / length * 15.0, x / length * 15.0)
-        yield Label((beside[0] + across[0], beside[1] + across[1]), f"{length:.1f} mm", 13.0, "text-move", bold=True)
-    if abs(turn_deg) >= 0.005:
-        yield from _turn(middle, turn_deg)
+        half = (middle[0] + 0.55 * x / length * _MOVE, middle[1] + 0.55 * y / length * _MOVE)
+        across = (-y / length, x / length)
+        yield from layout.beside(half, f"{length:.1f} mm", 13.0, 5.0, across, style="text-move", bold=True)
+    if abs(turn_deg) >= SMALLEST_TURN_DEG:
+        layout.keep_circle(middle, _TURN_RADIUS)
+        yield from _turn(middle, turn_deg, layout)
 
 
-def _turn(middle: Point, turn_deg: float) -> Iterator[Shape]:
+def _turn(middle: Point, turn_deg: float, layout: Layout) -> Iterator[Shape]:
     """A bow round the middle in the sense of the turn."""
     first, last = (200.0, 320.0) if turn_deg > 0.0 else (340.0, 220.0)
     steps = 16
@@ -153,10 +176,11 @@ def _turn(middle: Point, turn_deg: float) -> Iterator[Shape]:
     points = tuple((middle[0] + _TURN_RADIUS * math.cos(a), middle[1] + _TURN_RADIUS * math.sin(a)) for a in bow)
     yield Polyline(points[:-1], "move")
     yield Polyline(points[-3:], "move", head=13.0)
-    yield Label((middle[0], middle[1] - _TURN_RADIUS - 13.0), f"{abs(turn_deg):.2f}°", 13.0, "text-move", bold=True)
+    said = f"{abs(turn_deg):.2f}°"
+    yield from layout.beside(middle, said, 13.0, _TURN_RADIUS + 2.0, (0.0, -1.0), style="text-move", bold=True)
 
 
-def _edge_names(compass: Compass, language: Language) -> Iterator[Shape]:
+def _edge_names(compass: Compass, language: Language, layout: Layout) -> Iterator[Label]:
     """At the four sides, where they lead to: grid axes or the sides of the plan."""
     if not compass.placed:
         return
@@ -168,16 +192,17 @@ def _edge_names(compass: Compass, language: Language) -> Iterator[Shape]:
             ux, uy = sign * way[0], sign * way[1]
             at = (SIDE / 2.0 + ux * (SIDE / 2.0 - 16.0), SIDE / 2.0 + uy * (SIDE / 2.0 - 8.0))
             said = name.in_language(language)
-            if abs(ux) > abs(uy):
-                words = said.split(" ") if language == "en" else [said]
-                yield from _stacked(at, words)
-            else:
-                yield Label(at, said, 8.0, "text-faint", bold=True)
+            # Words below each other on the narrow sides.
+            lines = [said] if abs(ux) <= abs(uy) else _stacked(said)
+            for k, line in enumerate(lines):
+                y = at[1] + 9.0 * ((len(lines) - 1) / 2.0 - k)
+                label = Label((at[0], y), line, 8.0, "text-faint", bold=True)
+                layout.keep_label(label)
+                yield label
 
 
-def _stacked(at: Point, words: list[str]) -> Iterator[Shape]:
-    """Words below each other, for the narrow sides."""
-    lines = [words[0]] if len(words) == 1 else [words[0], " ".join(words[1:3]), " ".join(words[3:])]
-    kept = [line for line in lines if line]
-    for k, line in enumerate(kept):
-        yield Label((at[0], at[1] + 9.0 * ((len(kept) - 1) / 2.0 - k)), line, 8.0, "text-faint", bold=True)
+def _stacked(said: str) -> list[str]:
+    """A direction in short lines: ``towards``, ``grid D``."""
+    words = said.split(" ")
+    lines = [words[0], " ".join(words[1:3]), " ".join(words[3:])]
+    return [line for line in lines if line]

@@ -18,25 +18,34 @@ from typing import Any, NamedTuple
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import SUMMED, JobReport, MouldDrift, Verdict
-from aadm_workbench.report.column_view import column_facts, trial_facts, window_text
+from aadm_workbench.report.column_view import advice_notes, column_facts, trial_facts, window_text
 from aadm_workbench.report.drawing.mould import mould_sketch
 from aadm_workbench.report.drawing.plan import Plan, floor_plans
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.hoist import headline
+from aadm_workbench.report.pages.crew import crew_advice, in_steps
 from aadm_workbench.report.pages.fonts import embedded_font_css
-from aadm_workbench.report.pages.html_column import column_entry
+from aadm_workbench.report.pages.html_column import column_entry, view_of
+from aadm_workbench.report.pages.html_table import TableWriter
 from aadm_workbench.report.pages.svg import svg_of, svg_styles
-from aadm_workbench.report.sheets.numbers import is_number, number_text
+from aadm_workbench.report.sheets.numbers import number_text, signed
 from aadm_workbench.report.sheets.sheets import MOULD, mould_rows, profile_table
 from aadm_workbench.report.sheets.tables import Heading, Row, narrowed
+from aadm_workbench.report.tower import TowerShown
 from aadm_workbench.report.words.labels import Language, Phrase, all_words, phrase, resource_folder, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
+
+_LATER = {"policy": "(the policy)", "style": "(the style)"}
+"""What stands in the head until both are known."""
+_PIECES = 5000  # of the template in one part: some hundred kilobytes, and the whole head in the first
 
 _VERDICTS = tuple(verdict.value for verdict in (*SUMMED, Verdict.NOT_ASSESSED))
 
 
-def write_html(report: JobReport, path: Path, language: Language = "en") -> None:
+def write_html(report: JobReport, path: Path, language: Language = "en", *, tower: TowerShown | None = None) -> None:
     """Write report.html, whole or not at all; ``language`` is the one that it opens in.
+
+    ``tower`` is what set columns do to the storey above, where somebody has worked it out.
 
     Raises
     ------
@@ -45,25 +54,41 @@ def write_html(report: JobReport, path: Path, language: Language = "en") -> None
     AadmError
         Where the file cannot be written.
     """
-    write_atomically(path, html_text(report, language).encode("utf-8", errors="replace"))
+    write_atomically(path, _parts(report, language, tower))
 
 
-def html_text(report: JobReport, language: Language = "en") -> str:
+def html_text(report: JobReport, language: Language = "en", *, tower: TowerShown | None = None) -> str:
     """The document; the same report gives the same text."""
-    found = findings(report)
-    sentences: dict[Phrase, int] = {}
-    context = _context(report, found, language) | {"number_of": lambda text: sentences.setdefault(text, len(sentences))}
-    body = _environment().get_template("report.html.j2")
+    return b"".join(_parts(report, language, tower)).decode()
+
+
+def _parts(report: JobReport, language: Language, tower: TowerShown | None) -> list[bytes]:
+    """The document in UTF-8, in parts.
+
+    Font and policy hang on all that follows: which signs occur, and the hash of the style. They are put into the head
+    at the end, where no text of others stands before them.
+    """
     script = (resource_folder() / "report.js").read_text(encoding="utf-8")
-    style = (resource_folder() / "report.css").read_text(encoding="utf-8") + svg_styles()
-    # The font comes last: which characters it must hold is known once the rest is written.
-    known = {"script": "", "style": "", "policy": "", "dictionary": {}}
-    plain = body.render(**context | known)
-    dictionary = _dictionary(sentences)
-    style = embedded_font_css(plain + json.dumps(dictionary, ensure_ascii=False)) + style
-    known |= {"script": _raw(script), "style": _raw(style), "policy": _policy(script, style), "dictionary": dictionary}
-    text: str = body.render(**context | known)
-    return text
+    context = _context(report, language) | _tower(tower) | {"script": _raw(script)}
+    context |= {name: _raw(mark) for name, mark in _LATER.items()}
+    stream = _environment().get_template("report.html.j2").stream(**context)
+    stream.enable_buffering(_PIECES)
+    parts, signs = [], set[str]()
+    for part in stream:
+        signs.update(part)
+        parts.append(part.encode("utf-8", errors="replace"))
+    sheets = ("report.css",) if tower is None else ("report.css", "tower.css")
+    style = "".join((resource_folder() / name).read_text(encoding="utf-8") for name in sheets) + svg_styles()
+    style = embedded_font_css("".join(signs)) + style
+    for name, text in (("policy", _policy(script, style)), ("style", style)):
+        parts[0] = parts[0].replace(_LATER[name].encode(), text.encode(), 1)
+    return parts
+
+
+def json_in_html(document: object) -> str:
+    """JSON that no text in it can end: what opens or closes a tag is written as a number."""
+    text = json.dumps(document, ensure_ascii=False, separators=(",", ":"))
+    return text.translate({ord(sign): f"\\u{ord(sign):04x}" for sign in "<>&'\u2028\u2029"})
 
 
 def _policy(script: str, style: str) -> str:
@@ -89,34 +114,45 @@ def _raw(text: str) -> Any:
     return import_module("markupsafe").Markup(text)
 
 
-def _context(report: JobReport, found: list[Finding], language: Language) -> dict[str, Any]:
-    items = [column_entry(report, finding, _raw) for finding in found]
-    by_state = {state: [i for i in items if i.finding.hoist.state == state] for state in ("no", "not_yet", "yes")}
-    words = all_words()
+def _context(report: JobReport, language: Language) -> dict[str, Any]:
+    found = findings(report)
+    sentences: dict[Phrase, int] = {}
+
+    def number_of(text: Phrase) -> int:
+        return sentences.setdefault(text, len(sentences))
+
+    tables = TableWriter(language, number_of)
+    by_state = {state: [one for one in found if one.hoist.state == state] for state in ("no", "not_yet", "yes")}
     return {
         "report": report,
         "language": language,
-        "words": words,
-        "items": items,
+        "words": all_words(),
+        "found": found,
         **by_state,
+        "entry": lambda finding: column_entry(report, finding, _raw),
+        "number_of": number_of,
+        "table": lambda headings, rows: _raw(tables.table(headings, rows)),
         "headline": headline(report),
         "not_yet_line": phrase("headline.not_yet", number=len(by_state["not_yet"])),
         "yes_line": phrase("headline.yes", number=len(by_state["yes"])),
         "plans": _plans(report, found),
-        "legend": [name for name in _VERDICTS if any(item.column.verdict == name for item in items)],
+        "legend": [name for name in _VERDICTS if any(one.column.verdict == name for one in found)],
         "moulds": [_mould(mould, language) for mould in report.mould_drift],
         "profile": profile_table(report),
         "inputs": _inputs(report),
-        "views": {item.finding.anchor: asdict(item.view) for item in items if item.column.groups},
+        "views": lambda: _raw(
+            json_in_html({one.anchor: asdict(view_of(one.column)) for one in found if one.column.groups})
+        ),
+        "dictionary": lambda: _raw(json_in_html(_dictionary(sentences))),
         "verdict_words": verdict_words,
         "column_facts": column_facts,
+        "advice_notes": advice_notes,
+        "steps": lambda column: in_steps(crew_advice(report, column)),
         "trial_facts": trial_facts,
         "window_text": window_text,
         "view_note": lambda factor: phrase("ui.view_3d_note", factor=factor),
-        "is_number": is_number,
         "number": number_text,
         "sentence": in_both_languages,
-        "input_words": ("sleeves", "rebars", "hoisting"),
     }
 
 
@@ -130,11 +166,22 @@ def _dictionary(sentences: Iterable[Phrase]) -> dict[str, dict[str, list[str]] |
     }
 
 
+def _views(found: list[Finding]) -> dict[str, dict[str, Any]]:
+    return {one.anchor: asdict(view_of(one.column)) for one in found if one.column.groups}
+
+
 def _plans(report: JobReport, found: list[Finding]) -> list[tuple[Plan, str]]:
     """Each plan, and as SVG."""
     anchors = {finding.column.id: finding.anchor for finding in found}
-    plans = floor_plans(report.columns, anchors)
+    plans = floor_plans(report.columns, anchors, report.grid)
     return [(plan, _raw(svg_of(plan.sketch, label="plan", css_class="plan"))) for plan in plans]
+
+
+def _tower(tower: TowerShown | None) -> dict[str, object]:
+    """What the template needs of the tower, where there is one."""
+    drawn = () if tower is None else tower.plans
+    plans = [(plan, _raw(svg_of(plan.sketch, label="plan", css_class="plan"))) for plan in drawn]
+    return {"tower": tower, "tower_plans": plans, "word": phrase, "signed": signed}
 
 
 class _Mould(NamedTuple):

@@ -1,70 +1,35 @@
-"""Writing on a PDF page: one font that knows Latin and Chinese, lines that break in both, sketches.
+"""Drawing on a PDF page: lines of text, sketches, coloured areas.
 
-Coordinates are points (1/72 inch), y upwards, as reportlab has them.
+Coordinates are points (1/72 inch), y upwards. What is drawn is written as operators of PDF (ISO 32000-1, annex A): a
+report of a thousand columns has a million texts, and reportlab's own way to each takes ten times as long.
 """
 
 from __future__ import annotations
 
 import io
-import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import cache
-from importlib import import_module
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from aadm_workbench.atomic import write_atomically
-from aadm_workbench.errors import MissingDependencyError
-from aadm_workbench.report.drawing.sketch import STYLES, Anchor, Circle, Label, Link, Polyline, Shape, Sketch, arrowhead
-from aadm_workbench.report.pages.fonts import FONT_FILE
+from aadm_workbench.report.drawing.sketch import STYLES, Anchor, Circle, Label, Link, Shape, Sketch, arrowhead
+from aadm_workbench.report.pages.pdf_text import lines_of, prepared_font, printable, reportlab, width_of
 from aadm_workbench.report.words.labels import INK
 
-FONT = "AADM"
 MM = 72.0 / 25.4
 """Points of a millimetre."""
 A4 = (210.0 * MM, 297.0 * MM)
 """Width and height, points (ISO 216)."""
 
 _BOLD_STROKE = 0.028  # of the size: letters are drawn with an outline of that width, since the font has no bold cut
-_CHINESE = r"[\u2e80-\u9fff\uf900-\ufaff\uff00-\uffef\u3000-\u303f]"
-_NEVER_FIRST = "。,、;:!?)》」』】〕%"
-_TOKEN = re.compile(rf"{_CHINESE}|[^\s\u2e80-\u9fff\uf900-\ufaff\uff00-\uffef\u3000-\u303f]+|\s+")
-_INSTEAD = str.maketrans({"✗": "×", "○": "o", "\t": " ", "\u00a0": " "})
-_UNKNOWN = "□"
-
-
-def reportlab(module: str, needed_for: str = "a PDF report") -> Any:
-    """A module of reportlab.
-
-    Raises
-    ------
-    MissingDependencyError
-        Where reportlab is not installed.
-    """
-    try:
-        return import_module(f"reportlab.{module}")
-    except ImportError as error:
-        raise MissingDependencyError("reportlab", needed_for) from error
-
-
-@cache
-def _face() -> Any:
-    """The font, known to reportlab under its name from now on."""
-    metrics, fonts = reportlab("pdfbase.pdfmetrics"), reportlab("pdfbase.ttfonts")
-    font = fonts.TTFont(FONT, str(FONT_FILE))
-    metrics.registerFont(font)
-    return font.face
-
-
-def prepare_font() -> str:
-    """Make the font known, and return its name."""
-    _face()
-    return FONT
+_QUARTER = 0.5522847498  # of the radius: a Bezier curve with this handle is a quarter of a circle to 0.03 %
 
 
 @contextmanager
-def pages(path: Path, title: str, needed_for: str) -> Iterator[Any]:
+def pages(path: Path, title: str, needed_for: str, author: str = "") -> Iterator[Any]:
     """A canvas to draw pages of A4 on; the file is written at the end, whole or not at all.
 
     Raises
@@ -78,58 +43,62 @@ def pages(path: Path, title: str, needed_for: str) -> Iterator[Any]:
     content = io.BytesIO()
     canvas = module.Canvas(content, pagesize=A4, invariant=1, pageCompression=1)
     canvas.setTitle(title)
+    canvas.setAuthor(author)
     yield canvas
     canvas.save()
     write_atomically(path, content.getvalue())
 
 
-def printable(text: str) -> str:
-    """A text in signs that the font has; what it lacks becomes an empty box."""
-    known = _face().charToGlyph
-    return "".join(sign if ord(sign) in known or sign == "\n" else _UNKNOWN for sign in text.translate(_INSTEAD))
+class Letters:
+    """Texts of one colour, written with as few operators as they need."""
+
+    def __init__(self, canvas: Any, *, colour: str = INK, bold: bool = False) -> None:
+        self._canvas = canvas
+        self._written = [f"BT {_paint(colour)} rg"]
+        self._bold, self._colour = bold, colour
+        self._in_force: tuple[int, float] | None = None
+        if bold:
+            self._written.append(f"{_paint(colour)} RG 2 Tr")
+
+    def put(self, x: float, y: float, text: str, size: float) -> None:
+        """A text of printable signs, its base line at (x, y)."""
+        if not text:
+            return
+        written = self._written
+        written.append(f"1 0 0 1 {x:.2f} {y:.2f} Tm")
+        for subset, name, shown in _encoded(self._canvas, text):
+            if self._in_force != (subset, size):
+                written.append(f"{name} {size:g} Tf")
+                if self._bold:
+                    written.append(f"{size * _BOLD_STROKE:.3f} w")
+                self._in_force = subset, size
+            written.append(f"({shown}) Tj")
+
+    def done(self) -> None:
+        """Put them onto the page."""
+        self._canvas.addLiteral("\n".join([*self._written, "0 Tr ET" if self._bold else "ET"]))
 
 
-def width_of(text: str, size: float) -> float:
-    """Width of one line, pt."""
-    prepare_font()
-    return float(reportlab("pdfbase.pdfmetrics").stringWidth(text, FONT, size))
+def _encoded(canvas: Any, text: str) -> tuple[tuple[int, str, str], ...]:
+    """A text in the subsets of the font that the document has so far: number, name in the page, escaped bytes."""
+    known = canvas.__dict__.setdefault("aadm_texts", {})
+    found = known.get(text)
+    if found is None:
+        font, document = prepared_font(), canvas._doc
+        escape = reportlab("lib.rl_accel").escapePDF
+        found = tuple(
+            (subset, font.getSubsetInternalName(subset, document), escape(part))
+            for subset, part in font.splitString(text, document)
+        )
+        known[text] = found
+    encoded: tuple[tuple[int, str, str], ...] = found
+    return encoded
 
 
-def shortened(text: str, most: int, most_lines: int) -> str:
-    """A text of at most so many characters and lines: it comes from the files of others, and must fit on a page."""
-    lines = text.split("\n", most_lines)
-    kept = "\n".join(lines[:most_lines])
-    return text if len(kept) == len(text) <= most else f"{kept[: most - 1]}…"
-
-
-def lines_of(text: str, size: float, width: float) -> list[str]:
-    """A text broken into lines of a width, pt: between words, between Chinese characters, in words too long."""
-    lines: list[str] = []
-    for paragraph in printable(text).split("\n"):
-        line = ""
-        for token in _TOKEN.findall(paragraph):
-            for piece in _pieces(token, size, width):
-                if line and width_of(line + piece, size) > width:
-                    # A full stop takes the character before it along: it never stands at the start of a line.
-                    keep = -1 if piece in _NEVER_FIRST and len(line) > 1 else len(line)
-                    lines.append(line[:keep].rstrip())
-                    line = line[keep:]
-                line += piece if line else piece.lstrip()
-        lines.append(line.rstrip())
-    return lines
-
-
-def _pieces(token: str, size: float, width: float) -> list[str]:
-    """A word that is wider than the line, cut."""
-    if width_of(token, size) <= width:
-        return [token]
-    pieces, piece = [], ""
-    for sign in token:
-        if piece and width_of(piece + sign, size) > width:
-            pieces.append(piece)
-            piece = ""
-        piece += sign
-    return [*pieces, piece]
+@cache
+def _paint(colour: str) -> str:
+    """``#1d2730`` as three numbers."""
+    return " ".join(f"{int(colour[k : k + 2], 16) / 255.0:.3f}" for k in (1, 3, 5))
 
 
 def write(
@@ -144,18 +113,12 @@ def write(
 ) -> None:
     """One line of text; ``at`` is on its base line. The font has one weight: bold letters get a thin outline."""
     shown = printable(text)
-    x = at[0] - {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor] * width_of(shown, size)
-    paint = reportlab("lib.colors").HexColor(colour)
-    line = canvas.beginText(x, at[1])
-    line.setFont(prepare_font(), size)
-    line.setFillColor(paint)
-    line.setTextRenderMode(2 if bold else 0)
-    if bold:
-        line.setStrokeColor(paint)
-        canvas.setLineWidth(size * _BOLD_STROKE)
-    line.textOut(shown)
-    line.setTextRenderMode(0)
-    canvas.drawText(line)
+    letters = Letters(canvas, colour=colour, bold=bold)
+    letters.put(at[0] - _AHEAD[anchor] * width_of(shown, size), at[1], shown, size)
+    letters.done()
+
+
+_AHEAD = {"start": 0.0, "middle": 0.5, "end": 1.0}  # of its width, what stands before the anchor of a text
 
 
 def write_lines(
@@ -175,7 +138,7 @@ def write_lines(
     """
     lines = lines_of(text, size, width)
     if most is not None and len(lines) > most:
-        lines = [*lines[: most - 1], f"{lines[most - 1].rstrip()[:-1]}…"]
+        lines = (*lines[: most - 1], f"{lines[most - 1].rstrip()[:-1]}…")
     y = at[1]
     for line in lines:
         write(canvas, (at[0], y), line, size, colour=colour, bold=bold)
@@ -183,11 +146,22 @@ def write_lines(
     return y
 
 
+def area(canvas: Any, at: tuple[float, float], width: float, height: float, colour: str) -> None:
+    """A filled rectangle, its lower left corner at a place."""
+    canvas.addLiteral(f"{_paint(colour)} rg {at[0]:.2f} {at[1]:.2f} {width:.2f} {height:.2f} re f")
+
+
+def rule(canvas: Any, start: tuple[float, float], end: tuple[float, float], width: float, colour: str = INK) -> None:
+    """A straight line."""
+    ends = f"{start[0]:.2f} {start[1]:.2f} m {end[0]:.2f} {end[1]:.2f} l S"
+    canvas.addLiteral(f"[] 0 d {_paint(colour)} RG {width:.2f} w {ends}")
+
+
 def draw_sketch(canvas: Any, sketch: Sketch, at: tuple[float, float], width: float) -> None:
     """Draw a sketch with its lower left corner at a place, ``width`` pt wide."""
+    scale = width / sketch.width
     canvas.saveState()
-    canvas.translate(*at)
-    canvas.scale(width / sketch.width, width / sketch.width)
+    canvas.addLiteral(f"{scale:.5f} 0 0 {scale:.5f} {at[0]:.2f} {at[1]:.2f} cm")
     for shape in sketch.shapes:
         _draw(canvas, shape)
     canvas.restoreState()
@@ -203,32 +177,39 @@ def _draw(canvas: Any, shape: Shape) -> None:
         at = (shape.at[0], shape.at[1] - 0.36 * shape.size)
         write(canvas, at, shape.text, shape.size, colour=style.fill or "#000000", bold=shape.bold, anchor=shape.anchor)
         return
-    colors = reportlab("lib.colors")
-    canvas.setLineWidth(style.width)
-    canvas.setDash(list(style.dash) if style.dash else [])
-    if style.stroke:
-        canvas.setStrokeColor(colors.HexColor(style.stroke))
-    if style.fill:
-        canvas.setFillColor(colors.HexColor(style.fill))
+    dash = " ".join(f"{length:g}" for length in style.dash or ())
+    look = f"{style.width:g} w [{dash}] 0 d"
+    look += f" {_paint(style.stroke)} RG" if style.stroke else ""
+    look += f" {_paint(style.fill)} rg" if style.fill else ""
     if isinstance(shape, Circle):
-        canvas.circle(
-            *shape.centre, shape.radius, stroke=int(style.stroke is not None), fill=int(style.fill is not None)
-        )
-    else:
-        _draw_line(canvas, shape, filled=style.fill is not None)
+        canvas.addLiteral(f"{look} {_round(shape)} {_painted(stroked=bool(style.stroke), filled=bool(style.fill))}")
+        return
+    filled = style.fill is not None
+    way = f"{_way(shape.points, closed=shape.closed)} {_painted(stroked=True, filled=filled and shape.closed)}"
+    if shape.head > 0.0:
+        way += f" {_way(arrowhead(shape), closed=True)} {_painted(stroked=True, filled=filled)}"
+    canvas.addLiteral(f"{look} {way}")
 
 
-def _draw_line(canvas: Any, line: Polyline, *, filled: bool) -> None:
-    _path(canvas, line.points, closed=line.closed, filled=filled and line.closed)
-    if line.head > 0.0:
-        _path(canvas, arrowhead(line), closed=True, filled=filled)
+def _painted(*, stroked: bool, filled: bool) -> str:
+    """The operator that ends a path."""
+    return ("B" if stroked else "f") if filled else ("S" if stroked else "n")
 
 
-def _path(canvas: Any, points: Sequence[tuple[float, float]], *, closed: bool, filled: bool) -> None:
-    path = canvas.beginPath()
-    path.moveTo(*points[0])
-    for point in points[1:]:
-        path.lineTo(*point)
-    if closed:
-        path.close()
-    canvas.drawPath(path, stroke=1, fill=int(filled))
+def _way(points: Sequence[tuple[float, float]], *, closed: bool) -> str:
+    first, *rest = (f"{x:.2f} {y:.2f}" for x, y in points)
+    return " ".join([f"{first} m", *(f"{point} l" for point in rest), *(["h"] if closed else [])])
+
+
+def _round(circle: Circle) -> str:
+    """Four curves; the last leads back to where the first began."""
+    (x, y), r = circle.centre, circle.radius
+    handle = r * _QUARTER
+    corners = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0), (1.0, 0.0))
+    ways = [f"{x + r:.2f} {y:.2f} m"]
+    for (ax, ay), (bx, by) in pairwise(corners):
+        first = (x + r * ax + handle * bx, y + r * ay + handle * by)
+        second = (x + r * bx + handle * ax, y + r * by + handle * ay)
+        ends = (*first, *second, x + r * bx, y + r * by)
+        ways.append(" ".join(f"{value:.2f}" for value in ends) + " c")
+    return " ".join([*ways, "h"])

@@ -1,24 +1,75 @@
-"""Paragraphs and drawings as reportlab's flowables, in the one font that the reports have."""
+"""Paragraphs, drawings and bands of report.pdf, in the one font that the reports have."""
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from aadm_workbench.report.drawing.sketch import Sketch
-from aadm_workbench.report.pages.pdf_canvas import draw_sketch, lines_of, reportlab, shortened, write
-from aadm_workbench.report.words.labels import COLOUR, INK
+from aadm_workbench.report.pages.pdf_canvas import Letters, area, draw_sketch, rule
+from aadm_workbench.report.pages.pdf_flow import Block
+from aadm_workbench.report.pages.pdf_text import lines_of, shortened
+from aadm_workbench.report.words.labels import COLOUR, FAINT, INK
 
 _LONGEST_PARAGRAPH, _LONGEST_KEPT, _LONGEST_BAND = (4000, 100), (600, 10), (250, 3)
 """Characters and lines: what fills a page or two, what may be held together with what follows, what a band holds."""
+_LEADING = 1.35  # of the size
+_FEWEST_LINES = 2  # of a paragraph that is cut, on either page
 
 
-def _flowable() -> Any:
-    return reportlab("platypus").Flowable
+@dataclass(frozen=True)
+class Paragraph:
+    """Lines of a text; with a bookmark they are found, with an outline level they stand in the table of contents."""
+
+    lines: tuple[str, ...]
+    size: float
+    colour: str
+    bold: bool
+    indent: float
+    after: float
+    outline: int | None
+    bookmark: str
+    link: str
+    keep: bool
+    title: str
+
+    @property
+    def height(self) -> float:
+        """Of its lines, and the room behind them, pt."""
+        return len(self.lines) * self.size * _LEADING + self.after
+
+    def split(self, room: float) -> tuple[Block, Block] | None:
+        """Between two lines."""
+        fit = min(int(room / (self.size * _LEADING)), len(self.lines) - _FEWEST_LINES)
+        if fit < _FEWEST_LINES or self.keep:
+            return None
+        rest = replace(self, lines=self.lines[fit:], outline=None, bookmark="")
+        return replace(self, lines=self.lines[:fit], after=0.0), rest
+
+    def shrunk(self, height: float) -> Block:
+        """As many lines as fit."""
+        return replace(self, lines=self.lines[: max(1, int(height / (self.size * _LEADING)))], after=0.0)
+
+    def draw(self, canvas: Any, x: float, top: float) -> None:
+        """Its lines, its bookmark, its link."""
+        letters = Letters(canvas, colour=self.colour, bold=self.bold)
+        y = top - self.size * (_LEADING - 0.25)
+        for line in self.lines:
+            letters.put(x + self.indent, y, line, self.size)
+            y -= self.size * _LEADING
+        letters.done()
+        if self.bookmark:
+            canvas.bookmarkHorizontal(self.bookmark, 0, top + self.size)
+        if self.outline is not None:
+            canvas.addOutlineEntry(self.title, self.bookmark, level=self.outline, closed=self.outline == 0)
+        if self.link:
+            canvas.linkRect("", self.link, (x, top - self.height, x + 300.0, top), thickness=0)
 
 
 def paragraph(
     text: str,
+    width: float,
     size: float = 9.0,
     *,
     colour: str = INK,
@@ -29,87 +80,142 @@ def paragraph(
     bookmark: str = "",
     link: str = "",
     keep: bool = False,
-) -> Any:
-    """A text broken to the width of the page; ``outline`` is its level in the table of contents.
+) -> Paragraph:
+    """A text broken to a width; ``outline`` is its level in the table of contents.
 
     ``keep`` holds it together with what follows, as headings are.
     """
-    text = shortened(text, *(_LONGEST_KEPT if keep or outline is not None else _LONGEST_PARAGRAPH))
-
-    class Paragraph(_flowable()):  # type: ignore[misc]  # reportlab brings no types
-        def wrap(self, width: float, height: float) -> tuple[float, float]:
-            self.lines = lines_of(text, size, width - indent)
-            return width, len(self.lines) * size * 1.35 + after
-
-        def split(self, width: float, height: float) -> list[Any]:
-            self.wrap(width, height)
-            fit = int((height - after) / (size * 1.35))
-            if fit < 1 or fit >= len(self.lines):
-                return []
-            part = partial(paragraph, size=size, colour=colour, bold=bold, indent=indent)
-            first = part("\n".join(self.lines[:fit]), after=0.0, outline=outline, bookmark=bookmark)
-            return [first, part("\n".join(self.lines[fit:]), after=after)]
-
-        def draw(self) -> None:
-            y = (len(self.lines) - 1) * size * 1.35 + after + 0.25 * size
-            for line in self.lines:
-                write(self.canv, (indent, y), line, size, colour=colour, bold=bold)
-                y -= size * 1.35
-            if bookmark:
-                self.canv.bookmarkHorizontal(bookmark, 0, y + 4.0 * size)
-            if outline is not None:
-                self.canv.addOutlineEntry(text, bookmark, level=outline, closed=outline == 0)
-            if link:
-                top = len(self.lines) * size * 1.35 + after
-                self.canv.linkRect("", link, (0, 0, 300, top), relative=1, thickness=0)
-
-    flowable = Paragraph()
-    flowable.keepWithNext = 1 if keep or outline is not None else 0
-    return flowable
+    keep = keep or outline is not None
+    text = shortened(text, *(_LONGEST_KEPT if keep else _LONGEST_PARAGRAPH))
+    lines = lines_of(text, size, width - indent)
+    return Paragraph(lines, size, colour, bold, indent, after, outline, bookmark, link, keep, text)
 
 
-def drawing(sketch: Sketch, width: float) -> Any:
-    """A sketch as a block of its own."""
+@dataclass(frozen=True)
+class Drawing:
+    """A sketch of a width, pt; it is never cut."""
 
-    class Drawing(_flowable()):  # type: ignore[misc]
-        def wrap(self, *_: float) -> tuple[float, float]:
-            return width, width * sketch.height / sketch.width + 4.0
+    sketch: Sketch
+    width: float
+    keep: bool = False
 
-        def draw(self) -> None:
-            draw_sketch(self.canv, sketch, (0.0, 4.0), width)
+    @property
+    def height(self) -> float:
+        """By its proportions."""
+        return self.width * self.sketch.height / self.sketch.width + 4.0
 
-    return Drawing()
+    def split(self, room: float) -> tuple[Block, Block] | None:
+        """Never."""
+        return None
+
+    def shrunk(self, height: float) -> Block:
+        """The whole sketch, smaller."""
+        return replace(self, width=min(self.width, (height - 4.0) * self.sketch.width / self.sketch.height))
+
+    def draw(self, canvas: Any, x: float, top: float) -> None:
+        """The sketch."""
+        draw_sketch(canvas, self.sketch, (x, top - self.height + 4.0), self.width)
 
 
-def band(text: str, verdict: str, width: float) -> Any:
+@dataclass(frozen=True)
+class Band:
     """A heading across the page on the colour of a verdict."""
-    text = shortened(text, *_LONGEST_BAND)
 
-    class Band(_flowable()):  # type: ignore[misc]
-        def wrap(self, *_: float) -> tuple[float, float]:
-            self.lines = lines_of(text, 13.0, width - 16.0)
-            return width, 17.0 * len(self.lines) + 13.0
+    lines: tuple[str, ...]
+    verdict: str
+    width: float
+    keep: bool = True
 
-        def draw(self) -> None:
-            height = 17.0 * len(self.lines) + 7.0
-            self.canv.setFillColor(reportlab("lib.colors").HexColor(COLOUR[verdict]))
-            self.canv.rect(0, 4.0, width, height, stroke=0, fill=1)
-            for k, line in enumerate(self.lines):
-                write(self.canv, (8.0, height - 8.0 - 17.0 * k - 3.0), line, 13.0, colour="#ffffff", bold=True)
+    @property
+    def height(self) -> float:
+        """Of its lines, with a margin."""
+        return 17.0 * len(self.lines) + 13.0
 
-    flowable = Band()
-    flowable.keepWithNext = 1
-    return flowable
+    def split(self, room: float) -> tuple[Block, Block] | None:
+        """Never."""
+        return None
+
+    def shrunk(self, height: float) -> Block:
+        """It has three lines at most."""
+        return self
+
+    def draw(self, canvas: Any, x: float, top: float) -> None:
+        """White letters on the colour."""
+        height = 17.0 * len(self.lines) + 7.0
+        area(canvas, (x, top - height), self.width, height, COLOUR[self.verdict])
+        letters = Letters(canvas, colour="#ffffff", bold=True)
+        for number, line in enumerate(self.lines):
+            letters.put(x + 8.0, top - 17.0 * number - 15.0, line, 13.0)
+        letters.done()
 
 
-def beside(parts: list[Any], width: float) -> Any:
-    """Flowables beside each other, all equally wide."""
-    platypus: Any = reportlab("platypus")
-    table = platypus.Table([parts], colWidths=[width / len(parts)] * len(parts), hAlign="LEFT")
-    table.setStyle(
-        platypus.TableStyle(
-            [("VALIGN", (0, 0), (-1, -1), "TOP")]
-            + [(f"{side}PADDING", (0, 0), (-1, -1), 1.0) for side in ("LEFT", "RIGHT", "TOP", "BOTTOM")]
-        )
+def band(text: str, verdict: str, width: float) -> Band:
+    """A heading across the page; a text that is too long ends in an ellipsis."""
+    return Band(
+        tuple(lines_of(shortened(text, *_LONGEST_BAND), 13.0, width - 16.0)[: _LONGEST_BAND[1]]), verdict, width
     )
-    return table
+
+
+@dataclass(frozen=True)
+class Beside:
+    """Stacks of blocks beside each other, each of a width, pt; they are never cut."""
+
+    stacks: tuple[tuple[Block, ...], ...]
+    each: float
+    keep: bool = False
+
+    @property
+    def height(self) -> float:
+        """Of the highest stack."""
+        return max((sum(block.height for block in stack) for stack in self.stacks), default=0.0) + 2.0
+
+    def split(self, room: float) -> tuple[Block, Block] | None:
+        """Never."""
+        return None
+
+    def shrunk(self, height: float) -> Block:
+        """Each of its blocks, by the same share."""
+        share = height / self.height
+        stacks = tuple(tuple(block.shrunk(block.height * share) for block in stack) for stack in self.stacks)
+        return replace(self, stacks=stacks)
+
+    def draw(self, canvas: Any, x: float, top: float) -> None:
+        """Stack by stack."""
+        for number, stack in enumerate(self.stacks):
+            below = top
+            for block in stack:
+                block.draw(canvas, x + number * self.each, below)
+                below -= block.height
+
+
+@dataclass(frozen=True)
+class Fields:
+    """Lines to write on, a name under each: who has looked at a report, and when."""
+
+    names: tuple[str, ...]
+    width: float
+    keep: bool = False
+    height: float = 46.0
+
+    def split(self, room: float) -> tuple[Block, Block] | None:
+        """Never."""
+        return None
+
+    def shrunk(self, height: float) -> Block:
+        """It is low."""
+        return self
+
+    def draw(self, canvas: Any, x: float, top: float) -> None:
+        """A line for each."""
+        each = self.width / len(self.names)
+        letters = Letters(canvas, colour=FAINT)
+        for number, name in enumerate(self.names):
+            left = x + number * each
+            rule(canvas, (left, top - 28.0), (left + each - 14.0, top - 28.0), 0.7)
+            letters.put(left, top - 37.0, name, 7.5)
+        letters.done()
+
+
+def fields(names: Sequence[str], width: float) -> Fields:
+    """Lines to sign on."""
+    return Fields(tuple(names), width)

@@ -2,36 +2,181 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import lru_cache
-from typing import Any
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
 
-from aadm_workbench.report.pages.pdf_canvas import lines_of, prepare_font, printable, reportlab, shortened, width_of
+from aadm_workbench.report.pages.pdf_canvas import Letters, area, rule
+from aadm_workbench.report.pages.pdf_flow import Block
+from aadm_workbench.report.pages.pdf_text import lines_of, printable, shortened, width_of
 from aadm_workbench.report.sheets.numbers import is_number, number_text
 from aadm_workbench.report.sheets.tables import Cell, Heading, Row
-from aadm_workbench.report.words.labels import COLOUR, HEAD, Language, phrase, verdict_words
+from aadm_workbench.report.words.labels import COLOUR, HEAD, INK, Language, phrase, rule_words, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
 SIZE = 7.0
 """Of the letters, points: the smallest that is read on paper."""
+_LEADING = 1.25 * SIZE  # points: lines of a cell do not touch
 _PADDING = 2.6  # points: between text and line
+_ABOVE, _BELOW = 1.4, 1.8  # points: between a text and the lines of its row
 _NARROWEST = 30.0  # points: a column of a word of five letters
 _LONGEST_CELL = (500, 20)
 """Characters and lines: in the narrowest column they fill less than a page."""
+_FEWEST_ROWS = 3  # of a table that is cut, on either page
 
-_STRIPE, _LINE, _FAIL_FILL = "#f6f8f9", "#d5dbe0", "#fbe3d7"
+_STRIPE, _LINE, _FAIL_FILL, _UNVERIFIED = "#f6f8f9", "#d5dbe0", "#fbe3d7", "#8a4b00"
 
 
-def table_flowable(headings: Sequence[Heading], rows: Sequence[Row], width: float, language: Language) -> Any:
-    """A reportlab table, at most ``width`` pt wide."""
+@dataclass(frozen=True)
+class TableCell:
+    """Lines of a cell, with their colour, and with one under them where it is to be seen."""
+
+    lines: tuple[str, ...]
+    colour: str = INK
+    fill: str = ""
+
+
+@dataclass(frozen=True)
+class TableRow:
+    """Cells beside each other, and the lines of the highest."""
+
+    cells: tuple[TableCell, ...]
+    lines: int
+
+    @property
+    def height(self) -> float:
+        """With the room above and below its texts, pt."""
+        return self.lines * _LEADING + _ABOVE + _BELOW
+
+
+_Text: TypeAlias = tuple[float, float, str]
+"""Where a text stands, and the text."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows under a heading that every page repeats; ``first`` is the number of the first row, for the stripes."""
+
+    head: TableRow
+    rows: tuple[TableRow, ...]
+    widths: tuple[float, ...]
+    flush_right: tuple[bool, ...]
+    first: int = 0
+    keep: bool = False
+
+    @property
+    def height(self) -> float:
+        """Of heading and rows, pt."""
+        return self.head.height + sum(row.height for row in self.rows)
+
+    def split(self, room: float) -> tuple[Block, Block] | None:
+        """Between two rows."""
+        fit, used = 0, self.head.height
+        for row in self.rows:
+            used += row.height
+            if used > room:
+                break
+            fit += 1
+        fit = min(fit, len(self.rows) - _FEWEST_ROWS)
+        if fit < _FEWEST_ROWS:
+            return None
+        return replace(self, rows=self.rows[:fit]), replace(self, rows=self.rows[fit:], first=self.first + fit)
+
+    def shrunk(self, height: float) -> Block:
+        """As many rows as fit: where the first one fills a page, its cells lose lines."""
+        fit, used = 0, self.head.height
+        for row in self.rows:
+            used += row.height
+            fit += used <= height
+        return replace(self, rows=self.rows[: max(1, fit)])
+
+    def draw(self, canvas: Any, x: float, top: float) -> None:
+        """Fills and lines first, then texts, those of a colour together."""
+        width = sum(self.widths)
+        y = top - self.head.height
+        area(canvas, (x, y), width, top - y, HEAD)
+        texts: dict[str, list[_Text]] = {}
+        self._texts(texts, self.head, x, top, lift=True)
+        for number, row in enumerate(self.rows, start=self.first):
+            below = y - row.height
+            if number % 2:
+                area(canvas, (x, below), width, y - below, _STRIPE)
+            self._fills(canvas, row, x, below, y - below)
+            rule(canvas, (x, below), (x + width, below), 0.3, _LINE)
+            self._texts(texts, row, x, y)
+            y = below
+        for colour, written in texts.items():
+            letters = Letters(canvas, colour=colour)
+            for left, base, text in written:
+                letters.put(left, base, text, SIZE)
+            letters.done()
+
+    def _fills(self, canvas: Any, row: TableRow, x: float, below: float, height: float) -> None:
+        for cell, width in zip(row.cells, self.widths, strict=True):
+            if cell.fill:
+                area(canvas, (x, below), width, height, cell.fill)
+            x += width
+
+    def _texts(
+        self,
+        texts: dict[str, list[tuple[float, float, str]]],
+        row: TableRow,
+        x: float,
+        top: float,
+        *,
+        lift: bool = False,
+    ) -> None:
+        """Where each line of a row stands; headings stand on the foot of their row."""
+        for cell, width, right in zip(row.cells, self.widths, self.flush_right, strict=True):
+            down = (row.lines - len(cell.lines)) * _LEADING if lift else 0.0
+            y = top - _ABOVE - SIZE - down
+            for line in cell.lines:
+                left = x + width - _PADDING - width_of(line, SIZE) if right else x + _PADDING
+                texts.setdefault(cell.colour, []).append((left, y, line))
+                y -= _LEADING
+            x += width
+
+
+def table(headings: Sequence[Heading], rows: Sequence[Row], width: float, language: Language) -> Table:
+    """A table of a report, at most ``width`` pt wide."""
     names = [heading.in_full().in_language(language) for heading in headings]
     texts = [[_text(cell, heading, language) for cell, heading in zip(row, headings, strict=True)] for row in rows]
     widths = _widths(names, texts, headings, width)
-    wide = [_wrapped(names, widths), *(_wrapped(row, widths) for row in texts)]
-    platypus: Any = reportlab("platypus")
-    table = platypus.Table(wide, colWidths=widths, repeatRows=1, hAlign="LEFT")
-    table.setStyle(platypus.TableStyle([*_look(headings), *_verdict_colours(headings, rows)]))
-    return table
+    flush_right = tuple(is_number(heading.kind) for heading in headings)
+    head = _row(TableCell(_wrapped(name, room), "#ffffff") for name, room in zip(names, widths, strict=True))
+    body = tuple(
+        _row(
+            TableCell(_wrapped(text, room), *_look(cell, heading))
+            for text, room, cell, heading in zip(said, widths, row, headings, strict=True)
+        )
+        for said, row in zip(texts, rows, strict=True)
+    )
+    return Table(head, body, tuple(widths), flush_right)
+
+
+def _row(cells: Iterable[TableCell]) -> TableRow:
+    kept = tuple(cells)
+    return TableRow(kept, max(len(cell.lines) for cell in kept))
+
+
+def _look(cell: Cell, heading: Heading) -> tuple[str, str]:
+    """Colour of a cell's letters, and what lies under them."""
+    if isinstance(cell, str) and cell:
+        if heading.kind == "verdict":
+            return COLOUR[cell], _FAIL_FILL if cell == "fail" else ""
+        if cell.endswith("unverified"):
+            return _UNVERIFIED, ""
+    return INK, ""
+
+
+def _wrapped(text: str, room: float) -> tuple[str, ...]:
+    if _width(text) <= room - 2.0 * _PADDING:
+        return (printable(text),)
+    return lines_of(text, SIZE, round(room - 2.0 * _PADDING, 1))
+
+
+def _width(text: str) -> float:
+    return width_of(printable(text), SIZE)
 
 
 def _text(cell: Cell, heading: Heading, language: Language) -> str:
@@ -41,14 +186,11 @@ def _text(cell: Cell, heading: Heading, language: Language) -> str:
         return number_text(cell, heading.kind)
     if heading.kind == "verdict":
         return verdict_words(str(cell), language)
+    if heading.kind == "rule":
+        return rule_words(str(cell)).in_language(language)
     if heading.kind == "source" or cell in ("sleeves", "rebars", "hoisting"):
         return phrase(f"ui.{cell}").in_language(language)
     return shortened(in_both_languages(str(cell)).in_language(language), *_LONGEST_CELL)
-
-
-@lru_cache(maxsize=20_000)
-def _width(text: str) -> float:
-    return width_of(printable(text), SIZE)
 
 
 def _widths(names: list[str], texts: list[list[str]], headings: Sequence[Heading], width: float) -> list[float]:
@@ -68,47 +210,3 @@ def _widths(names: list[str], texts: list[list[str]], headings: Sequence[Heading
         wanted = [w - min(s, excess * g / total) for w, s, g in zip(wanted, soft, weight, strict=True)]
     factor = min(1.0, width / sum(wanted))
     return [w * factor for w in wanted]
-
-
-def _wrapped(texts: Sequence[str], widths: Sequence[float]) -> list[str]:
-    return [
-        printable(text)
-        if _width(text) <= room - 2.0 * _PADDING
-        else "\n".join(lines_of(text, SIZE, room - 2.0 * _PADDING))
-        for text, room in zip(texts, widths, strict=True)
-    ]
-
-
-def _look(headings: Sequence[Heading]) -> list[tuple[Any, ...]]:
-    colour = reportlab("lib.colors").HexColor
-    font = prepare_font()
-    look: list[tuple[Any, ...]] = [
-        ("FONT", (0, 0), (-1, -1), font, SIZE, SIZE * 1.25),
-        ("BACKGROUND", (0, 0), (-1, 0), colour(HEAD)),
-        ("TEXTCOLOR", (0, 0), (-1, 0), colour("#ffffff")),
-        ("VALIGN", (0, 0), (-1, 0), "BOTTOM"),
-        ("VALIGN", (0, 1), (-1, -1), "TOP"),
-        ("LINEBELOW", (0, 1), (-1, -1), 0.3, colour(_LINE)),
-        ("ROWBACKGROUNDS", (0, 1), (-1, -1), [colour("#ffffff"), colour(_STRIPE)]),
-        ("LEFTPADDING", (0, 0), (-1, -1), _PADDING),
-        ("RIGHTPADDING", (0, 0), (-1, -1), _PADDING),
-        ("TOPPADDING", (0, 0), (-1, -1), 1.4),
-        ("BOTTOMPADDING", (0, 0), (-1, -1), 1.8),
-    ]
-    look += [("ALIGN", (k, 0), (k, -1), "RIGHT") for k, heading in enumerate(headings) if is_number(heading.kind)]
-    return look
-
-
-def _verdict_colours(headings: Sequence[Heading], rows: Sequence[Row]) -> list[tuple[Any, ...]]:
-    colour = reportlab("lib.colors").HexColor
-    found: list[tuple[Any, ...]] = []
-    for k, heading in enumerate(headings):
-        for number, row in enumerate(rows, start=1):
-            cell = row[k]
-            if heading.kind == "verdict" and isinstance(cell, str) and cell:
-                found.append(("TEXTCOLOR", (k, number), (k, number), colour(COLOUR[cell])))
-                if cell == "fail":
-                    found.append(("BACKGROUND", (k, number), (k, number), colour(_FAIL_FILL)))
-            if isinstance(cell, str) and cell.endswith("unverified"):
-                found.append(("TEXTCOLOR", (k, number), (k, number), colour("#8a4b00")))
-    return found

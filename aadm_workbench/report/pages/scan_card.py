@@ -17,6 +17,7 @@ from aadm_workbench.model import (
     Camera,
     ColumnDesign,
     ColumnReport,
+    GridAxis,
     GroupReport,
     JobReport,
     Kind,
@@ -24,7 +25,7 @@ from aadm_workbench.model import (
     Verdict,
 )
 from aadm_workbench.report.column_view import typical_diameter_mm
-from aadm_workbench.report.directions import Compass, compass_of, side_labels
+from aadm_workbench.report.directions import Compass, Grid, compass_of, grid_of, side_labels
 from aadm_workbench.report.drawing.sketch import Point
 from aadm_workbench.report.hoist import worst_first
 from aadm_workbench.report.words.labels import Phrase, phrase
@@ -85,16 +86,21 @@ class CardDesign:
     rebars_up_deg: float | None = None
 
 
-def design_cards(columns: Sequence[CardDesign], camera: Camera | None = None) -> list[ScanCard]:
+def design_cards(
+    columns: Sequence[CardDesign], camera: Camera | None = None, axes: Sequence[GridAxis] = ()
+) -> list[ScanCard]:
     """The cards of columns that were never scanned, in their order.
 
     Parameters
     ----------
     camera
         Says how much is seen from how far; without it a camera of 2.3 Mpx and 28° is supposed.
+    axes
+        Of the model's grid.
     """
     view = _VIEW_HEIGHT_PER_DISTANCE if camera is None else min(camera.height / camera.fy, camera.width / camera.fx)
     likenesses = [_likeness(column) for column in columns]
+    grid = Grid.of(likenesses, axes)
     cards = []
     for column, likeness in zip(columns, likenesses, strict=True):
         parts = []
@@ -103,7 +109,7 @@ def design_cards(columns: Sequence[CardDesign], camera: Camera | None = None) ->
             if points:
                 distance_m = distance_to_fill_m(column.design.size_mm, points, view)
                 parts.append(CardPart(kind, points, DEFAULT_UP_DEG if up_deg is None else up_deg, distance_m))
-        compass = compass_of(likenesses, likeness)
+        compass = compass_of(grid, likeness)
         cards.append(ScanCard(column.id, _place(likeness), column.design.size_mm, tuple(parts), compass))
     return cards
 
@@ -141,7 +147,7 @@ def _place(column: ColumnReport) -> str:
 
 def _card(report: JobReport, column: ColumnReport) -> ScanCard:
     parts = [_part(column, kind, group) for kind, group in column.groups.items() if group.points]
-    return ScanCard(column.id, _place(column), column.size_mm, tuple(parts), compass_of(report.columns, column))
+    return ScanCard(column.id, _place(column), column.size_mm, tuple(parts), compass_of(grid_of(report), column))
 
 
 def _part(column: ColumnReport, kind: Kind, group: GroupReport) -> CardPart:
@@ -221,7 +227,7 @@ def first_bar_corner(card: ScanCard, part: CardPart) -> Phrase | None:
         return None
     reach = max(abs(value) for point in part.points for value in point.design_mm)
     ways = [way for length, way in card.compass.parts(place) if length > reach / 3.0]
-    return Phrase(", ".join(way.en for way in ways), ",".join(way.zh for way in ways)) if ways else None
+    return Phrase(", ".join(way.en for way in ways), "，".join(way.zh for way in ways)) if ways else None
 
 
 def up_name(up_deg: float) -> Phrase:

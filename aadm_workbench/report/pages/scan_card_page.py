@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from aadm_workbench.model import Kind
+from aadm_workbench.report.drawing.layout import Layout
 from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow, rectangle
-from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, lines_of, pages, write, write_lines
+from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, pages, write, write_lines
+from aadm_workbench.report.pages.pdf_text import lines_of
 from aadm_workbench.report.pages.scan_card import (
     CardPart,
     ScanCard,
@@ -24,6 +27,8 @@ _LEFT, _RIGHT = 15.0 * MM, 195.0 * MM  # margins of 15 mm on A4: printers reach 
 _WIDTH = _RIGHT - _LEFT
 _SIDE = 200.0  # of the drawing, in its own units
 _MARGIN = 22.0  # about the pattern: its labels
+_MARK = 7.0  # beyond the edge of S1 or R1: its ring
+_SHARES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)  # of the sizes, where texts are long
 _PART_HEIGHT = 111.0 * MM  # half of what head and foot leave of A4
 
 
@@ -55,23 +60,29 @@ def picture_sketch(card: ScanCard, part: CardPart) -> Sketch:
         corners = [in_picture(part.part, part.up_deg, c) for c in ((-x, -y), (x, -y), (x, y), (-x, y))]
         shapes.append(Polyline(tuple(_place(corner, scale) for corner in corners), "outline", closed=True))
     first = "S1" if part.part is Kind.SLEEVE else "R1"
-    for point in part.points:
-        at = _place(seen[point.label], scale)
-        radius = max(4.0, point.diameter_mm / 2.0 * scale)
-        marked = point.label == first
-        if marked:
-            shapes.append(Circle(at, radius + 7.0, "ring-mark"))
-        shapes.append(Circle(at, radius, "ink" if part.part is Kind.SLEEVE else "bar"))
+    top = Label((_SIDE / 2.0 + 5.0, _SIDE - 8.0), "TOP 上", 9.0, "text-move", "start", bold=True)
+    shapes += [arrow((_SIDE / 2.0, _SIDE - 14.0), (_SIDE / 2.0, _SIDE - 1.0), "move", 8.0), top]
+    layout = Layout(_SIDE, _SIDE)
+    layout.keep_label(top)
+    places = {label: _place(mm, scale) for label, mm in seen.items()}
+    radii = {point.label: min(max(4.0, point.diameter_mm / 2.0 * scale), _widest(places)) for point in part.points}
+    for label, at in places.items():
+        shapes += [Circle(at, radii[label] + _MARK, "ring-mark")] * (label == first)
+        shapes.append(Circle(at, radii[label], "ink" if part.part is Kind.SLEEVE else "bar"))
+        layout.keep_circle(at, radii[label] + (_MARK if label == first else 0.0))
+    for label, at in sorted(places.items(), key=lambda item: item[0] != first):
         inwards = (_middle()[0] - at[0], _middle()[1] - at[1])
-        length = (inwards[0] ** 2 + inwards[1] ** 2) ** 0.5 or 1.0
-        apart = radius + (15.0 if marked else 9.0)
-        place = (at[0] + inwards[0] / length * apart, at[1] + inwards[1] / length * apart)
-        shapes.append(Label(place, point.label, 13.0 if marked else 8.5, bold=marked))
-    shapes += [
-        arrow((_SIDE / 2.0, _SIDE - 14.0), (_SIDE / 2.0, _SIDE - 1.0), "move", 8.0),
-        Label((_SIDE / 2.0 + 5.0, _SIDE - 8.0), "TOP 上", 9.0, "text-move", "start", bold=True),
-    ]
+        marked = label == first
+        radius = radii[label] + (_MARK if marked else 0.0)
+        shapes += layout.beside(at, label, 13.0 if marked else 8.5, radius, inwards, bold=marked)
     return Sketch(_SIDE, _SIDE, tuple(shapes))
+
+
+def _widest(places: Mapping[str, Point]) -> float:
+    """Radius at which no two points touch, and a name still fits between them."""
+    known = list(places.values())
+    apart = [math.dist(place, other) for k, place in enumerate(known) for other in known[k + 1 :]]
+    return 0.32 * min((one for one in apart if one > 1.0), default=_SIDE)
 
 
 def _middle() -> Point:
@@ -114,40 +125,36 @@ class _Page:
         write_lines(canvas, (_LEFT, 9.0 * MM), title, 8.0, _WIDTH, colour=FAINT, most=1)
 
     def _part(self, card: ScanCard, part: CardPart, top: float) -> None:
-        """One picture to take, and beside it what to heed."""
+        """One picture to take, and beside it what to heed: in letters so small that all of it ends above the tick."""
         side = 96.0 * MM
         draw_sketch(self.canvas, picture_sketch(card, part), (_LEFT, top - side), side)
         x, wide = _LEFT + side + 6.0 * MM, _WIDTH - side - 6.0 * MM
+        texts, low = list(_to_heed(card, part)), top - side + 9.0 * MM
+        room = top - 6.0 * MM - (low + 6.0 * MM)
+        share = next((share for share in _SHARES if self._height(texts, share, wide) <= room), _SHARES[-1])
+        y = top - 6.0 * MM
+        for text, size, bold in texts:
+            if y - 2.0 * size < low:
+                break
+            y = self._line((x, y), text, size * share, wide, bold=bold)
         is_foot = part.part is Kind.SLEEVE
-        y = self._line((x, top - 6.0 * MM), phrase("card.foot" if is_foot else "card.bars"), 16.0, wide, bold=True)
-        y = self._line((x, y), phrase("card.foot_seen" if is_foot else "card.bars_seen"), 10.0, wide)
-        y -= 3.0 * MM
-        first = "S1" if is_foot else "R1"
-        if any(point.label == first for point in part.points):
-            place = corner_of(part, first)
-            y = self._line((x, y), _placed(f"card.{first.lower()}_here", place=place), 13.0, wide, bold=True)
-        y = self._line((x, y), _placed("card.up_side", side=top_side(card, part)), 11.0, wide)
-        y = self._line((x, y), _placed("card.in_job", up=_quoted(up_name(part.up_deg))), 9.0, wide)
-        y = self._line((x, y), phrase("card.distance", m=f"{part.distance_m:.2f}"), 11.0, wide)
-        if part.last_distance_m is not None:
-            y = self._line((x, y), phrase("card.distance_last", m=f"{part.last_distance_m:.2f}"), 9.0, wide)
-        corner = first_bar_corner(card, part)
-        if corner is not None:
-            y = self._line((x, y), _placed("card.r1_corner", corner=corner), 10.0, wide)
-        elif is_foot:
-            y = self._line((x, y), phrase("card.s1_is"), 10.0, wide)
-        self._tick(
-            (x, min(y - 4.5 * MM, top - side + 9.0 * MM)),
-            phrase("card.tick_foot" if is_foot else "card.tick_bars"),
-            wide,
-        )
+        self._tick((x, low), phrase("card.tick_foot" if is_foot else "card.tick_bars"), wide)
+
+    def _height(self, texts: Sequence[tuple[Phrase, float, bool]], share: float, width: float) -> float:
+        """What texts take below each other, pt."""
+        used = 0.0
+        for text, size, _ in texts:
+            for said, one in ((text.in_language(self.first), size), (text.in_language(self.second), _second(size))):
+                used += len(lines_of(said, one * share, width)) * one * share * 1.3
+            used += 1.2 * MM
+        return used
 
     def _line(self, at: Point, text: Phrase, size: float, width: float, *, bold: bool = False) -> float:
         """A text in both languages, the second below the first and smaller."""
         y = write_lines(self.canvas, at, text.in_language(self.first), size, width, bold=bold)
         if text.en == text.zh:
             return y - 1.5 * MM
-        smaller = max(7.5, 0.72 * size)
+        smaller = _second(size)
         y += 0.25 * (size - smaller)
         return (
             write_lines(self.canvas, (at[0], y), text.in_language(self.second), smaller, width, colour=FAINT) - 1.2 * MM
@@ -167,6 +174,31 @@ class _Page:
             8.0,
         )
         self.canvas.line(at[0] + 30.0 * MM, at[1] - 6.5 * MM, at[0] + width, at[1] - 6.5 * MM)
+
+
+def _second(size: float) -> float:
+    """Size of the second language."""
+    return max(6.5, 0.72 * size)
+
+
+def _to_heed(card: ScanCard, part: CardPart) -> Iterator[tuple[Phrase, float, bool]]:
+    """Texts beside a picture, each with its size and weight."""
+    is_foot = part.part is Kind.SLEEVE
+    yield phrase("card.foot" if is_foot else "card.bars"), 16.0, True
+    yield phrase("card.foot_seen" if is_foot else "card.bars_seen"), 10.0, False
+    first = "S1" if is_foot else "R1"
+    if any(point.label == first for point in part.points):
+        yield _placed(f"card.{first.lower()}_here", place=corner_of(part, first)), 13.0, True
+    yield _placed("card.up_side", side=top_side(card, part)), 11.0, False
+    yield _placed("card.in_job", up=_quoted(up_name(part.up_deg))), 9.0, False
+    yield phrase("card.distance", m=f"{part.distance_m:.2f}"), 11.0, False
+    if part.last_distance_m is not None:
+        yield phrase("card.distance_last", m=f"{part.last_distance_m:.2f}"), 9.0, False
+    corner = first_bar_corner(card, part)
+    if corner is not None:
+        yield _placed("card.r1_corner", corner=corner), 10.0, False
+    elif is_foot:
+        yield phrase("card.s1_is"), 10.0, False
 
 
 def _placed(name: str, **phrases: Phrase) -> Phrase:

@@ -28,7 +28,7 @@ from aadm_workbench.report.sheets.tables import (
     rule_rows,
     spacing_rows,
 )
-from aadm_workbench.report.words.labels import Phrase, phrase
+from aadm_workbench.report.words.labels import Phrase, all_words, phrase
 
 
 @dataclass(frozen=True)
@@ -125,8 +125,8 @@ def _quality(kind: Kind, group: GroupReport) -> Iterator[Block]:
     headings = []
     for name in figures:
         said = name.removesuffix("_mm").removesuffix("_deg").replace("_", " ")
-        kind_of = "mm_fine" if name.endswith("_mm") else "deg" if name.endswith("_deg") else "text"
-        headings.append(Heading(Phrase(said, said), "mm_fine" if kind_of == "mm_fine" else "text"))
+        known = all_words().get(f"quality.{name}", Phrase(said, said))
+        headings.append(Heading(known, "mm_fine" if name.endswith("_mm") else "text"))
     row = tuple(
         _figure(value) if h.kind == "text" else value for h, value in zip(headings, figures.values(), strict=True)
     )
@@ -152,9 +152,9 @@ def _absolute(report: JobReport, column: ColumnReport) -> Iterator[Block]:
 
 
 def _hoisting(report: JobReport, column: ColumnReport) -> Iterator[Block]:
-    for frame in column.hoisting:
+    for frame in column.hoisting_frames:
         title = phrase("ui.hoisting")
-        said = Phrase(f"{title.en}: {frame.source}", f"{title.zh}：{frame.source}")
+        said = Phrase(f"{title.en}: {frame.name}", f"{title.zh}：{frame.name}")
         yield from _block(said, HOISTING, hoisting_rows(report, frame), _correction(frame), frame.verdict)
 
 

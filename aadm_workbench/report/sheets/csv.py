@@ -136,7 +136,7 @@ def _of_trial(report: JobReport, column: ColumnReport) -> Iterator[Row]:
 
 
 def _of_hoisting(report: JobReport, column: ColumnReport) -> Iterator[Row]:
-    for frame in column.hoisting:
+    for frame in column.hoisting_frames:
         for label, dx, dy, value, u, limit, clause, source, verdict, _, reason in hoisting_rows(report, frame):
             line = (value, u, None, limit, clause, source, verdict, None, reason)
-            yield (f"hoisting {frame.source}", label, dx, dy, *line)
+            yield (f"hoisting {frame.name}", label, dx, dy, *line)

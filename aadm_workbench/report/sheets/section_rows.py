@@ -10,6 +10,7 @@ from aadm_workbench.report.clauses import clause_of
 from aadm_workbench.report.sheets.numbers import number_text
 from aadm_workbench.report.sheets.tables import SPACING, Row, heading
 from aadm_workbench.report.words.labels import Phrase, phrase
+from aadm_workbench.report.words.reasons import in_both_languages, recognised
 
 SECTION = (heading("part"), *SPACING[1:])
 
@@ -76,7 +77,7 @@ def _pattern(report: JobReport, section: SectionReport) -> Iterator[Row]:
 
 
 def section_line(section: SectionReport) -> Phrase | None:
-    """How square the section is, how the pattern is turned in it, and which edges were not measured."""
+    """How square the section is, how the pattern is turned in it, and which edges were not measured, and why."""
     parts = []
     for word, value, u in (
         ("squareness", section.squareness_deg, section.u_squareness_deg),
@@ -85,9 +86,15 @@ def section_line(section: SectionReport) -> Phrase | None:
         if value is not None and u is not None:
             said = f"{number_text(value, 'deg')}° (±{number_text(2.0 * u, 'deg')}°)"
             parts.append(Phrase(f"{phrase(f'ui.{word}').en} {said}", f"{phrase(f'ui.{word}').zh} {said}"))
-    unseen = ", ".join(edge.side for edge in section.edges if edge.measured_mm is None)
+    unseen = [
+        in_both_languages(Reason("assembly.section_edge", side=edge.side, why=recognised(edge.reason)))
+        for edge in section.edges
+        if edge.measured_mm is None
+    ]
     if unseen:
-        parts.append(phrase("ui.edges_unseen", edges=unseen))
+        label = phrase("ui.edges_unseen")
+        told = "; ".join(one.en for one in unseen), "；".join(one.zh for one in unseen)
+        parts.append(Phrase(f"{label.en}: {told[0]}", f"{label.zh}：{told[1]}"))
     if not parts:
         return None
     return Phrase(" · ".join(part.en for part in parts), " · ".join(part.zh for part in parts))

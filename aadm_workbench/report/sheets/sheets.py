@@ -37,6 +37,7 @@ from aadm_workbench.report.sheets.tables import (
     spacing_rows,
 )
 from aadm_workbench.report.words.labels import Language, Phrase, phrase
+from aadm_workbench.report.words.reasons import in_both_languages
 
 _COLUMN = heading("column")
 
@@ -109,7 +110,7 @@ def _column_row(column: ColumnReport, language: Language) -> Row:
         trial.margin,
         trial.probability,
         "; ".join(reason.in_language(language) for reason in hoist.reasons),
-        None if column.repair is None else column.repair.advice,
+        None if column.repair is None else in_both_languages(column.repair.advice).in_language(language),
         column.grid,
         column.storey,
         column.piece_mark,
@@ -125,8 +126,8 @@ def _largest_mm(points: Sequence[PointResult]) -> float | None:
 _REPAIR = (
     heading("step"),
     heading("pair"),
-    heading("offset_x", "mm"),
-    heading("offset_y", "mm"),
+    heading("offset_x", "mm_signed"),
+    heading("offset_y", "mm_signed"),
     heading("note"),
 )
 
@@ -142,14 +143,14 @@ def _repair_rows(column: ColumnReport) -> Iterator[Row]:
 
 
 def _frames(report: JobReport, column: ColumnReport) -> Iterator[Row]:
-    for frame in column.hoisting:
-        yield from ((frame.source, *row) for row in hoisting_rows(report, frame))
+    for frame in column.hoisting_frames:
+        yield from ((frame.name, *row) for row in hoisting_rows(report, frame))
 
 
 MOULD = (
     heading("sleeve"),
-    Heading(Phrase("Mean dx", "平均 dx"), "mm"),
-    Heading(Phrase("Mean dy", "平均 dy"), "mm"),
+    Heading(Phrase("Mean dx", "平均 dx"), "mm_signed"),
+    Heading(Phrase("Mean dy", "平均 dy"), "mm_signed"),
     Heading(Phrase("95 % ±x", "95 % ±x"), "mm"),
     Heading(Phrase("95 % ±y", "95 % ±y"), "mm"),
     Heading(Phrase("Scatter x", "离散 x"), "mm_fine"),
@@ -185,12 +186,12 @@ def mould_table(report: JobReport) -> Table:
 def profile_table(report: JobReport) -> Table:
     """The limits of the job's tolerance profile."""
     headings = (
-        heading("rule"),
+        heading("rule", "rule"),
         heading("lower_limit", "mm"),
         heading("upper_limit", "mm"),
         heading("clause"),
         heading("source", "source"),
-        heading("severity"),
+        heading("severity", "rule"),
         heading("advisory"),
         heading("note"),
     )

@@ -16,7 +16,10 @@ from aadm_workbench.report.words.labels import Phrase, phrase
 
 Cell: TypeAlias = str | float | int | None
 Row: TypeAlias = tuple[Cell, ...]
-CellKind: TypeAlias = Literal["text", "source", "verdict", "mm", "mm_fine", "deg", "share", "ratio", "count"]
+CellKind: TypeAlias = Literal[
+    "text", "rule", "source", "verdict", "mm", "mm_signed", "mm_fine", "deg", "share", "ratio", "count"
+]
+"""What the cells of a column hold; ``mm_signed`` are offsets and what is measured minus design."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +35,7 @@ class Heading:
         return Phrase(f"{self.name.en}{unit}", f"{self.name.zh}{unit}")
 
 
-_UNITS = {"mm": ", mm", "mm_fine": ", mm", "deg": ", °"}
+_UNITS = {"mm": ", mm", "mm_signed": ", mm", "mm_fine": ", mm", "deg": ", °"}
 
 
 @dataclass(frozen=True)
@@ -62,7 +65,7 @@ _BETWEEN_LIMITS = (
     heading("clause"),
     heading("source", "source"),
 )
-_OFFSET = (heading("offset_x", "mm"), heading("offset_y", "mm"))
+_OFFSET = (heading("offset_x", "mm_signed"), heading("offset_y", "mm_signed"))
 POINTS = (
     heading("point"),
     _design("x"),
@@ -80,7 +83,7 @@ SPACING = (
     heading("between"),
     heading("design", "mm"),
     heading("measured", "mm"),
-    heading("deviation", "mm"),
+    heading("deviation", "mm_signed"),
     *_BETWEEN_LIMITS,
     heading("verdict", "verdict"),
     heading("reason"),
@@ -114,7 +117,7 @@ HOISTING = (
     heading("reason"),
 )
 RULES = (
-    heading("rule"),
+    heading("rule", "rule"),
     heading("largest", "mm"),
     heading("verdict", "verdict"),
     heading("counted"),

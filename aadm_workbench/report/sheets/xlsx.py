@@ -16,10 +16,12 @@ from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import JobReport
 from aadm_workbench.report.sheets.sheets import job_tables
 from aadm_workbench.report.sheets.tables import Cell, CellKind, Table
-from aadm_workbench.report.words.labels import HEAD, SIGN, Language, phrase, verdict_words
+from aadm_workbench.report.words.labels import HEAD, SIGN, Language, phrase, rule_words, verdict_words
+from aadm_workbench.report.words.reasons import in_both_languages
 
 _FORMATS: dict[CellKind, str] = {
     "mm": "0.00",
+    "mm_signed": "+0.00;-0.00;0.00",
     "mm_fine": "0.000",
     "deg": "0.00",
     "share": "0.0%",
@@ -56,7 +58,13 @@ def write_xlsx(report: JobReport, path: Path, language: Language = "en") -> None
     except ImportError as error:
         raise MissingDependencyError("xlsxwriter", "report.xlsx") from error
     content = io.BytesIO()
-    options = {"in_memory": True, "strings_to_formulas": False, "strings_to_urls": False, "nan_inf_to_errors": False}
+    # Row by row, through a temporary file: the workbook of a thousand columns has a million cells.
+    options = {
+        "constant_memory": True,
+        "strings_to_formulas": False,
+        "strings_to_urls": False,
+        "nan_inf_to_errors": False,
+    }
     book = xlsxwriter.Workbook(content, options)
     title = phrase("ui.title").in_language(language)
     book.set_properties({"title": f"{title}: {report.job['name']}", "created": _CREATED})
@@ -88,12 +96,12 @@ class _Sheets:
         """One sheet: headings that stay, a filter, and verdicts that are coloured by what they say."""
         sheet = self.book.add_worksheet(table.name.in_language(self.language).translate(_FORBIDDEN_IN_SHEET_NAMES)[:31])
         titles = [heading.in_full().in_language(self.language) for heading in table.headings]
+        self._arrange(sheet, table, titles)
         for column, title in enumerate(titles):
             sheet.write_string(0, column, title, self.head)
         for row, cells in enumerate(table.rows, start=1):
             for column, (cell, heading) in enumerate(zip(cells, table.headings, strict=True)):
                 self._write(sheet, row, column, cell, heading.kind)
-        self._arrange(sheet, table, titles)
 
     def _write(self, sheet: Any, row: int, column: int, cell: Cell, kind: CellKind) -> None:
         if cell is None or cell == "":
@@ -103,8 +111,16 @@ class _Sheets:
         elif kind == "verdict":
             sheet.write_string(row, column, verdict_words(cell, self.language))
         else:
-            said = phrase(f"ui.{cell}").in_language(self.language) if kind == "source" else cell
+            said = self._in_words(cell, kind)
             sheet.write_string(row, column, said[:_LONGEST_CELL], self.label if column == 0 else self.text)
+
+    def _in_words(self, cell: str, kind: CellKind) -> str:
+        """A text in the language of the workbook; names, and what the table of sentences does not know, stay."""
+        if kind == "source":
+            return phrase(f"ui.{cell}").in_language(self.language)
+        if kind == "rule":
+            return rule_words(cell).in_language(self.language)
+        return in_both_languages(cell).in_language(self.language) if self.language == "zh" else cell
 
     def _arrange(self, sheet: Any, table: Table, titles: list[str]) -> None:
         last_row, last_column = max(len(table.rows), 1), len(titles) - 1

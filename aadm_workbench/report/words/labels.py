@@ -55,10 +55,15 @@ def all_words() -> dict[str, Phrase]:
     }
 
 
-def phrase(name: str, **values: object) -> Phrase:
+def phrase(name: str, /, **values: object) -> Phrase:
     """One text in both languages by its name, its ``{places}`` filled in."""
     found = all_words()[name]
     return found.filled(**values) if values else found
+
+
+def rule_words(name: str) -> Phrase:
+    """The name of a tolerance rule, or of its severity; a profile's own names stay as they are."""
+    return all_words().get(f"rule.{name}", Phrase(name, name))
 
 
 def verdict_words(verdict: str, language: Language) -> str:

@@ -17,7 +17,7 @@ from aadm_workbench.model.reason import Place, places_of, sentences_of
 from aadm_workbench.report.words.labels import Phrase
 
 _NAME = "(?:(?![;:] ).)+?"
-_VALUES = {"": _NAME, "word": _NAME, " ": ".+?", "and": ".+?", ";": ".+?", ".": ".+?"}
+_VALUES = {"": _NAME, "word": _NAME, " ": ".+?", "and": ".+?", "or": ".+?", ";": ".+?", ".": ".+?"}
 """What stands in the place of a text, by its format; in any other stands a number."""
 _SENTENCES = {"notes", "plan", "remedy", "said", "what", "why"}
 """Places that other sentences stand in; names and labels hold no sign that parts sentences."""
@@ -71,7 +71,7 @@ def _of_table(text: str) -> Reason | None:
 def _value(text: str, place: Place) -> str | list[str]:
     if place.form not in _VALUES or (place.form == "word" and f"words.{text}" in sentences_of("words")):
         return text
-    sign = {"and": " and ", ";": "; ", ".": ". "}.get(place.form)
+    sign = {"and": " and ", "or": " or ", ";": "; ", ".": ". "}.get(place.form)
     return [_recognised(part) for part in text.split(sign)] if sign else _recognised(text)
 
 

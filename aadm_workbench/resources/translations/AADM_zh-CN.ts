@@ -56,6 +56,10 @@
    <translation>检测进程以 {code} 结束，没有给出任何说明；请修复其运行环境</translation>
   </message>
   <message>
+   <source>The top of the set column is not predicted: see the report</source>
+   <translation>未预测就位后的柱顶：见报告</translation>
+  </message>
+  <message>
    <source>There is not enough memory for this scan: crop it to the component, or close others.</source>
    <translation>内存不足以处理此扫描：请裁剪到构件范围，或关闭其他文件。</translation>
   </message>
@@ -70,6 +74,22 @@
   <message>
    <source>This should not happen ({kind}: {reason}). The log of the report view shows where.</source>
    <translation>出现了意外情况（{kind}：{reason}）。详见报告浏览器中的日志。</translation>
+  </message>
+  <message>
+   <source>Top of the set column: {top} – {verdict}</source>
+   <translation>就位后柱顶：{top} – {verdict}</translation>
+  </message>
+  <message>
+   <source>against its own bars alone</source>
+   <translation>只相对于本柱钢筋</translation>
+  </message>
+  <message>
+   <source>against the grid</source>
+   <translation>相对于轴网</translation>
+  </message>
+  <message>
+   <source>against the grid, through the column below</source>
+   <translation>相对于轴网（经下层柱传递）</translation>
   </message>
   <message>
    <source>arrows ×{factor:g}</source>
@@ -112,6 +132,10 @@
    <translation>合格</translation>
   </message>
   <message>
+   <source>{column} (copy)</source>
+   <translation>{column}（副本）</translation>
+  </message>
+  <message>
    <source>{count} columns of {file} are shown</source>
    <translation>已显示 {file} 中的 {count} 根柱</translation>
   </message>
@@ -124,6 +148,10 @@
    <translation>{file} 已添加到 {column}</translation>
   </message>
   <message>
+   <source>{file}: a job is checked in the window, or by: aadm check</source>
+   <translation>{file}：任务在窗口中检测，或用命令 aadm check</translation>
+  </message>
+  <message>
    <source>{label} cannot be drawn ({reason}); check its column again</source>
    <translation>无法绘制 {label}（{reason}）；请重新检测该柱</translation>
   </message>
@@ -132,8 +160,16 @@
    <translation>{label} 由更新版本的 AADM 工作台保存：请先升级再修改此对象</translation>
   </message>
   <message>
+   <source>{off} ± {u}, {against}</source>
+   <translation>{off} ± {u}，{against}</translation>
+  </message>
+  <message>
    <source>{program} cannot be run; look at the settings</source>
    <translation>无法运行 {program}；请检查设置</translation>
+  </message>
+  <message>
+   <source>→ {pose} in the job: the top comes to {after}</source>
+   <translation>→ 在任务中写 {pose}：柱顶偏差变为 {after}</translation>
   </message>
  </context>
  <context>
@@ -172,6 +208,40 @@
   </message>
  </context>
  <context>
+  <name>AADM_Capture</name>
+  <message>
+   <source>Capture</source>
+   <translation>采集</translation>
+  </message>
+  <message>
+   <source>Choose the folder that captures are kept in: they are the record.</source>
+   <translation>请选择保存采集的文件夹：采集即原始记录。</translation>
+  </message>
+  <message>
+   <source>Folder of the captures</source>
+   <translation>采集文件夹</translation>
+  </message>
+  <message>
+   <source>Kept in</source>
+   <translation>保存于</translation>
+  </message>
+  <message>
+   <source>Name a camera: {forms}.</source>
+   <translation>请指定相机：{forms}。</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_CaptureScan</name>
+  <message>
+   <source>Capture…</source>
+   <translation>采集…</translation>
+  </message>
+  <message>
+   <source>Takes a scan with a live camera and gives it to the selected column</source>
+   <translation>用在线相机采集扫描并交给所选柱</translation>
+  </message>
+ </context>
+ <context>
   <name>AADM_Check</name>
   <message>
    <source>Against the design</source>
@@ -206,12 +276,20 @@
    <translation>只看不合格项</translation>
   </message>
   <message>
+   <source>Reads the points of its scans into the view</source>
+   <translation>将扫描的点读入视图</translation>
+  </message>
+  <message>
    <source>Scans</source>
    <translation>扫描</translation>
   </message>
   <message>
    <source>Settings of the check</source>
    <translation>检测设置</translation>
+  </message>
+  <message>
+   <source>Show its scans</source>
+   <translation>显示扫描</translation>
   </message>
   <message>
    <source>Tolerances</source>
@@ -236,6 +314,121 @@
   <message>
    <source>… and {count} more, see the table</source>
    <translation>……另有 {count} 项，见表</translation>
+  </message>
+ </context>
+ <context>
+  <name>AADM_CheckAll</name>
+  <message>
+   <source>A column is not there any more: open this panel again.</source>
+   <translation>有一根柱已不存在：请重新打开此面板。</translation>
+  </message>
+  <message>
+   <source>Camera</source>
+   <translation>相机</translation>
+  </message>
+  <message>
+   <source>Check all</source>
+   <translation>全部检测</translation>
+  </message>
+  <message>
+   <source>Check all…</source>
+   <translation>全部检测…</translation>
+  </message>
+  <message>
+   <source>Choose the folder that holds the scans.</source>
+   <translation>请选择存放扫描的文件夹。</translation>
+  </message>
+  <message>
+   <source>Choose where the job file is written.</source>
+   <translation>请选择任务文件的保存位置。</translation>
+  </message>
+  <message>
+   <source>Column</source>
+   <translation>柱</translation>
+  </message>
+  <message>
+   <source>Double-click to choose its scan</source>
+   <translation>双击选择扫描</translation>
+  </message>
+  <message>
+   <source>Finds the scans of all columns in a folder, or of several that are selected, and checks them at once</source>
+   <translation>在文件夹中查找所有柱（或所选若干柱）的扫描，并一次检测</translation>
+  </message>
+  <message>
+   <source>Folder of scans</source>
+   <translation>扫描文件夹</translation>
+  </message>
+  <message>
+   <source>Intrinsics</source>
+   <translation>内参</translation>
+  </message>
+  <message>
+   <source>Job</source>
+   <translation>任务</translation>
+  </message>
+  <message>
+   <source>Job file</source>
+   <translation>任务文件</translation>
+  </message>
+  <message>
+   <source>No column that is switched on has scans: choose their folder first.</source>
+   <translation>勾选的柱都没有扫描：请先选择扫描文件夹。</translation>
+  </message>
+  <message>
+   <source>Rebars</source>
+   <translation>钢筋</translation>
+  </message>
+  <message>
+   <source>Scans</source>
+   <translation>扫描</translation>
+  </message>
+  <message>
+   <source>Scans are found by the names of columns in their names</source>
+   <translation>按文件名中的柱号查找扫描</translation>
+  </message>
+  <message>
+   <source>Scans of columns</source>
+   <translation>各柱的扫描</translation>
+  </message>
+  <message>
+   <source>Scans of {column}</source>
+   <translation>{column} 的扫描</translation>
+  </message>
+  <message>
+   <source>Side of the column at the top of pictures, for all rows</source>
+   <translation>图像上方对应柱的哪一侧，用于所有行</translation>
+  </message>
+  <message>
+   <source>Sleeves</source>
+   <translation>套筒</translation>
+  </message>
+  <message>
+   <source>The job has columns that this document lacks: {names}. Sample them first.</source>
+   <translation>任务中有本文档没有的柱：{names}。请先提取设计点。</translation>
+  </message>
+  <message>
+   <source>Unit</source>
+   <translation>单位</translation>
+  </message>
+  <message>
+   <source>Up</source>
+   <translation>上方</translation>
+  </message>
+  <message>
+   <source>What is checked is saved here, as the command aadm reads it</source>
+   <translation>检测内容保存在此，命令 aadm 可直接读取</translation>
+  </message>
+  <message>
+   <source>{count} columns: {summary}. Report: {file}</source>
+   <translation>{count} 根柱：{summary}。报告：{file}</translation>
+  </message>
+  <message>
+   <source>{count} of {all} columns have scans</source>
+   <translation>{all} 根柱中有 {count} 根已有扫描</translation>
+  </message>
+  <message>
+   <source>{file}: there is no such file</source>
+   <translation>{file}：没有这个文件</translation>
   </message>
  </context>
  <context>
@@ -339,6 +532,10 @@
    <translation>我站在 {side} 侧</translation>
   </message>
   <message>
+   <source>I stand beside the camera</source>
+   <translation>我站在相机旁</translation>
+  </message>
+  <message>
    <source>RECORDED, not live</source>
    <translation>历史记录，非实时</translation>
   </message>
@@ -402,6 +599,10 @@
    <translation>柱</translation>
   </message>
   <message>
+   <source>Depth step</source>
+   <translation>深度步长</translation>
+  </message>
+  <message>
    <source>File</source>
    <translation>文件</translation>
   </message>
@@ -426,16 +627,16 @@
    <translation>单位</translation>
   </message>
   <message>
+   <source>Millimetres in one step of a 16-bit depth map, where its camera's file has none</source>
+   <translation>16 位深度图中一级对应的毫米数；相机文件已给出时不必填写</translation>
+  </message>
+  <message>
    <source>Scan</source>
    <translation>扫描</translation>
   </message>
   <message>
    <source>Side of the column at the top of the picture; empty: not known</source>
    <translation>图像上方对应柱的哪一侧；留空表示未知</translation>
-  </message>
-  <message>
-   <source>Step of a 16-bit depth map</source>
-   <translation>16 位深度图的每级毫米数</translation>
   </message>
   <message>
    <source>The column is not there any more: choose another.</source>
@@ -709,7 +910,7 @@
    <translation>文件夹</translation>
   </message>
   <message>
-   <source>FreeCAD document with the results alone</source>
+   <source>FreeCAD document of the results</source>
    <translation>仅含结果的 FreeCAD 文档</translation>
   </message>
   <message>
@@ -806,8 +1007,8 @@
    <translation>从模型中所选的柱提取套筒和钢筋；未选择时提取所有柱</translation>
   </message>
   <message>
-   <source>The document is empty: open or import the model first, or take the columns of an IFC file.</source>
-   <translation>文档为空：请先打开或导入模型，或从 IFC 文件读取柱。</translation>
+   <source>There is no model yet: open or import one first, or take the columns of an IFC file.</source>
+   <translation>还没有模型：请先打开或导入模型，或从 IFC 文件中提取柱。</translation>
   </message>
   <message>
    <source>{count} columns were sampled</source>
@@ -967,6 +1168,10 @@
    <translation>箭头长度是偏差的倍数；0：自动选择</translation>
   </message>
   <message>
+   <source>Body of the column, as its model draws it: thin, in the column frame</source>
+   <translation>模型中的柱体（简化），柱坐标系</translation>
+  </message>
+  <message>
    <source>Column frame in the frame of the model's object</source>
    <translation>柱坐标系在模型对象坐标系中的位置</translation>
   </message>
@@ -1011,12 +1216,20 @@
    <translation>IFC 中的 GlobalId</translation>
   </message>
   <message>
+   <source>GlobalId of the project in that file, where it is IFC</source>
+   <translation>该文件为 IFC 时，其中项目的 GlobalId</translation>
+  </message>
+  <message>
    <source>Grid axes</source>
    <translation>轴线</translation>
   </message>
   <message>
    <source>Hash of that file when it was read</source>
    <translation>读取时该文件的哈希值</translation>
+  </message>
+  <message>
+   <source>Hash of the design points as they were sampled</source>
+   <translation>提取时设计点的哈希值</translation>
   </message>
   <message>
    <source>Hash of the file as it was imported</source>
@@ -1039,6 +1252,10 @@
    <translation>其扫描</translation>
   </message>
   <message>
+   <source>Job file that it was last checked by, together with others</source>
+   <translation>上一次与其他柱一同检测所用的任务文件</translation>
+  </message>
+  <message>
    <source>Largest deviation of a rebar from its design place</source>
    <translation>钢筋与设计位置的最大偏差</translation>
   </message>
@@ -1055,12 +1272,20 @@
    <translation>16 位深度图每级的毫米数；0：未给出</translation>
   </message>
   <message>
+   <source>Name of this object when it was made: a copy has another</source>
+   <translation>此对象创建时的名称：副本的名称不同</translation>
+  </message>
+  <message>
    <source>Piece mark</source>
    <translation>构件编号</translation>
   </message>
   <message>
    <source>Points of the file; the view shows fewer</source>
    <translation>文件中的点数；视图显示较少</translation>
+  </message>
+  <message>
+   <source>Pose in the play that leads the tower back to the grid, for the job</source>
+   <translation>间隙内使柱顶回到轴网的位置，供任务使用</translation>
   </message>
   <message>
    <source>Positions against the design, or the trial assembly: minimax, or least squares</source>
@@ -1077,6 +1302,10 @@
   <message>
    <source>Show deviation arrows</source>
    <translation>显示偏差箭头</translation>
+  </message>
+  <message>
+   <source>Show the body of the column as its model draws it</source>
+   <translation>显示模型中的柱体</translation>
   </message>
   <message>
    <source>Side of the column at the top of pictures of its rebars: +x, -x, +y, -y</source>
@@ -1135,6 +1364,10 @@
    <translation>仅试装的结论</translation>
   </message>
   <message>
+   <source>Verdict on the top of the set column</source>
+   <translation>就位后柱顶的结论</translation>
+  </message>
+  <message>
    <source>What it shows: the sleeves of the foot, or the rebars</source>
    <translation>内容：柱底套筒或钢筋</translation>
   </message>
@@ -1149,6 +1382,10 @@
   <message>
    <source>When it was checked (UTC), where that is known</source>
    <translation>检测时间（UTC，如已知）</translation>
+  </message>
+  <message>
+   <source>Where the top comes to, against what, with its standard uncertainty</source>
+   <translation>就位后柱顶的偏差、其基准及标准不确定度</translation>
   </message>
   <message>
    <source>Which points are labelled</source>

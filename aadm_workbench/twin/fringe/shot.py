@@ -18,7 +18,7 @@ from aadm_workbench.twin.fringe.materials import Materials
 from aadm_workbench.twin.fringe.render import Effort, rendered
 from aadm_workbench.twin.fringe.rig import FringeRig, Fringes, Projector, Sensor
 from aadm_workbench.twin.meshes import surface_of
-from aadm_workbench.twin.parts import BarGroup, Foot
+from aadm_workbench.twin.parts import BarGroup, Foot, PlateAsBuilt
 from aadm_workbench.twin.scene import TrueScan, truth_of
 from aadm_workbench.twin.surface import Surface
 
@@ -71,13 +71,13 @@ def fringe_image(
 
 
 def fringe_scan_of(
-    part: Foot | BarGroup,
+    part: Foot | BarGroup | PlateAsBuilt,
     T_column_scan: Array,
     fringe: FringeCamera,
     rng: np.random.Generator,
     camera: Camera = PRO_M,
 ) -> TrueScan:
-    """Scan a foot or a bar group from a pose of the camera, as ``scene.scan_of`` does with the ray caster."""
+    """Scan a foot, a bar group or a plate from a pose of the camera, as ``scene.scan_of`` does with the ray caster."""
     return fringe_shot(surface_of(part), truth_of(part), T_column_scan, fringe, rng, camera)
 
 

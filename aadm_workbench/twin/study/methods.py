@@ -15,7 +15,7 @@ from time import perf_counter
 
 import numpy as np
 
-from aadm_workbench.extract.method import extract
+from aadm_workbench.extract.method import Known, extract
 from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.published.binary_image import binary_image, pitch_mm
 from aadm_workbench.extract.published.fusion import INLIER_DISTANCE_MM, ITERATIONS, projected_onto
@@ -26,6 +26,7 @@ from aadm_workbench.model import Camera, Kind, Plane, Scan
 from aadm_workbench.twin.camera import PRO_M
 from aadm_workbench.twin.scenes import Setting, random_bar_scan, random_sleeve_scan
 from aadm_workbench.twin.study.errors import Comparison, compared
+from aadm_workbench.twin.truth import sample_design
 
 PUBLISHED = "fusion"
 """The method that the bare calls are part of, and that times are divided by."""
@@ -144,9 +145,11 @@ def _one_scan(
     if not warm:
         _load_all(scan, methods)
     measured = []
+    # Scenes are taken with +y at the top of the picture.
+    known = Known(sample_design(setting), 90.0)
     for method in methods:
         began = clock()
-        found = extract(scan, kind, diameter_mm, method, np.random.default_rng(scene))
+        found = extract(scan, kind, diameter_mm, method, np.random.default_rng(scene), known=known)
         seconds = clock() - began
         comparison = compared(found, truth, setting.centres(), diameter_mm / 2)
         measured.append(Measurement(setting.name, scene, method, kind, comparison, seconds, found.reason))

@@ -49,7 +49,7 @@ def seen_from(corners: list[tuple[float, float]], u_mm: float = 0.05) -> dict[st
 
 
 def section(corners: list[tuple[float, float]], heights: FaceHeights | None = None) -> SectionReport:
-    found = inspect_section(DESIGN, seen_from(corners), heights, CN, fit_u_mm=0.03, decision="guarded")
+    found = inspect_section(DESIGN, seen_from(corners), heights, CN, fit_u_mm=0.03, fit_u_turn=0.0, decision="guarded")
     assert found is not None
     return found
 
@@ -113,7 +113,7 @@ def test_what_all_edges_share_widens_the_size_and_leaves_the_place() -> None:
     edges = {
         side: replace(edge, shared_u_mm=0.3) for side, edge in seen_from(SQUARE).items() if isinstance(edge, SeenEdge)
     }
-    found = inspect_section(DESIGN, edges, None, CN, fit_u_mm=0.0, decision="guarded")
+    found = inspect_section(DESIGN, edges, None, CN, fit_u_mm=0.0, fit_u_turn=0.0, decision="guarded")
     assert found is not None
     assert found.lengths[0].u_mm == pytest.approx(math.hypot(0.6, 0.05 * math.sqrt(2.0)))
     assert found.pattern.u_mm == pytest.approx((0.05 / math.sqrt(2.0),) * 2)
@@ -121,7 +121,7 @@ def test_what_all_edges_share_widens_the_size_and_leaves_the_place() -> None:
 
 def test_one_edge_unseen_leaves_that_side_unmeasured_and_says_which() -> None:
     edges = seen_from(SQUARE) | {"+y": Reason("extract.section_out")}
-    found = inspect_section(DESIGN, edges, None, CN, fit_u_mm=0.03, decision="guarded")
+    found = inspect_section(DESIGN, edges, None, CN, fit_u_mm=0.03, fit_u_turn=0.0, decision="guarded")
     assert found is not None
     assert found.lengths[0].verdict is Verdict.PASS
     assert found.lengths[1].verdict is Verdict.NOT_MEASURED
@@ -140,7 +140,9 @@ def test_a_design_that_does_not_place_its_section_has_none() -> None:
         },
     )
     assert corner.section_middle_mm is None
-    assert inspect_section(corner, seen_from(SQUARE), None, CN, fit_u_mm=0.03, decision="guarded") is None
+    assert (
+        inspect_section(corner, seen_from(SQUARE), None, CN, fit_u_mm=0.03, fit_u_turn=0.0, decision="guarded") is None
+    )
 
 
 def test_centres_written_about_the_sections_middle_keep_their_place_in_it() -> None:
@@ -168,7 +170,7 @@ def test_a_deep_chip_is_told_with_its_place() -> None:
     edge = edges["+x"]
     assert isinstance(edge, SeenEdge)
     edges["+x"] = replace(edge, chips=(Chip(100.0, 130.0, 8.0), Chip(-20.0, -15.0, 2.0)))
-    found = inspect_section(DESIGN, edges, None, CN, fit_u_mm=0.03, decision="guarded")
+    found = inspect_section(DESIGN, edges, None, CN, fit_u_mm=0.03, fit_u_turn=0.0, decision="guarded")
     (finding,) = section_findings(found)
     assert finding.code == "edge_chipped"
     assert "edge +x" in finding.text

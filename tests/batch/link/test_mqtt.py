@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import json
+import shutil
+import ssl
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
@@ -16,16 +18,30 @@ from amqtt.mqtt.constants import QOS_1
 
 from aadm_workbench.errors import AadmError
 from batch.link.mqtt import MqttLink, topic_of
+from tests.batch.certificates import write_certificates
 
 from .links import free_port, linked, until, write_state
 
 
+class StrictBroker(Broker):
+    """A broker that asks every client of its encrypted port for a certificate."""
+
+    @staticmethod
+    def _create_ssl_context(listener: Any) -> ssl.SSLContext:
+        context = Broker._create_ssl_context(listener)
+        context.verify_mode = ssl.CERT_REQUIRED
+        return context
+
+
 @asynccontextmanager
-async def broker() -> AsyncIterator[int]:
+async def broker(encrypted: dict[str, Any] | None = None) -> AsyncIterator[int]:
+    """A broker; with ``encrypted``, a listener's settings, it has a port for TLS beside the plain one."""
     port = free_port()
     listeners = {"default": {"type": "tcp", "bind": f"127.0.0.1:{port}"}}
+    if encrypted is not None:
+        listeners["encrypted"] = {"type": "tcp", "ssl": True, **encrypted}
     plugins = {"amqtt.plugins.authentication.AnonymousAuthPlugin": {"allow_anonymous": True}}
-    server = Broker({"listeners": listeners, "plugins": plugins})
+    server = StrictBroker({"listeners": listeners, "plugins": plugins})
     await server.start()
     try:
         yield port
@@ -93,6 +109,49 @@ def test_the_broker_says_that_the_link_is_lost(tmp_path: Path) -> None:
                 link._client.socket().close()  # the cable
                 await until(lambda: any(value.get("reason") == "the link is lost" for _, value in got))
                 await until(lambda: got[-1][1]["ready"])  # it comes back by itself
+
+    asyncio.run(run())
+
+
+def own_folder(folder: Path, name: str, ca: Path, signed: Path | None = None, key: Path | None = None) -> Path:
+    """What ``--certificates`` names: the broker's authority, and a certificate of one's own where there is one."""
+    made = folder / name
+    made.mkdir()
+    shutil.copy(ca, made / "ca.pem")
+    if signed is not None and key is not None:
+        shutil.copy(signed, made / "certificate.pem")
+        shutil.copy(key, made / "key.pem")
+    return made
+
+
+def test_an_encrypted_link_shows_the_state_and_strangers_get_nowhere(tmp_path: Path) -> None:
+    path, port = tmp_path / "aadm-state.json", free_port()
+    write_state(path)
+    made = write_certificates(tmp_path)
+    settings = {
+        "bind": f"127.0.0.1:{port}",
+        "cafile": str(made["ca"]),
+        "certfile": str(made["cert"]),
+        "keyfile": str(made["key"]),
+    }
+    known = own_folder(tmp_path, "known", made["ca"], made["cert"], made["key"])
+    strange_client = own_folder(tmp_path, "strange-client", made["ca"], made["stranger"], made["stranger-key"])
+    nameless = own_folder(tmp_path, "nameless", made["ca"])
+    strange_broker = own_folder(tmp_path, "strange-broker", made["stranger-ca"], made["cert"], made["key"])
+
+    async def run() -> None:
+        async with broker(settings) as plain:
+            async with linked(path, MqttLink(f"127.0.0.1:{port}", known)), reader(plain, "aadm/C-301/hoisting") as got:
+                await until(lambda: got and got[-1][1]["ready"])
+            for folder in (strange_client, nameless):
+                with pytest.raises(AadmError, match=f"127.0.0.1:{port}: the MQTT broker refuses the connection"):
+                    await MqttLink(f"127.0.0.1:{port}", folder).start()
+            with pytest.raises(AadmError, match="certificate verify failed"):
+                await MqttLink(f"127.0.0.1:{port}", strange_broker).start()
+            with pytest.raises(AadmError, match="certificate verify failed"):
+                await MqttLink(f"localhost:{port}", known).start()  # the certificate is for 127.0.0.1
+            with pytest.raises(AadmError, match=r"refuses the connection|does not answer"):
+                await MqttLink(f"127.0.0.1:{port}", None).start()  # not encrypted
 
     asyncio.run(run())
 

@@ -1,12 +1,16 @@
-"""OPC UA by a client of another process's code path: values, quality, time-out, writes, certificates."""
+"""OPC UA by clients of two makers: open62541 (values, quality, time-out, certificates), asyncua (what it refuses)."""
 
 from __future__ import annotations
 
 import asyncio
+import json
 import re
 import stat
+import sys
 import time
-from datetime import UTC, datetime
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +33,6 @@ from batch.link.opcua import NAMESPACE, NUMBERS, OpcUaLink
 from .links import free_port, linked, until, write_state
 
 READER = "urn:crane:controller"
-BAD = 0x80000000  # of every bad status, OPC 10000-4
 
 
 async def reader(client: Client) -> Any:
@@ -42,61 +45,90 @@ async def reader(client: Client) -> Any:
     return read
 
 
-def test_a_client_sees_values_quality_time_out_and_can_write_nothing(tmp_path: Path) -> None:
+class OtherReader:
+    """A controller with another maker's stack, in a process of its own."""
+
+    def __init__(self, process: asyncio.subprocess.Process) -> None:
+        self._process = process
+
+    async def answer(self) -> Any:
+        return json.loads(await self._process.stdout.readline())
+
+    async def asked(self, *words: str) -> Any:
+        self._process.stdin.write(" ".join(words).encode() + b"\n")
+        return await self.answer()
+
+    async def read(self, *names: str) -> list[dict[str, Any]]:
+        return await self.asked("read", *names)
+
+    async def until(self, name: str, holds: Callable[[dict[str, Any]], bool]) -> None:
+        async def is_so() -> bool:
+            return holds((await self.read(name))[0])
+
+        await until(is_so)
+
+
+@asynccontextmanager
+async def other_reader(
+    port: int, own: tuple[Path, Path] | None = None, server: Path | None = None
+) -> AsyncIterator[Any]:
+    secured = () if own is None else (*own, server, READER)
+    words = map(str, (Path(__file__).with_name("opcua_reader.py"), f"opc.tcp://127.0.0.1:{port}/aadm", *secured))
+    pipe, nothing = asyncio.subprocess.PIPE, asyncio.subprocess.DEVNULL
+    process = await asyncio.create_subprocess_exec(sys.executable, *words, stdin=pipe, stdout=pipe, stderr=nothing)
+    try:
+        yield OtherReader(process)
+    finally:
+        process.kill()
+        await process.wait()
+
+
+def test_another_makers_client_sees_values_quality_time_out_and_can_write_nothing(tmp_path: Path) -> None:
     path, port = tmp_path / "aadm-state.json", free_port()
     move = {"dx_mm": -1.25, "dy_mm": 0.5, "yaw_deg": 0.125, "u_mm": 0.1}
     captured_s = time.time_ns() / 1e9
     write_state(path, captured_s, move=move)
 
     async def run() -> None:
-        async with (
-            linked(path, OpcUaLink("127.0.0.1", port, None)),
-            Client(f"opc.tcp://127.0.0.1:{port}/aadm") as client,
-        ):
-            read = await reader(client)
-            assert (await read("Ready")).Value.Value is True
-            values = [(await read(name)).Value.Value for name in NUMBERS]
-            assert values[:3] == [-1.25, 0.5, 0.125]
-            assert (values[4], values[5]) == (0.1, 3)
-            dx = await read("Dx_mm")
-            assert dx.StatusCode.is_good()
-            taken = dx.SourceTimestamp.replace(tzinfo=UTC).timestamp()
-            assert taken == pytest.approx(captured_s, abs=2e-3)
-            assert (await read("Sequence")).Value.Value == 7
-            assert (await read("Captured")).Value.Value.replace(tzinfo=UTC) <= datetime.now(UTC)
-            beat = (await read("Heartbeat")).Value.Value
-            await until(lambda: _is(read, "Heartbeat", lambda value: value.Value.Value > beat))
-            await _refused(client, tmp_path)
-            assert (await read("Ready")).Value.Value is True
+        async with linked(path, OpcUaLink("127.0.0.1", port, None)), other_reader(port) as reader:
+            assert await reader.answer() == "connected"
+            ready, captured, *numbers = await reader.read("Ready", "Captured", *NUMBERS)
+            assert (ready["value"], ready["status"]) == (True, "GOOD")
+            assert [number["value"] for number in numbers] == [-1.25, 0.5, 0.125, None, 0.1, 3.0]
+            assert [number["status"] for number in numbers] == [*["GOOD"] * 3, "BAD_NO_DATA", *["GOOD"] * 2]
+            for taken in (captured["value"], numbers[0]["source"]):
+                assert datetime.fromisoformat(taken).timestamp() == pytest.approx(captured_s, abs=2e-3)
+            beat, sequence = await reader.read("Heartbeat", "Sequence")
+            assert sequence["value"] == 7
+            await reader.until("Heartbeat", lambda found: found["value"] > beat["value"])
+            assert await reader.asked("write", "Ready") == "BAD_USER_ACCESS_DENIED"
+            async with Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=60) as client:
+                await _refused(client)
+            assert (await reader.read("Ready"))[0]["value"] is True
 
             write_state(path, sequence=8, frame__verdict="inconclusive", frame__reasons=["S2-R2: too close"])
-            await until(lambda: _is(read, "Sequence", lambda value: value.Value.Value == 8))
-            dx = await read("Dx_mm")
-            assert not dx.StatusCode.is_good()
-            assert dx.StatusCode.value & BAD == 0
-            assert dx.Value.Value is not None
-            assert (await read("Ready")).Value.Value is False
-            assert (await read("Reason")).Value.Value == "S2-R2: too close"
+            await reader.until("Sequence", lambda found: found["value"] == 8)
+            dx, ready, reason = await reader.read("Dx_mm", "Ready", "Reason")
+            assert dx["status"] == "UNCERTAIN_SENSOR_NOT_ACCURATE"
+            assert dx["value"] is not None
+            assert (ready["value"], reason["value"]) == (False, "S2-R2: too close")
 
             write_state(path, time.time_ns() / 1e9 - 14.0, sequence=9, valid_for_s=15.0)  # it grows too old by itself
-            await until(lambda: _is(read, "Sequence", lambda value: value.Value.Value == 9))
-            await until(lambda: _is(read, "Dx_mm", lambda value: value.StatusCode.value == ua.StatusCodes.BadTimeout))
-            assert [(await read(name)).Value.Value for name in NUMBERS] == [None] * len(NUMBERS)
-            assert (await read("Ready")).Value.Value is False
-            assert re.match(r"captured \d+ s ago", (await read("Reason")).Value.Value)
+            await reader.until("Sequence", lambda found: found["value"] == 9)
+            await reader.until("Dx_mm", lambda found: found["status"] == "BAD_TIMEOUT")
+            ready, reason, *numbers = await reader.read("Ready", "Reason", *NUMBERS)
+            assert [number["value"] for number in numbers] == [None] * len(NUMBERS)
+            assert ready["value"] is False
+            assert re.match(r"captured \d+ s ago", reason["value"])
 
             path.unlink()
-            await until(lambda: _is(read, "Dx_mm", lambda value: value.StatusCode.value == ua.StatusCodes.BadNoData))
-            assert "is aadm watch running" in (await read("Reason")).Value.Value
+            await reader.until("Dx_mm", lambda found: found["status"] == "BAD_NO_DATA")
+            assert "is aadm watch running" in (await reader.read("Reason"))[0]["value"]
 
     asyncio.run(run())
 
 
-async def _is(read: Any, name: str, holds: Any) -> bool:
-    return bool(holds(await read(name)))
-
-
-async def _refused(client: Client, folder: Path) -> None:
+async def _refused(client: Client) -> None:
     """Whatever would change something is refused."""
     space = await client.get_namespace_index(NAMESPACE)
     ready = client.get_node(f"ns={space};s=Hoisting.Ready")
@@ -126,7 +158,7 @@ def test_ready_is_withdrawn_before_values_change(tmp_path: Path) -> None:
     async def run() -> None:
         async with (
             linked(path, OpcUaLink("127.0.0.1", port, None)),
-            Client(f"opc.tcp://127.0.0.1:{port}/aadm") as client,
+            Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=60) as client,
         ):
             space = await client.get_namespace_index(NAMESPACE)
             nodes = [client.get_node(f"ns={space};s=Hoisting.{name}") for name in ("Ready", "Dx_mm")]
@@ -160,7 +192,7 @@ def certificate(folder: Path, uri: str = READER, days: int = 30) -> tuple[Path, 
 
 async def ready_of(port: int, own: tuple[Path, Path] | None, server: Path, says: bytes | None = b"own") -> Any:
     """What a client with a certificate reads; ``says``: the certificate that it names when it opens its session."""
-    client = Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=10)
+    client = Client(f"opc.tcp://127.0.0.1:{port}/aadm", timeout=60)
     client.application_uri = READER
     if own is not None:
         await client.set_security(
@@ -193,7 +225,9 @@ def test_only_trusted_certificates_get_in(tmp_path: Path) -> None:
 
     async def run() -> None:
         async with linked(path, OpcUaLink("127.0.0.1", port, certificates)):
-            assert await ready_of(port, known, server) in (True, False)
+            for own, answer in ((known, "connected"), (stranger, "BAD_CERTIFICATE_UNTRUSTED")):
+                async with other_reader(port, own, server) as other:
+                    assert await other.answer() == answer
             with pytest.raises(UaError, match="BadCertificateUntrusted"):
                 await ready_of(port, stranger, server)
             for said in (None, known[0].read_bytes()):  # it may say nothing, or name somebody else's

@@ -1,5 +1,6 @@
 """The table under a check: the worst column first, the point that decided, nothing out of line."""
 
+import re
 import sys
 from dataclasses import replace
 
@@ -149,3 +150,20 @@ def test_the_comparison_that_decided(column: ColumnReport, words: tuple[str, str
 
 def test_nothing_was_compared() -> None:
     assert worst_comparison(ColumnReport("C-1", Verdict.ERROR, Verdict.NOT_ASSESSED)) is None
+
+
+def test_everything_is_told_in_chinese(capsys: pytest.CaptureFixture[str]) -> None:
+    """Headings, verdicts, reasons and counts; names and numbers stay."""
+    failed = replace(FAILED, reasons=("S2 not measured: no opening: the mouth is plugged or covered",))
+    report = job(PASSED, failed)
+    show(verdict_table(report, "zh"), summary_line(report, "zh"))
+    said = capsys.readouterr().out
+    assert not re.search("[A-Za-z]{2,}", said.replace("mm", ""))
+    for word in ("结论", "不合格", "合格", "未评定", "S2 未测得：没有开口", "2 根柱：1 根合格，1 根不合格"):
+        assert word in said
+
+
+def test_what_has_a_sign_is_shown_with_it(capsys: pytest.CaptureFixture[str]) -> None:
+    spacing = SpacingResult(("S1", "S2"), 80.0, 82.5, 2.5, None, (-2.0, 2.0), Verdict.FAIL)
+    column = ColumnReport("C-1", Verdict.FAIL, Verdict.PASS, ("too far",), sleeves=group((), (spacing,)))
+    assert "+2.50 / 2 mm" in lines(capsys, column)[1]

@@ -1,6 +1,6 @@
 """A foot's face by ray casting of its own: half-planes and discs, many rays a pixel; nothing of the product's cameras.
 
-A pixel returns what its rays hit. ``mixing``: a pixel that sees the face with a fifth of its rays or more returns it;
+A pixel returns what its rays hit. ``mixing``: a pixel that sees the face with enough of its rays returns it;
 its height then bends by how far the middle of what it sees is from the pixel's own middle, along one axis, and scatters
 by as much more as less of it is lit.
 """
@@ -48,8 +48,12 @@ def scanned(
     aside_mm: Sequence[float] = (0.0, 0.0),
     noise_mm: float = 0.08,
     mixing: bool = False,
+    least: float = 0.2,
 ) -> tuple[Scan, Extraction]:
-    """The scan from a camera ``aside_mm`` from the middle, looking squarely, and what was extracted: the truth."""
+    """The scan from a camera ``aside_mm`` from the middle, looking squarely, and what was extracted: the truth.
+
+    ``least``: share of a pixel's rays that must see the face, where it mixes.
+    """
     rows, columns = (part.astype(float) for part in np.mgrid[:HIGH, :WIDE])
     share, middle = _seen(face, columns, rows, distance_mm, aside_mm, np.zeros(1))
     if mixing:
@@ -64,7 +68,7 @@ def scanned(
     depth -= face.bump_mm * (x**2 + y**2) / (2.0 * reach**2)
     if mixing:
         depth += middle * distance_mm / FOCAL * distance_mm / _BASE_MM
-    depth[share < (0.2 if mixing else 0.5)] = np.nan
+    depth[share < (least if mixing else 0.5)] = np.nan
     rays = np.stack([(columns - WIDE / 2) / FOCAL, (rows - HIGH / 2) / FOCAL, np.ones((HIGH, WIDE))], axis=-1)
     camera = Camera(FOCAL, FOCAL, WIDE / 2, HIGH / 2, WIDE, HIGH)
     scan = Scan((rays * depth[..., None]).astype(np.float32), camera=camera, viewpoint=np.zeros(3))

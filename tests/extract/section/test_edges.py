@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
 
@@ -35,7 +36,7 @@ def distance_outwards(corners: Array, side: str) -> float:
 def edges_of(face: IdealFace, scan_and_points: tuple, T: Array | None = None) -> dict[str, SeenEdge | Reason]:
     scan, extraction = scan_and_points
     sample = thinned(scan, 90_000, np.random.default_rng(0))
-    return section_edges(scan, sample, extraction, T_scan_column() if T is None else T, DESIGN)
+    return section_edges(scan, sample, extraction, T_scan_column() if T is None else T, DESIGN, [36.0])
 
 
 def errors(face: IdealFace, edges: dict[str, SeenEdge | Reason]) -> dict[str, float]:
@@ -59,6 +60,41 @@ def test_edges_lie_where_they_are(mixing: bool, seed: int) -> None:
     edges = edges_of(seen, scanned(seen, rng, mixing=mixing), T_scan_column(roll_deg=roll))
     found = errors(IdealFace(corners, MOUTHS), edges)
     assert max(map(abs, found.values())) < (0.2 if mixing else 0.1), found
+
+
+@pytest.mark.parametrize("least", [0.05, 0.5, 0.8])
+def test_whatever_a_mixing_camera_drops_its_edges_stay_where_they_are(least: float) -> None:
+    face = IdealFace(turned(DESIGN, 0.9, (1.0, -2.0)), turned(MOUTHS, 0.9))
+    edges = edges_of(face, scanned(face, np.random.default_rng(9), mixing=True, least=least))
+    found = errors(face, edges)
+    assert max(map(abs, found.values())) < 0.15, found
+
+
+def test_a_ring_that_is_lost_at_mouths_may_be_lost_at_edges_too_and_the_uncertainty_says_so() -> None:
+    face = IdealFace(turned(DESIGN, 0.9), turned(MOUTHS, 0.9))
+    scan, extraction = scanned(face, np.random.default_rng(10))
+    nothing = np.isnan(scan.points[..., 2]).astype(np.uint8)
+    eroded = np.where(cv2.dilate(nothing, np.ones((3, 3), np.uint8))[..., None] > 0, np.nan, scan.points)
+    for points in (scan.points, eroded.astype(np.float32)):
+        found = edges_of(face, (replace(scan, points=points), extraction))
+        stated = [edge.shared_u_mm for edge in found.values() if isinstance(edge, SeenEdge)]
+        assert len(stated) == 4
+        off = errors(face, found)  # within three of the stated uncertainty
+        assert max(stated) < 0.1 if points is scan.points else min(stated) > 0.2, (stated, off)
+
+
+def test_a_face_that_bends_has_its_edges_where_they_are_in_space() -> None:
+    corners = turned(DESIGN, 0.8)
+    flat, bent = IdealFace(corners, MOUTHS), IdealFace(corners, MOUTHS, bump_mm=4.0)
+    found = edges_of(bent, scanned(bent, np.random.default_rng(11)))
+    level = edges_of(flat, scanned(flat, np.random.default_rng(11)))
+    for side, (x, y) in {"-y": (0.0, 150.0), "+x": (200.0, 0.0), "+y": (0.0, 150.0), "-x": (200.0, 0.0)}.items():
+        nearer = 4.0 * (x**2 + y**2) / (2.0 * np.abs(corners).max() ** 2) / 900.0  # of the way to the camera, there
+        edge, other = found[side], level[side]
+        assert isinstance(edge, SeenEdge), f"{side}: {edge}"
+        assert isinstance(other, SeenEdge)
+        # Along an edge the face rises by as much again as at its middle: its line lies between.
+        assert -2.5 * nearer * (x + y) < edge.offset_mm - other.offset_mm < -0.8 * nearer * (x + y)
 
 
 def test_an_edge_along_rows_of_pixels_says_how_little_is_known() -> None:
@@ -90,6 +126,27 @@ def test_a_chip_at_a_corner_moves_no_edge_and_is_told(size_mm: float) -> None:
         if size_mm > 10.0:
             deep = [chip for chip in b.chips if chip.depth_mm > 2.0]
             assert bool(deep) == (side in ("+x", "+y")), (side, b.chips)
+
+
+@pytest.mark.parametrize(("length_mm", "depth_mm"), [(24.0, 5.0), (40.0, 15.0), (80.0, 40.0)])
+def test_a_piece_out_of_an_edge_moves_no_edge_and_is_told_with_its_depth(length_mm: float, depth_mm: float) -> None:
+    corners = turned(DESIGN, 0.7)
+    radius = (length_mm**2 / 4.0 + depth_mm**2) / (2.0 * depth_mm)
+    middle = turned(np.array([[40.0, 150.0 + radius - depth_mm]]), 0.7)[0]
+    face = IdealFace(corners, np.zeros((0, 2)))
+    broken = replace(face, cuts=((float(middle[0]), float(middle[1]), radius),))
+    whole, chipped = (edges_of(one, scanned(one, np.random.default_rng(12))) for one in (face, broken))
+    for side in SIDES:
+        a, b = whole[side], chipped[side]
+        assert isinstance(a, SeenEdge)
+        assert isinstance(b, SeenEdge)
+        assert b.offset_mm == pytest.approx(a.offset_mm, abs=0.05)
+        assert [chip for chip in b.chips if side != "+y"] == []
+    edge = chipped["+y"]
+    assert isinstance(edge, SeenEdge)
+    (chip,) = edge.chips
+    assert chip.depth_mm == pytest.approx(depth_mm, abs=2.0)
+    assert chip.end_mm - chip.begin_mm == pytest.approx(length_mm, abs=8.0)
 
 
 def test_an_edge_out_of_the_picture_is_not_measured() -> None:

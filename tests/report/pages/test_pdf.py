@@ -8,7 +8,7 @@ import pypdf
 import pytest
 
 from aadm_workbench.report.pages.pdf import write_pdf
-from aadm_workbench.report.pages.pdf_canvas import lines_of, printable, width_of
+from aadm_workbench.report.pages.pdf_text import lines_of, printable, width_of
 from tests.report.checked_floor import HOSTILE
 from tests.report.typed import typed
 
@@ -84,3 +84,42 @@ def test_lines_break_between_words_and_chinese_characters() -> None:
     assert "".join(lines).replace(" ", "") == text.replace(" ", "")
     assert not any(line.startswith(("。", ",")) for line in lines)
     assert printable("✗ 柱 🏗") == "× 柱 □"
+
+
+def page_texts(path: Path) -> list[str]:
+    return [re.sub(r"\s+", "", page.extract_text()) for page in pypdf.PdfReader(path).pages]
+
+
+def test_the_first_page_says_what_to_do_and_can_be_signed(floor: dict[str, Any], tmp_path: Path) -> None:
+    write_pdf(typed(floor), tmp_path / "report.pdf")
+    first = page_texts(tmp_path / "report.pdf")[0]
+    for said in (
+        "2026-11-20",
+        "Checkedby(name)",
+        "Signature",
+        "Whattodo:",
+        "BendbarR",
+        "onlyaftertheengineer'srelease",
+    ):
+        assert said in first
+    assert first.index("mustnotbehoisted") < first.index("Signature") < first.index("Whattodo:")
+
+
+def test_no_last_page_holds_two_lines(floor: dict[str, Any], tmp_path: Path) -> None:
+    """Whatever the number of notes, a column's last page is no remnant; the last page of all is none either."""
+    column = floor["columns"][1]
+    for notes in range(0, 24, 4):
+        column["notes"] = [f"note {number}" for number in range(notes)]
+        write_pdf(typed(floor | {"columns": [column]}), tmp_path / "report.pdf")
+        assert all(len(text) > 250 for text in page_texts(tmp_path / "report.pdf"))
+
+
+@pytest.mark.parametrize("language", ["en", "zh"])
+def test_many_columns_without_a_place(floor: dict[str, Any], tmp_path: Path, language: Any) -> None:
+    """More tiles than fit on a page, and texts that fill several: every column has its page all the same."""
+    bare = {"sleeves": None, "rebars": None, "trial_assembly": None, "T_model_column": None, "repair": None}
+    columns = [floor["columns"][4] | bare | {"id": f"K-{number:03d}"} for number in range(330)]
+    columns[0]["reasons"] = ["很长的原因，" * 900, *(f"reason {number}" for number in range(200))]
+    write_pdf(typed(floor | {"columns": columns}), tmp_path / "report.pdf", language)
+    titles = [entry.title for entry in pypdf.PdfReader(tmp_path / "report.pdf").outline if not isinstance(entry, list)]
+    assert sum(title.startswith("K-") for title in titles) == 330

@@ -41,7 +41,7 @@ def test_typed_numbers_with_units(book: Any, floor: dict[str, Any]) -> None:
     for point in floor["columns"][2]["rebars"]["points"]:
         assert ("C-3", point["label"], point["deviation_mm"]) in names
     assert ("C-4", "S8", None) in names
-    assert sheet["F2"].number_format == "0.00"
+    assert sheet["F2"].number_format == "+0.00;-0.00;0.00"
     share = column_of(book["Columns"], "probability that it goes on")
     assert max(value for value in share if value is not None) <= 1.0
 

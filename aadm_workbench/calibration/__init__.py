@@ -1,0 +1,1 @@
+"""What a camera, and whoever uses it, can prove about itself."""

@@ -1,0 +1,1 @@
+"""The gauge study: repeat captures of the same columns."""

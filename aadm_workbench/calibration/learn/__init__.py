@@ -1,0 +1,1 @@
+"""What a camera does to a plate: learned from captures of it."""

@@ -1,0 +1,115 @@
+"""What the commands say of what they are asked for."""
+
+from __future__ import annotations
+
+from aadm_workbench.model.sentences import Sentence
+
+SENTENCES: dict[str, Sentence] = {
+    "command.asks_without_scan": Sentence(
+        "column {column}: the job asks for {parts}, but names no scan for it",
+        "柱 {column}：作业要求{parts}，但未给出其扫描",
+    ),
+    "command.cannot_write": Sentence(
+        "{file}: cannot be written ({why}); check its folder", "{file}：无法写入（{why}）；请检查其文件夹"
+    ),
+    "command.edge_mask_camera": Sentence(
+        "--filter edge-mask wants the brightness of the scan: use --camera fringe",
+        "--filter edge-mask 需要扫描的亮度：请使用 --camera fringe",
+    ),
+    "command.events_and_json": Sentence(
+        "--events - and --json both want stdout; write the events into a file",
+        "--events - 与 --json 都要写到标准输出；请把事件写入文件",
+    ),
+    "command.folder_gone": Sentence(
+        "{folder}: cannot be listed any more ({why})", "{folder}：已无法列出其内容（{why}）"
+    ),
+    "command.folder_is_link": Sentence(
+        "{folder}: is a symbolic link; where it leads may be meant, then say so with --out",
+        "{folder}：是符号链接；若确要写到其所指之处，请用 --out 指明",
+    ),
+    "command.link_to_nothing": Sentence(
+        "nothing to link to: say --opcua PORT, --modbus PORT or --mqtt BROKER",
+        "没有要连接的对象：请给出 --opcua 端口、--modbus 端口或 --mqtt 代理",
+    ),
+    "command.named_twice": Sentence(
+        '{job}, line {line}: "{id}" and "{other}" (line {other_line}) are one column of {model} ({column}); '
+        "name it once",
+        "{job} 第 {line} 行：“{id}”与“{other}”（第 {other_line} 行）是 {model} 中的同一根柱（{column}）；请只写一次",
+    ),
+    "command.no_folder": Sentence(
+        "{folder}: the folder cannot be made ({why})",
+        "{folder}：无法建立该文件夹（{why}）",
+    ),
+    "command.no_producer": Sentence(
+        "no producer is known: name one, gentl:FILE.cti, or set {variable}",
+        "没有已知的 GenTL 驱动：请给出 gentl:FILE.cti，或设置 {variable}",
+    ),
+    "command.no_question": Sentence(
+        "{file}: is no question of the workbench ({error})", "{file}：不是工作台的提问文件（{error}）"
+    ),
+    "command.no_report_folder": Sentence(
+        "{folder}: the folder for the reports cannot be made ({why})", "{folder}：无法建立报告文件夹（{why}）"
+    ),
+    "command.no_room_for_sleeves": Sentence(
+        "sleeves {cover_mm:g} mm from the sides of a column of {size_mm:g} mm leave no room",
+        "套筒距柱边 {cover_mm:g} mm，而柱边长为 {size_mm:g} mm，放不下",
+    ),
+    "command.no_such_column": Sentence(
+        '{job} has no column "{name}" (--only); {meant}', "{job} 中没有柱“{name}”（--only）；{meant}"
+    ),
+    "command.no_such_sleeve": Sentence(
+        "the column has no sleeve {names}; it has {first} to {last}", "该柱没有套筒 {names}；其套筒为 {first} 至 {last}"
+    ),
+    "command.no_watched_folder": Sentence(
+        "{folder}: there is no such folder to watch", "{folder}：没有这个要监视的文件夹"
+    ),
+    "command.nothing_to_match": Sentence(
+        "{job} has nothing to match: it needs scans of sleeves and scans of rebars",
+        "{job} 中没有可配对的内容：需要套筒扫描和钢筋扫描",
+    ),
+    "command.opcua_open": Sentence(
+        "--opcua on an address that others reach needs --certificates DIR: without, anybody could read",
+        "在他人可达的地址上使用 --opcua 时必须给出 --certificates 文件夹：否则任何人都能读取",
+    ),
+    "command.plan_of_what": Sentence(
+        "name a job with --column, or a column with --size", "请给出作业和 --column，或用 --size 给出柱的尺寸"
+    ),
+    "command.report_of_job": Sentence(
+        "{file}: of a job only --scan-card can be made; check it first (aadm check {job}), then name its report.json",
+        "{file}：由作业只能生成 --scan-card；请先检查（aadm check {job}），再给出其 report.json",
+    ),
+    "command.seed_below_zero": Sentence(
+        "--seed must not be below zero, it is {seed}", "--seed 不得小于零，当前为 {seed}"
+    ),
+    "command.several_columns": Sentence(
+        "{model} holds {count} columns: {called}. Select one of them.",
+        "{model} 中有 {count} 根柱：{called}。请选择其中一根。",
+    ),
+    "command.stack_write": Sentence(
+        "--write-ifc writes one report into its model: name one REPORT.json and --model",
+        "--write-ifc 把一份报告写入其模型：请给出一个 REPORT.json 和 --model",
+    ),
+    "command.tls_halved": Sentence(
+        "--tls-ca and --tls-cert go together: whom to trust, and what to be trusted by",
+        "--tls-ca 与 --tls-cert 须同时给出：信任谁，以及凭什么被信任",
+    ),
+    "command.tls_without_scheduler": Sentence(
+        "--tls-ca, --tls-cert and --tls-key go with --scheduler; workers of this machine need none",
+        "--tls-ca、--tls-cert、--tls-key 与 --scheduler 一起使用；本机进程不需要",
+    ),
+    "command.which_column": Sentence(
+        "say with --column which column of the job is meant", "请用 --column 指明作业中的哪一根柱"
+    ),
+    "command.write_into_other": Sentence(
+        "{job}: --write-ifc writes into IFC models (.ifc), but [model] path is {model}",
+        "{job}：--write-ifc 只写入 IFC 模型（.ifc），而 [model] path 为 {model}",
+    ),
+    "command.write_without_model": Sentence(
+        "{job}: --write-ifc needs a [model], for results are written into the model's elements",
+        "{job}：--write-ifc 需要 [model]，因为结果要写入模型的构件",
+    ),
+    "command.writeback_of_what": Sentence(
+        "{file}: name the report and the model: aadm writeback REPORT.json MODEL.ifc",
+        "{file}：请给出报告与模型：aadm writeback REPORT.json MODEL.ifc",
+    ),
+}

@@ -1,0 +1,182 @@
+"""Let a camera prove itself: draw a plate for a workshop, learn the camera from captures of it, verify it later.
+
+`plate` draws it and writes plate.toml with its nominal places; the table of a measuring machine replaces these.
+`learn` takes six to twelve captures of it, from several distances, tilted by up to 5 degrees, turned by 0, 90, 180 and
+270 degrees, and writes the camera's profile, which [camera] profile of a job uses. `verify` asks one capture whether
+the profile still holds, and keeps a log.
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..exit_codes import ALL_PASS, exit_code_of
+from ..switches import add_switches, length, whole_number
+
+if TYPE_CHECKING:
+    from aadm_workbench.calibration.learn.capture import PlateCapture
+    from aadm_workbench.calibration.plate.plate import Plate
+
+EXAMPLE = """\
+examples:
+  aadm camera plate --holes 12 --diameter 36 --pitch 160 --pins 20 --out plate
+  aadm camera learn plate/plate.toml plate-*.tiff --camera camera.toml --serial 0042 --out camera-0042.toml
+  aadm camera verify plate/plate.toml today.tiff --profile camera-0042.toml"""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Declare what the command takes."""
+    kinds = parser.add_subparsers(title="what to do", metavar="WHAT", required=True)
+    _add_plate(kinds.add_parser("plate", help=_PLATE, description=f"{_PLATE}."))
+    _add_learn(kinds.add_parser("learn", help=_LEARN, description=f"{_LEARN}."))
+    _add_verify(kinds.add_parser("verify", help=_VERIFY, description=f"{_VERIFY}."))
+
+
+_PLATE = "draw a plate for the workshop: plate.pdf, plate.dxf, plate.toml"
+_LEARN = "learn a camera from captures of a plate"
+_VERIFY = "ask one capture of the plate whether a profile still holds; pass or fail, and a line in a log"
+
+
+def _add_plate(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--holes", type=whole_number, default=12, metavar="N", help="in a square ring (default: 12)")
+    parser.add_argument("--diameter", type=length, default=36.0, metavar="MM", help="of the holes (default: 36)")
+    parser.add_argument("--pitch", type=length, default=160.0, metavar="MM", help="between holes (default: 160)")
+    parser.add_argument("--pins", type=length, default=20.0, metavar="MM", help="diameter of the pins (default: 20)")
+    parser.add_argument("--out", type=Path, default=Path("plate"), metavar="DIR", help="folder (default: plate)")
+    parser.add_argument(
+        "--language", choices=("en", "zh"), default="en", metavar="LANGUAGE", help="en or zh: of the drawing"
+    )
+    add_switches(parser, prints_json=None)
+    parser.set_defaults(run=_draw)
+
+
+def _add_captures(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--camera", type=Path, metavar="FILE", help="intrinsics, where captures do not carry them")
+    parser.add_argument("--depth-scale", type=length, metavar="MM", help="step of integer depth maps")
+    parser.add_argument(
+        "--temperature", type=float, metavar="C", help="of the plate, degrees Celsius: its lengths follow"
+    )
+    parser.add_argument(
+        "--date", default="", metavar="DATE", help="of the captures, 2026-11-20; kept, and never guessed"
+    )
+
+
+def _add_learn(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("plate", type=Path, metavar="PLATE.toml", help="the plate")
+    parser.add_argument("captures", type=Path, nargs="+", metavar="CAPTURE", help="six to twelve, four at least")
+    parser.add_argument("--out", type=Path, required=True, metavar="FILE", help="the camera's profile, .toml")
+    parser.add_argument("--serial", default="", metavar="TEXT", help="of the camera, as [capture] of jobs has it")
+    parser.add_argument("--settings", default="", metavar="TEXT", help="of the camera, as [capture] of jobs has them")
+    parser.add_argument(
+        "--valid-days", type=whole_number, default=90, metavar="N", help="how long it holds (default: 90)"
+    )
+    _add_captures(parser)
+    add_switches(parser, prints_json="what was learned")
+    parser.set_defaults(run=_learn)
+
+
+def _add_verify(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("plate", type=Path, metavar="PLATE.toml", help="the plate")
+    parser.add_argument("capture", type=Path, metavar="CAPTURE", help="one capture of it")
+    parser.add_argument("--profile", type=Path, required=True, metavar="FILE", help="the camera's profile")
+    parser.add_argument(
+        "--log", type=Path, metavar="FILE", help="the log (default: PROFILE-log.csv beside the profile)"
+    )
+    parser.add_argument("--html", type=Path, metavar="FILE", help="write the control chart of the log")
+    _add_captures(parser)
+    add_switches(parser, prints_json="what was found")
+    parser.set_defaults(run=_verify)
+
+
+def _draw(options: argparse.Namespace) -> int:
+    from aadm_workbench.calibration.plate.dxf import write_plate_dxf
+    from aadm_workbench.calibration.plate.file import write_plate
+    from aadm_workbench.calibration.plate.pdf import write_plate_pdf
+    from aadm_workbench.calibration.plate.plate import drawn_plate
+    from aadm_workbench.errors import DesignError
+
+    from ..shown.terminal import show
+
+    plate = drawn_plate(options.holes, options.diameter, options.pitch, options.pins)
+    try:
+        options.out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise DesignError(f"{options.out}: the folder cannot be made ({error.strerror})") from error
+    write_plate(plate, options.out / "plate.toml")
+    write_plate_dxf(plate, options.out / "plate.dxf")
+    write_plate_pdf(plate, options.out / "plate.pdf", options.language)
+    if not options.quiet:
+        show(f"Wrote plate.toml, plate.dxf, plate.pdf to {options.out}")
+    return ALL_PASS
+
+
+def _plate_and_captures(options: argparse.Namespace, files: Sequence[Path]) -> tuple[Plate, list[PlateCapture]]:
+    from aadm_workbench.calibration.learn.capture import captured_plate
+    from aadm_workbench.calibration.plate.file import read_plate
+    from aadm_workbench.scan.camera import read_camera
+    from aadm_workbench.scan.read import read_scan
+
+    from ..shown.progress import StepProgress
+
+    plate = read_plate(options.plate)
+    if options.temperature is not None:
+        plate = plate.at(options.temperature)
+    camera = None if options.camera is None else read_camera(options.camera)
+    scale_mm, found = options.depth_scale, []
+    with StepProgress("captures", quiet=options.quiet or options.json) as progress:
+        step = progress.start(len(files))
+        for path in files:
+            scan = read_scan(path, camera=camera, depth_scale_mm=scale_mm)
+            found.append(captured_plate(scan, plate))
+            step(str(path))
+    return plate, found
+
+
+def _learn(options: argparse.Namespace) -> int:
+    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.calibration.learn.learn import learned
+    from aadm_workbench.calibration.learn.profile import figures_text, learned_document, profile_of
+    from aadm_workbench.report.json import encode
+    from aadm_workbench.scan.camera_profile import profile_text
+
+    from ..shown.camera_tables import learned_tables
+    from ..shown.terminal import show, show_json
+
+    plate, captures = _plate_and_captures(options, options.captures)
+    found = learned(captures, plate)
+    profile = profile_of(found, plate, options.serial, options.settings, options.date, options.valid_days)
+    write_atomically(options.out, profile_text(profile, figures_text(found, options.temperature)).encode())
+    if options.json:
+        show_json(encode(learned_document(found)))
+    elif not options.quiet:
+        show(*learned_tables(found), f"Written: {options.out}")
+    return ALL_PASS
+
+
+def _verify(options: argparse.Namespace) -> int:
+    from aadm_workbench.calibration.learn.verify import Checked, append_log, verified, write_control_chart
+    from aadm_workbench.report.json import encode
+    from aadm_workbench.scan.camera_profile import read_profile
+
+    from ..shown.camera_tables import verified_table
+    from ..shown.terminal import show, show_json
+
+    profile = read_profile(options.profile)
+    plate, (capture,) = _plate_and_captures(options, [options.capture])
+    checks: tuple[Checked, ...] = verified(capture, plate, profile)
+    log = options.log or options.profile.with_name(f"{options.profile.stem}-log.csv")
+    append_log(log, options.date, options.capture.name, checks)
+    if options.html is not None:
+        write_control_chart(log, profile, options.html)
+    if options.json:
+        show_json(
+            encode(
+                [{"name": one.name, "value": one.value, "limit": one.limit, "verdict": one.verdict} for one in checks]
+            )
+        )
+    elif not options.quiet:
+        show(verified_table(checks), f"Log: {log}")
+    return exit_code_of([one.verdict for one in checks])

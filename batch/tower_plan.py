@@ -1,0 +1,100 @@
+"""The tower of a check: what ``aadm stack`` tells, and what the reports of a job with [stack] show of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from aadm_workbench.errors import AadmError
+
+if TYPE_CHECKING:
+    from aadm_workbench.model import JobReport, Profile, StackSettings
+    from aadm_workbench.report.ifc.addition import Property
+    from aadm_workbench.report.tower import TowerShown
+    from aadm_workbench.stack.result import StackPlan
+
+PROFILE = "cn-gbt51231-2016"
+"""The profile with limits of erected members; the usual one of a check has none of them."""
+
+
+def planned(reports: Sequence[JobReport], settings: StackSettings, profile: Profile, model: Path | None) -> StackPlan:
+    """The plan of a tower from reports, and from the beams of a model where one is named.
+
+    Raises
+    ------
+    DesignError
+        Where the model cannot be read.
+    """
+    from aadm_workbench.inspection.as_designed import unforeseen_in
+    from aadm_workbench.stack.measured import measured_floor
+    from aadm_workbench.stack.plan import plan_stack
+
+    floors = [measured_floor(report) for report in reports]
+    floor = None
+    if model is not None:
+        from aadm_workbench.design.ifc.floor import read_floor
+
+        with unforeseen_in(str(model)):
+            floor = read_floor(model)
+    return plan_stack(floors, settings, profile, floor)
+
+
+def plan_of(report: JobReport, model: Path | None) -> StackPlan | None:
+    """The plan of the tower of a check; None where its job has no [stack].
+
+    A model that is no IFC file, or cannot be read, costs beams and heights alone, and that is said.
+
+    Raises
+    ------
+    JobError
+        Where somebody has changed the report's [stack] to what is none.
+    """
+    from .job.stack import carried_settings
+
+    settings = carried_settings(report.job)
+    if settings is None:
+        return None
+    from aadm_workbench.assembly.tolerances import load_profile
+    from aadm_workbench.report.words.reasons import in_both_languages
+    from aadm_workbench.stack.result import NotFound
+
+    profile = load_profile(PROFILE)
+    named = model if model is not None and model.suffix.lower() == ".ifc" else None
+    try:
+        return planned([report], settings, profile, named)
+    except AadmError as error:
+        unread = NotFound(str(named), in_both_languages(error.reason))
+        return replace(planned([report], settings, profile, None), not_found=(unread,))
+
+
+def tower_of(report: JobReport, model: Path | None) -> TowerShown | None:
+    """What the reports of a check show of its tower; None where its job has no [stack]; errors as :func:`plan_of`."""
+    plan = plan_of(report, model)
+    if plan is None:
+        return None
+    from aadm_workbench.stack.shown import tower_shown  # as below: most jobs have no tower to load it for
+
+    return tower_shown(plan)
+
+
+def setting_of(report: JobReport, model: Path | None) -> dict[str, list[Property]]:
+    """What the model is told of the tower; empty where the job has no [stack]; errors as :func:`plan_of`."""
+    plan = plan_of(report, model)
+    if plan is None:
+        return {}
+    from aadm_workbench.stack.setting import setting_properties
+
+    return setting_properties(plan)
+
+
+def with_setting(report: JobReport, model: Path | None) -> JobReport:
+    """The report with the setting of each column, where the job has [stack]; errors as :func:`plan_of`."""
+    plan = plan_of(report, model)
+    if plan is None:
+        return report
+    from aadm_workbench.stack.setting import setting_report
+
+    found = {one.measured.id: setting_report(one) for one in plan.columns}
+    return replace(report, columns=tuple(replace(one, setting=found[one.id]) for one in report.columns))

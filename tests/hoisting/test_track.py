@@ -1,0 +1,77 @@
+"""Frames that follow each other: as exact as if each were the first, and lost where something else is there."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+pytest.importorskip("open3d")
+pytest.importorskip("manifold3d")
+
+from aadm_workbench.hoisting.measure import measure_hoisting
+from aadm_workbench.hoisting.sighting import SightedMeasurement
+from aadm_workbench.twin.hoisting import Hang, HoistingScan, Stand
+from aadm_workbench.twin.scenes import LAB
+from aadm_workbench.twin.study.hoisting import design_of
+from tests import hoisting_scenes as scenes
+
+
+def measured(truth: HoistingScan, after: SightedMeasurement | None = None) -> SightedMeasurement:
+    earlier = None if after is None else after.sighting
+    found = measure_hoisting(truth.frame.scan(), design_of(LAB), near=scenes.NEAR, after=earlier)
+    assert isinstance(found, SightedMeasurement)
+    return found
+
+
+@cache
+def first() -> SightedMeasurement:
+    return measured(scenes.usual())
+
+
+@cache
+def next_truth() -> HoistingScan:
+    """The usual column, lowered by 1.5 mm and swung aside by 1 mm and 0.1 degrees."""
+    return scenes.frame(LAB, Hang(88.5, 0.1, shift=(1.4, -0.1)), Stand(850.0), 1)
+
+
+def test_a_frame_that_follows_is_as_exact_as_one_that_is_searched() -> None:
+    tracked, searched = measured(next_truth(), first()), measured(next_truth())
+    assert (tracked.sighting.tracked, searched.sighting.tracked) == (1, 0)
+    assert [pair.seen for pair in tracked.report.pairs] == [pair.seen for pair in searched.report.pairs]
+    errors, others = (scenes.distance_errors(found, next_truth()) for found in (tracked, searched))
+    assert errors.mean() < max(0.12, 1.3 * others.mean())
+    off = scenes.offset_errors(tracked, next_truth())
+    squared = np.einsum("ki,kij,kj->k", off, np.linalg.inv(tracked.covariances), off)
+    assert (squared < 18.4).all()  # one of ten thousand is farther
+    move, other = tracked.report.correction, searched.report.correction
+    assert move is not None
+    assert other is not None
+    assert (move.dx_mm, move.dy_mm) == pytest.approx((other.dx_mm, other.dy_mm), abs=0.25)
+    assert tracked.report.column_tilt_deg == pytest.approx(searched.report.column_tilt_deg, abs=0.1)
+
+
+def test_a_bar_that_is_bent_from_one_frame_to_the_next_is_seen_where_it_stands() -> None:
+    truth = scenes.bent_since()  # R2, by 6 mm
+    found = measured(truth, first())
+    errors = scenes.offset_errors(found, truth)
+    assert found.report.pairs[1].rebar_seen
+    assert np.hypot(*errors[1]) < 0.45
+
+
+def test_another_column_is_searched_for() -> None:
+    other = scenes.from_corner(scenes.NEAR)
+    found = measured(other, first())
+    assert found.sighting.tracked == 0
+    assert found.report == measured(other).report
+
+
+def test_what_follows_for_long_is_searched_anew() -> None:
+    found = first()
+    for number in range(1, 33):
+        found = measured(scenes.usual(), found)
+        if found.sighting.tracked == 0:
+            assert number == 31
+            return
+    pytest.fail("never searched anew")
