@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from aadm_workbench import errors
+from aadm_workbench.camera import replay
 from aadm_workbench.design.model_units import MM_PER_UNIT
 from aadm_workbench.design.read import SUPPORTED
 from aadm_workbench.extract.method import BY_DESIGN, METHODS
@@ -132,3 +133,8 @@ def test_the_page_has_the_colours_of_the_drawings() -> None:
         verdict: STYLES[f"fill-{verdict}"].stroke for verdict in strokes
     }
     assert COLOUR.keys() == strokes.keys()
+
+
+def test_captures_that_are_played_again_hold_what_can_be_read() -> None:
+    """But for tables of text: beside a capture these are mostly something else."""
+    assert {*DEPTH_MAPS, *CLOUDS, ".npz"} == replay._POINTS

@@ -26,18 +26,25 @@ examples:
   aadm camera learn plate/plate.toml plate-*.tiff --camera camera.toml --serial 0042 --out camera-0042.toml
   aadm camera verify plate/plate.toml today.tiff --profile camera-0042.toml"""
 
+_PLATE = "draw a plate for the workshop: plate.pdf, plate.dxf, plate.toml"
+_LEARN = "learn a camera from captures of a plate"
+_VERIFY = "ask one capture of the plate whether a profile still holds; pass or fail, and a line in a log"
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Declare what the command takes."""
     kinds = parser.add_subparsers(title="what to do", metavar="WHAT", required=True)
-    _add_plate(kinds.add_parser("plate", help=_PLATE, description=f"{_PLATE}."))
-    _add_learn(kinds.add_parser("learn", help=_LEARN, description=f"{_LEARN}."))
-    _add_verify(kinds.add_parser("verify", help=_VERIFY, description=f"{_VERIFY}."))
-
-
-_PLATE = "draw a plate for the workshop: plate.pdf, plate.dxf, plate.toml"
-_LEARN = "learn a camera from captures of a plate"
-_VERIFY = "ask one capture of the plate whether a profile still holds; pass or fail, and a line in a log"
+    _, *examples = EXAMPLE.splitlines()
+    for (name, said, add), example in zip(_KINDS, examples, strict=True):
+        add(
+            kinds.add_parser(
+                name,
+                help=said,
+                description=f"{said}.",
+                epilog=f"example:\n{example}",
+                formatter_class=argparse.RawDescriptionHelpFormatter,
+            )
+        )
 
 
 def _add_plate(parser: argparse.ArgumentParser) -> None:
@@ -89,6 +96,9 @@ def _add_verify(parser: argparse.ArgumentParser) -> None:
     _add_captures(parser)
     add_switches(parser, prints_json="what was found")
     parser.set_defaults(run=_verify)
+
+
+_KINDS = (("plate", _PLATE, _add_plate), ("learn", _LEARN, _add_learn), ("verify", _VERIFY, _add_verify))
 
 
 def _draw(options: argparse.Namespace) -> int:

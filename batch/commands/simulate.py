@@ -58,7 +58,7 @@ _JOBS = {
     "lab": "the laboratory model: clouds, truth.json and job.toml of two columns",
     "tower": "columns that will be set with known errors: scans, control points, truth.json, and a job for aadm stack",
 }
-_PLATE = "captures of a plate by a virtual camera whose scale is off by 0.05 %, and truth.json: for aadm camera learn"
+_PLATE = "captures of a plate by a virtual camera whose scale is off, and truth.json: for aadm camera learn"
 _PLATE_EXAMPLE = """\
 example:
   aadm simulate plate --out plate --seed 7 --filter rings=1

@@ -76,7 +76,7 @@ def test_a_new_file_by_default_and_the_model_itself_on_request(
     report, model = finished / "report" / "report.json", finished / "floor 3.ifc"
     original = model.read_bytes()
     assert main(["writeback", str(report), str(model)]) == 0
-    assert "2 columns: 50 property sets and 47 as-built marks in the model (IFC4)" in capsys.readouterr().out
+    assert "2 columns: 52 property sets and 47 as-built marks in the model (IFC4)" in capsys.readouterr().out
     assert model.read_bytes() == original
     written = finished / "floor 3-checked.ifc"
     assert b"'report/report.json'" in written.read_bytes(), "the columns are linked to their report"
