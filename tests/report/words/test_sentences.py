@@ -45,7 +45,7 @@ def places(text: str) -> list[tuple[str, str]]:
     return sorted((name, form or "") for _, name, form, _ in string.Formatter().parse(text) if name)
 
 
-NAMED_IN_CHINESE = {"assembly.disposal_plan", "design.name_sleeves"}
+NAMED_IN_CHINESE = {"repair.disposal_plan", "design.name_sleeves"}
 """What a Chinese designer calls the thing, said in English too."""
 
 
