@@ -261,7 +261,7 @@ def _left_over(repair: RepairReport) -> Iterator[Step]:
 
 
 def _scan_closer(column: ColumnReport) -> Step:
-    labels = () if column.trial_assembly is None else column.trial_repair.rescan
+    labels = () if column.trial_assembly is None else column.trial_assembly.rescan
     return Step(phrase("crew.scan_label_again", labels=", ".join(labels)) if labels else phrase("crew.scan_closer"))
 
 
