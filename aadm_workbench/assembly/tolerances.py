@@ -79,6 +79,7 @@ _TYPES: dict[str, tuple[type, ...]] = {
     "kind": (str,),
     "level": (str,),
     "advisory": (bool,),
+    "working_figure": (bool,),
     "note": (str,),
 }
 _TYPE_NAMES = {str: "text", float: "a number", bool: "true or false"}
@@ -182,7 +183,7 @@ def _rule(entry: _Table, where: str) -> Rule:
     for key, value in entry.items():
         if key not in _TYPES:
             raise JobError(f"{where}: unknown key {key!r}; known are {', '.join(sorted(_TYPES))}")
-        if not isinstance(value, _TYPES[key]) or (isinstance(value, bool) and key != "advisory"):
+        if not isinstance(value, _TYPES[key]) or (isinstance(value, bool) and bool not in _TYPES[key]):
             raise JobError(f"{where}: {key} must be {_TYPE_NAMES[_TYPES[key][-1]]}, it is {value!r}")
     for key in _REQUIRED:
         if key not in entry:
@@ -209,6 +210,7 @@ def _rule(entry: _Table, where: str) -> Rule:
         note=entry.get("note", ""),
         kind=kind,
         level=entry.get("level", "bar_in_group"),
+        working_figure=entry.get("working_figure", False),
     )
 
 

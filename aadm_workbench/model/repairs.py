@@ -84,6 +84,8 @@ class RepairReport:
         Labels of the bars that a check would then still find beyond their own limit of position.
     adjustment_limit_mm, clause
         How far the profile lets this advice bend a bar, and where that is written; None where it does not say.
+    working_figure
+        Whether no clause says so.
     """
 
     action: RepairAction
@@ -98,3 +100,4 @@ class RepairReport:
     subject_to: str = "the engineer's release"
     notes: tuple[str, ...] = ()
     still_fails: tuple[str, ...] = ()
+    working_figure: bool = False

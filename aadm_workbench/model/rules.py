@@ -17,6 +17,7 @@ class Rule:
     ``advisory`` rules are reported and not counted. ``source`` is
     ``verified`` or ``unverified``. ``kind`` says how the deviation is taken (``radial``, ``per_axis`` or
     ``signed``), ``level`` what it is taken against (``bar_in_group``, ``group_to_datum`` or ``component``).
+    ``working_figure``: nobody but this program, or who wrote the profile, says so; there is no clause.
     """
 
     name: str
@@ -31,6 +32,7 @@ class Rule:
     note: str = ""
     kind: str = "radial"
     level: str = "bar_in_group"
+    working_figure: bool = False
 
     @property
     def upper(self) -> float:

@@ -86,9 +86,6 @@ def declared_up(column: ColumnReport) -> str | None:
     return f"up = {ups[0]}" if len(ups) == 1 else ", ".join(f"{name}_up = {up}" for name, up in said.items())
 
 
-_NO_CLAUSE = "no clause"
-
-
 def advice_notes(column: ColumnReport) -> list[Phrase]:
     """What stands behind an advice: how far bars are bent and who says so, and what their names hang on."""
     repair = column.repair
@@ -98,7 +95,7 @@ def advice_notes(column: ColumnReport) -> list[Phrase]:
     if repair.adjustment_limit_mm:
         clause = in_both_languages(repair.clause)
         values = {"mm": f"{repair.adjustment_limit_mm:g}"}
-        if repair.clause.startswith(_NO_CLAUSE):
+        if repair.working_figure:
             notes.append(phrase("repair.reach_unverified", **values))
         else:
             said = phrase("repair.reach")

@@ -103,6 +103,28 @@ def test_design_of_one_column(model: list[dict[str, Any]], capsys: Output) -> No
     assert "no column with grouting sleeves in its foot; it holds 3 IfcWall" in capsys.readouterr().err
 
 
+def test_why_of_one_column_tells_of_that_alone(monkeypatch: pytest.MonkeyPatch, capsys: Output) -> None:
+    """What lies under another column, another column itself, and the sleeves of none are not its own."""
+    table = {"centres": [[-90, -90], [90, -90], [90, 90]], "sleeve_diameter": 26.0, "rebar_diameter": 18.0}
+    column = replace(inline_design("C-301", table), T_model_column=T_MODEL_COLUMN)
+    left = [
+        NotTaken("rebar", "IfcReinforcingBar", name * 22, name, f"{name} is a stirrup", np.array(point))
+        for name, point in (("near", [*T_MODEL_COLUMN[:3, 3]]), ("far", [90_000.0, 0.0, 0.0]))
+    ]
+    left.append(NotTaken("column", "IfcColumn", "C" * 22, "C-302", "C-302 has no sleeves"))
+    model = ModelDesign("m.ifc", "f" * 64, "IFC4", (column,), (), (), (), tuple(left), "")
+    monkeypatch.setattr(read, "read_model", lambda path, **selectors: model)
+    assert main(["design", "m.ifc", "--column", "C-301", "--why"]) == 0
+    printed = capsys.readouterr().out
+    assert "near is a stirrup" in printed
+    assert "far is a stirrup" not in printed
+    assert "C-302" not in printed
+    assert main(["design", "m.ifc", "--why"]) == 0
+    printed = capsys.readouterr().out
+    assert "far is a stirrup" in printed
+    assert "C-302 has no sleeves" in printed
+
+
 def test_design_of_no_model(tmp_path: Path, capsys: Output) -> None:
     (tmp_path / "m.doc").touch()
     assert main(["design", str(tmp_path / "m.doc")]) == 2

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import stat
 from pathlib import Path
 from typing import Any
 
@@ -92,6 +93,26 @@ def test_a_new_file_by_default_and_the_model_itself_on_request(
     assert main(["writeback", str(model), "--remove", "--in-place", "--quiet"]) == 0
     assert capsys.readouterr().out == ""
     assert model.read_bytes() == original
+
+
+def test_a_model_keeps_its_mode_and_one_that_may_only_be_read_stays(
+    finished: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    report, model = finished / "report" / "report.json", tmp_path / "floor.ifc"
+    shutil.copyfile(finished / "floor 3.ifc", model)
+    original = model.read_bytes()
+    model.chmod(0o440)
+    assert main(["writeback", str(report), str(model), "--in-place", "--quiet"]) == 2
+    assert "may only be read" in capsys.readouterr().err
+    assert (model.read_bytes(), sorted(tmp_path.iterdir())) == (original, [model]), "nor is there a backup"
+    model.chmod(0o664)
+    assert main(["writeback", str(report), str(model), "--in-place", "--quiet"]) == 0
+    assert model.read_bytes() != original
+    assert stat.S_IMODE(model.stat().st_mode) == 0o664
+    checked_copy = tmp_path / "tower-checked.ifc"
+    shutil.copyfile(model, checked_copy)
+    assert main(["writeback", str(checked_copy), "--remove", "--quiet"]) == 0
+    assert (tmp_path / "tower-restored.ifc").read_bytes() == original, "not tower-checked-restored.ifc"
 
 
 def test_a_changed_model_is_refused_without_force(finished: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -137,6 +137,7 @@ def _report(case: RepairCase, plan: RepairPlan, exact: bool) -> RepairReport:
         exact=exact,
         adjustment_limit_mm=case.adjustment_mm,
         clause="" if case.adjustment_rule is None else describe_clause(case.adjustment_rule),
+        working_figure=case.adjustment_rule is not None and case.adjustment_rule.working_figure,
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import uuid
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -29,6 +29,8 @@ _IDS = uuid.UUID("5d0d3d6e-3c1c-5a39-8f8e-2a2f4a1d7b60")
 _LABEL_LENGTH = 255  # of an IfcLabel (ISO 10303-11 leaves it open, IFC does not)
 _UNREADABLE = re.compile("[\x00\ud800-\udfff]")
 _OURS_ALREADY = re.compile(rb"'(3AADM[0-9A-Za-z_$]{17})'")
+_DECIMALS = 9
+"""Of places and directions: a nanometre of a metre, a tenth of a micrometre at the end of 100 m; digits are bytes."""
 _LENGTHS = {"IfcLengthMeasure", "IfcPositiveLengthMeasure"}
 
 
@@ -53,27 +55,30 @@ class Addition:
         self._text = text
         self._radians = opened.radians
         self._taken = {found.decode() for found in _OURS_ALREADY.findall(text.content)}
-        self._known: dict[tuple[object, ...], Any] = {}
+        self._known: dict[tuple[object, ...], int] = {}
         self._history = self._owner_history()
 
     def once(self, ifc_class: str, key: Sequence[object], **attributes: Any) -> Any:
         """An entity without an identity of its own, which all that say the same share: half of the bytes of a floor."""
         known = (ifc_class, *key)
-        if known not in self._known:
-            self._known[known] = self.new(ifc_class, **attributes)
-        return self._known[known]
+        number = self._known.get(known)
+        if number is not None:
+            return self.file.by_id(number)
+        made = self.new(ifc_class, **attributes)
+        self._known[known] = made.id()  # an entity of ifcopenshell takes ten times the memory of its number
+        return made
 
     def new(self, ifc_class: str, **attributes: Any) -> Any:
         """An entity."""
         return self.file.create_entity(ifc_class, **attributes)
 
-    def rooted(self, ifc_class: str, key: Sequence[str], name: str, **attributes: Any) -> Any:
-        """An entity with a GlobalId that follows from its key, and a name."""
+    def rooted(self, ifc_class: str, key: Sequence[str], name: str | None, **attributes: Any) -> Any:
+        """An entity with a GlobalId that follows from its key, and a name where it needs one."""
         return self.new(
             ifc_class,
             GlobalId=self.global_id(key_of(ifc_class, key)),
             OwnerHistory=self._history,
-            Name=label(name),
+            Name=None if name is None else label(name),
             **attributes,
         )
 
@@ -99,7 +104,7 @@ class Addition:
         if measure in _LENGTHS:
             value = self.length(float(value))
         elif measure == "IfcPlaneAngleMeasure":
-            value = math.radians(float(value)) / self._radians
+            value = round(math.radians(float(value)) / self._radians, _DECIMALS + 2)  # degrees keep eight decimals
         elif measure == "IfcLabel":
             value = label(str(value))
         elif isinstance(value, str):
@@ -114,17 +119,20 @@ class Addition:
     def _property(self, name: str, measure: str, value: Scalar) -> Any:
         if measure == ENUMERATED:
             return self.new(measure, Name=name, EnumerationValues=[self.value("IfcLabel", value)])
-        key = (name, measure, type(value).__name__, value)
-        return self.once("IfcPropertySingleValue", key, Name=name, NominalValue=self.value(measure, value))
+        known = ("IfcPropertySingleValue", name, measure, type(value).__name__, value)
+        number = self._known.get(known)
+        if number is not None:
+            return self.file.by_id(number)
+        return self.once(known[0], known[1:], Name=name, NominalValue=self.value(measure, value))
 
     def point(self, *xyz_mm: float) -> Any:
         """A point, given in mm."""
-        place = [self.length(value) + 0.0 for value in xyz_mm]
+        place = [round(self.length(value), _DECIMALS) + 0.0 for value in xyz_mm]
         return self.once("IfcCartesianPoint", place, Coordinates=place)
 
     def direction(self, vector: Array) -> Any:
         """A direction."""
-        ratios = [float(value) + 0.0 for value in vector]
+        ratios = [round(float(value), _DECIMALS) + 0.0 for value in vector]
         return self.once("IfcDirection", ratios, DirectionRatios=ratios)
 
     def axes(self, T_parent_own: Array) -> Any:
@@ -138,9 +146,9 @@ class Addition:
             RefDirection=self.direction(x) if turned else None,
         )
 
-    def lines(self) -> list[bytes]:
-        """The added entities as lines of the file, in the order of their ids."""
-        return [line_of(self.file.by_id(number)) for number in range(self.first, self.file.get_max_id() + 1)]
+    def lines(self) -> Iterator[bytes]:
+        """The added entities as lines of the file, in the order of their ids; a floor has a million."""
+        return (line_of(self.file.by_id(number)) for number in range(self.first, self.file.get_max_id() + 1))
 
     def _owner_history(self) -> Any:
         """IFC2X3 asks for one: the project's own, or one that names this program."""

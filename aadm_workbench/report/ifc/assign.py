@@ -36,7 +36,7 @@ class Assigner:
             related = self._unshare(relation, element, given) or related
         if not related:
             self.addition.rooted(
-                "IfcRelDefinesByProperties", key, name, RelatedObjects=[element], RelatingPropertyDefinition=given
+                "IfcRelDefinesByProperties", key, None, RelatedObjects=[element], RelatingPropertyDefinition=given
             )
 
     def _unshare(self, relation: Any, element: Any, given: Any) -> bool:

@@ -1,7 +1,8 @@
 """As-built centres in the model: small disks with arrows, in the storey of the column, coloured by verdict.
 
-Each mark is an IfcAnnotation whose placement is the measured centre. It is drawn twice: as solids, which every viewer
-shows, and as curves, which is what FreeCAD draws of an annotation. Layers and a group switch them off together.
+Each mark is an IfcAnnotation whose placement is the measured centre, its x axis along the deviation. It is drawn twice:
+as solids, which every viewer shows, and as curves, which is what FreeCAD draws of an annotation. Marks of one verdict
+and length share what is drawn: a floor has far more points than lengths. Layers and a group switch them off together.
 """
 
 from __future__ import annotations
@@ -21,10 +22,13 @@ MAGNIFIED = 20.0
 
 _DISK_RADIUS_MM, _THICKNESS_MM = 6.0, 2.0  # smaller than any bar, and seen from a room away
 _ARROW_MM = 100.0
-"""Length of the arrow as drawn once; each mark scales it."""
+"""Length of the arrow as drawn once; each length scales it."""
+_STEP_MM = 0.01
+"""Deviations are drawn in steps: an arrow is 0.1 mm off at most. The property sets hold the values."""
 # per cent of its length: a shaft, and a head of 30
 _ARROW = ((0.0, -3.0), (70.0, -3.0), (70.0, -11.0), (100.0, 0.0), (70.0, 11.0), (70.0, 3.0), (0.0, 3.0))
-_SHORTEST_MM = 0.01  # an arrow shorter than this has no direction
+_STEP_DEG = 0.1
+"""And so are their directions: the end of an arrow of 100 mm is 0.1 mm off at most."""
 _LAYERS = {Kind.SLEEVE: "AADM as-built sleeves", Kind.REBAR: "AADM as-built bars"}
 _BELOW = {Kind.SLEEVE: -_THICKNESS_MM, Kind.REBAR: 0.0}
 """Marks of sleeves hang below the foot face, those of bars lie on their tops: outside of concrete and steel."""
@@ -32,12 +36,17 @@ _BELOW = {Kind.SLEEVE: -_THICKNESS_MM, Kind.REBAR: 0.0}
 
 @dataclass(frozen=True, eq=False)
 class _Seen:
-    """A point that was measured: its offset, mm, and where its mark stands in the frame of its storey."""
+    """A point that was measured: its deviation in steps, and where its mark stands in the frame of its storey."""
 
     kind: Kind
     point: PointResult
-    offset_mm: tuple[float, float]
+    steps: int
     T_parent_mark: Array
+
+    @property
+    def drawn_mm(self) -> float:
+        """The deviation as it is drawn."""
+        return self.steps * _STEP_MM
 
 
 @dataclass
@@ -49,6 +58,8 @@ class Marks:
     _shapes: dict[str, list[Any]] = field(default_factory=dict)
     _contained: dict[int, tuple[Any, list[Any]]] = field(default_factory=dict)
     _maps: dict[tuple[str, ...], Any] = field(default_factory=dict)
+    _drawings: dict[tuple[object, ...], list[list[Any]]] = field(default_factory=dict)
+    _definitions: dict[tuple[object, ...], Any] = field(default_factory=dict)
     _once: dict[str, Any] = field(default_factory=dict)
 
     def draw(self, column: ColumnReport, element: Any, T_model_column: Array) -> None:
@@ -61,9 +72,10 @@ class Marks:
         for kind in Kind:
             for point in column.points(kind):
                 if point.aligned_mm is not None and point.offset_mm is not None:
-                    T_parent_mark = T_parent_column.copy()
-                    T_parent_mark[:3, 3] += T_parent_column[:3, :3] @ np.array(point.aligned_mm)
-                    seen = _Seen(kind, point, point.offset_mm, T_parent_mark)
+                    steps = round(float(np.hypot(*point.offset_mm)) / _STEP_MM)
+                    T_column_mark = _along(point.offset_mm) if steps else np.eye(4)
+                    T_column_mark[:3, 3] = point.aligned_mm
+                    seen = _Seen(kind, point, steps, T_parent_column @ T_column_mark)
                     mark = self._mark(column, element, seen, container, context)
                     self.drawn.append(mark)
                     if container is not None:
@@ -81,7 +93,14 @@ class Marks:
                 RelatedElements=marks,
             )
         if self.drawn:
-            group = add.rooted("IfcGroup", ("marks",), "AADM as-built centres", ObjectType="AADM as-built centres")
+            group = add.rooted(
+                "IfcGroup",
+                ("marks",),
+                "AADM as-built centres",
+                Description=f"Disks stand at measured centres; arrows start at designed ones and are {MAGNIFIED:g} "
+                "times as long as the deviation.",
+                ObjectType="AADM as-built centres",
+            )
             add.rooted(
                 "IfcRelAssignsToGroup",
                 ("marks",),
@@ -117,15 +136,9 @@ class Marks:
             PlacementRelTo=getattr(container, "ObjectPlacement", None),
             RelativePlacement=add.axes(seen.T_parent_mark),
         )
-        shapes = [
-            self._shape(context, "Body", "MappedRepresentation", list(self._solids(seen, context))),
-            self._shape(context, "Annotation", "GeometricCurveSet", [self._curves(*seen.offset_mm)]),
-        ]
-        self._shapes.setdefault(_LAYERS[seen.kind], []).extend(shapes)
         said = (
-            f"Column {column.id}: measured centre of {point.label}, {point.deviation_mm or 0.0:.2f} mm from "
-            f"design, {point.verdict.replace('_', ' ')}. The arrow starts at the designed centre and is "
-            f"{MAGNIFIED:g} times as long as the deviation."
+            f"Column {column.id}, {point.label}: {point.deviation_mm or 0.0:.2f} mm from design, "
+            f"{point.verdict.replace('_', ' ')}"
         )
         attributes = {"PredefinedType": "USERDEFINED"} if add.is_4x3 else {}
         return add.rooted(
@@ -135,9 +148,23 @@ class Marks:
             Description=said,
             ObjectType="AADM as-built centre",
             ObjectPlacement=placement,
-            Representation=add.new("IfcProductDefinitionShape", Representations=shapes),
+            Representation=self._drawing(seen, context),
             **attributes,
         )
+
+    def _drawing(self, seen: _Seen, context: Any) -> Any:
+        """What a mark looks like. IFC2X3 wants a definition for each mark; there the items alone are shared."""
+        key = (seen.kind, seen.point.verdict, seen.steps, context.id())
+        if key not in self._drawings:
+            self._drawings[key] = [list(self._solids(seen, context)), [self._curves(seen.drawn_mm)]]
+        if self.addition.is_2x3 or key not in self._definitions:
+            kinds = (("Body", "MappedRepresentation"), ("Annotation", "GeometricCurveSet"))
+            shapes = [
+                self._shape(context, *kind, items) for kind, items in zip(kinds, self._drawings[key], strict=True)
+            ]
+            self._shapes.setdefault(_LAYERS[seen.kind], []).extend(shapes)
+            self._definitions[key] = self.addition.new("IfcProductDefinitionShape", Representations=shapes)
+        return self._definitions[key]
 
     def _shape(self, context: Any, identifier: str, kind: str, items: Sequence[Any]) -> Any:
         return self.addition.new(
@@ -150,17 +177,17 @@ class Marks:
 
     def _solids(self, seen: _Seen, context: Any) -> Iterator[Any]:
         """A disk at the measured centre, and the arrow from the designed one."""
-        add, (dx, dy) = self.addition, seen.offset_mm
-        length_mm = float(np.hypot(dx, dy))
-        in_place = add.new("IfcCartesianTransformationOperator3D", LocalOrigin=add.point(0.0, 0.0, 0.0))
+        add = self.addition
+        in_place = self._once.get("in place")
+        if in_place is None:
+            in_place = add.new("IfcCartesianTransformationOperator3D", LocalOrigin=add.point(0.0, 0.0, 0.0))
+            self._once["in place"] = in_place
         yield add.new("IfcMappedItem", MappingSource=self._map("disk", seen, context), MappingTarget=in_place)
-        if length_mm > _SHORTEST_MM:
+        if seen.steps:
             target = add.new(
                 "IfcCartesianTransformationOperator3D",
-                Axis1=add.direction(np.array([dx, dy, 0.0]) / length_mm),
-                Axis2=add.direction(np.array([-dy, dx, 0.0]) / length_mm),
-                LocalOrigin=add.point(-dx, -dy, 0.0),
-                Scale=MAGNIFIED * length_mm / _ARROW_MM,
+                LocalOrigin=add.point(-seen.drawn_mm, 0.0, 0.0),
+                Scale=round(MAGNIFIED * seen.drawn_mm / _ARROW_MM, 9),
             )
             yield add.new("IfcMappedItem", MappingSource=self._map("arrow", seen, context), MappingTarget=target)
 
@@ -210,21 +237,29 @@ class Marks:
             self._once[key] = add.new("IfcPresentationStyleAssignment", Styles=[style]) if add.is_2x3 else style
         return self._once[key]
 
-    def _curves(self, dx: float, dy: float) -> Any:
+    def _curves(self, drawn_mm: float) -> Any:
         """The rim of the disk, and the arrow as one line."""
         add = self.addition
         if "rim" not in self._once:
             flat = add.axes(np.eye(4))
             self._once["rim"] = add.new("IfcCircle", Position=flat, Radius=add.length(_DISK_RADIUS_MM))
         elements = [self._once["rim"]]
-        length_mm = float(np.hypot(dx, dy))
-        if length_mm > _SHORTEST_MM:
-            along = MAGNIFIED * np.array([dx, dy])
-            across = 0.11 * np.array([-along[1], along[0]])
-            start = -np.array([dx, dy])
-            ends = (start, start + along, start + 0.7 * along + across, start + along, start + 0.7 * along - across)
-            elements.append(add.new("IfcPolyline", Points=[add.point(float(x), float(y), 0.0) for x, y in ends]))
+        if drawn_mm > 0.0:
+            length, wide = MAGNIFIED * drawn_mm, 0.11 * MAGNIFIED * drawn_mm
+            tip, neck = length - drawn_mm, 0.7 * length - drawn_mm
+            ends = ((-drawn_mm, 0.0), (tip, 0.0), (neck, wide), (tip, 0.0), (neck, -wide))
+            elements.append(add.new("IfcPolyline", Points=[add.point(x, y, 0.0) for x, y in ends]))
         return add.new("IfcGeometricCurveSet", Elements=elements)
+
+
+def _along(offset_mm: tuple[float, float]) -> Array:
+    """A frame (4, 4) at its parent's origin, its x axis along an offset in the parent's plane."""
+    dx, dy = offset_mm
+    turn = np.radians(round(float(np.degrees(np.arctan2(dy, dx))) / _STEP_DEG) * _STEP_DEG)
+    cos, sin = np.cos(turn), np.sin(turn)
+    T = np.eye(4)
+    T[:2, :2] = [[cos, -sin], [sin, cos]]
+    return T
 
 
 def _relative(T_model_parent: Array, T_model_own: Array) -> Array:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any, TypeAlias
 
 from aadm_workbench.report.pages.pdf_canvas import Letters, area, rule
 from aadm_workbench.report.pages.pdf_flow import Block
-from aadm_workbench.report.pages.pdf_text import lines_of, printable, shortened, width_of
+from aadm_workbench.report.pages.pdf_text import KEPT_TEXTS, lines_of, printable, shortened, width_of
 from aadm_workbench.report.sheets.numbers import is_number, number_text
 from aadm_workbench.report.sheets.tables import Cell, Heading, Row
 from aadm_workbench.report.words.labels import COLOUR, HEAD, INK, Language, phrase, rule_words, verdict_words
@@ -175,6 +176,7 @@ def _wrapped(text: str, room: float) -> tuple[str, ...]:
     return lines_of(text, SIZE, round(room - 2.0 * _PADDING, 1))
 
 
+@lru_cache(KEPT_TEXTS)
 def _width(text: str) -> float:
     return width_of(printable(text), SIZE)
 

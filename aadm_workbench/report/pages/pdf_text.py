@@ -20,7 +20,8 @@ _INSTEAD = str.maketrans({"✗": "×", "○": "o", "\t": " ", "\u00a0": " "})
 _UNKNOWN = "□"
 
 
-_KEPT_TEXTS = 50_000  # widths of: a report repeats its numbers and names
+KEPT_TEXTS = 50_000
+"""Widths of so many are kept: a report repeats its numbers and names."""
 
 
 @cache
@@ -49,7 +50,7 @@ def prepared_font() -> Any:
     return font
 
 
-@lru_cache(_KEPT_TEXTS)
+@lru_cache(KEPT_TEXTS)
 def printable(text: str) -> str:
     """A text in signs that the font has; what it lacks becomes an empty box."""
     known = prepared_font().face.charToGlyph
@@ -61,7 +62,7 @@ def width_of(text: str, size: float) -> float:
     return _width_in_thousandths(text) * size / 1000.0
 
 
-@lru_cache(_KEPT_TEXTS)
+@lru_cache(KEPT_TEXTS)
 def _width_in_thousandths(text: str) -> float:
     face = prepared_font().face
     widths, otherwise = face.charWidths, face.defaultWidth
@@ -75,7 +76,7 @@ def shortened(text: str, most: int, most_lines: int) -> str:
     return text if len(kept) == len(text) <= most else f"{kept[: most - 1]}…"
 
 
-@lru_cache(_KEPT_TEXTS)
+@lru_cache(KEPT_TEXTS)
 def lines_of(text: str, size: float, width: float) -> tuple[str, ...]:
     """A text broken into lines of a width, pt: between words, between Chinese characters, in words too long."""
     lines: list[str] = []

@@ -13,6 +13,7 @@ import pytest
 
 from aadm_workbench.assembly.pose.minimax import fit_minimax
 from aadm_workbench.model import Array
+from aadm_workbench.report.column_view import advice_notes
 from aadm_workbench.report.pages.crew import CrewAdvice, crew_advice
 from aadm_workbench.report.pages.crew_page import write_crew_pages
 from tests.report.checked_floor import CASES, CENTRES, HOSTILE, Case, far_apart, floor_report
@@ -225,3 +226,28 @@ def test_an_open_trial_names_the_points_that_are_to_be_scanned_again(floor: dict
     column["trial_assembly"]["rescan"] = ["S7", "S2"]
     told = " ".join(step.text.en for step in crew_advice(typed(floor), of_column(column)).steps)
     assert "S7, S2" in told
+
+
+def test_what_a_bend_leaves_is_told(floor: dict[str, Any]) -> None:
+    """A bar goes in once it is bent, and still stands beyond its own limit: "bend" alone would mislead a crew."""
+    column = copy.deepcopy(next(one for one in floor["columns"] if (one.get("repair") or {}).get("steps")))
+    repair = column["repair"]
+    step = repair["steps"][0]
+    step |= {"position_after_mm": 2.3, "position_limit_mm": 2.0}
+    repair["still_fails"] = [step["rebar"], "R99"]
+    said = [step.text for step in crew_advice(typed(floor), of_column(column)).steps]
+    (left,) = (text for text in said if "still stands" in text.en)
+    assert all(f"{step['rebar']}" in text and "2.3 mm" in text and "2 mm" in text for text in (left.en, left.zh))
+    (others,) = (text for text in said if "R99" in text.en)
+    assert "R99" in others.zh
+    repair["still_fails"] = []
+    assert not any("still" in one.text.en for one in crew_advice(typed(floor), of_column(column)).steps)
+
+
+def test_whether_a_clause_says_how_far_to_bend_is_no_matter_of_its_words(floor: dict[str, Any]) -> None:
+    column = copy.deepcopy(next(one for one in floor["columns"] if (one.get("repair") or {}).get("steps")))
+    for own, clause in ((True, "what we always do"), (False, "no clause is as clear as 8.1")):
+        column["repair"] |= {"adjustment_limit_mm": 5.0, "clause": clause, "working_figure": own}
+        said = " ".join(note.en for note in advice_notes(of_column(column)))
+        assert ("working figure" in said) == own
+        assert (clause in said) == (not own)

@@ -7,7 +7,7 @@ Chinese files re-encoded; a coordinator who compares two versions would then see
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 # Strings and comments may hold semicolons. In UTF-8, GB 18030 and Shift-JIS no second byte is a quote, a semicolon or
@@ -37,21 +37,28 @@ class StepText:
         *,
         replaced: Mapping[int, bytes] | None = None,
         removed: Collection[int] = (),
-        appended: Sequence[bytes] = (),
+        appended: Iterable[bytes] = (),
     ) -> bytes:
         """The file with some entities replaced, some taken out with their line, and some put in at the end."""
-        edits = [(*self.places[number], text) for number, text in (replaced or {}).items()]
+        edits: list[tuple[int, int, bytes | bytearray]] = [
+            (*self.places[number], text) for number, text in (replaced or {}).items()
+        ]
         for number in removed:
             begin, end = self.places[number]
             line_break = _LINE_BREAK.match(self.content, end)
             edits.append((begin, line_break.end() if line_break else end, b""))
-        lines = b"".join(line + self.line_break for line in appended)
+        lines = bytearray()
+        for line in appended:
+            lines += line
+            lines += self.line_break
         edits.append((self.end_of_data, self.end_of_data, lines))
-        pieces, done = [], 0
+        kept = memoryview(self.content)
+        pieces: list[bytes | bytearray | memoryview] = []
+        done = 0
         for begin, end, text in sorted(edits):
-            pieces += [self.content[done:begin], text]
+            pieces += [kept[done:begin], text]
             done = end
-        return b"".join([*pieces, self.content[done:]])
+        return b"".join([*pieces, kept[done:]])
 
 
 def step_text(content: bytes) -> StepText:
