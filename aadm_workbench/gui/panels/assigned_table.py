@@ -65,6 +65,7 @@ class AssignedTable(QtGui.QTableWidget):
             self.item(place, _COLUMN).setFlags(self.item(place, _COLUMN).flags() | QtCore.Qt.ItemIsUserCheckable)
             self.item(place, _COLUMN).setCheckState(QtCore.Qt.Checked)
             self.item(place, _COLUMN).setToolTip(name)
+        self.setWordWrap(False)
         self.setTextElideMode(QtCore.Qt.ElideMiddle)
         self._ids = list(ids)
         self.itemSelectionChanged.connect(self._tell)
