@@ -39,13 +39,12 @@ _LAST_ROUNDS, _LAST_TRACKED_ROUNDS = 3, 2  # with the push: what the frame befor
 _TRACKED_BANDS_MM = (3.0, 1.0)  # about the radius, of a column that moved by some mm since the last frame
 _LOOSE_FROM_MM = 2.0  # in narrower bands bores are found: what then stands far from its place is not to pull the others
 _WALL_FROM_MM = 1.15  # chamfers end before
-_WALL_MAX = 200  # of a bore, evenly taken: neighbours share their errors, more of them tell little
+_WALL_MAX = 200  # points of a bore: neighbours share their errors, more of them tell no more than so many
 _WALL_FEWEST = 25  # points of a bore: as in pooled/fit.py
 # neighbouring wall points share their errors: standard errors are this much larger; a choice: ±30 % moves centres by
 # up to 0.9 u and u by 6 %
 _WALL_CORRELATION = 1.6
 _SPREAD_BELIEF = 20  # points: a spread of so few is known to a sixth
-_EDGE_RAYS_MAX = 1_500  # of a mouth: it only bounds the time
 _EDGE_REACH_MM = 2.4  # about the bore as its wall appears: pushes and chamfers are smaller
 # bores are nominal within this; light that bounces pushes walls by up to 0.8 mm (reference camera)
 _RADIUS_SIGMA_MM, _PUSH_SIGMA_MM = 0.4, 0.7
@@ -212,8 +211,7 @@ def _far_wall(view: MouthView | None, state: State, k: int, noise_mm: float, ban
     off = np.hypot(about[:, 0], about[:, 1]) - state.pooled[_WALL] - own[5]
     facing = np.einsum("ij,ij->i", about, view.slope) > 0
     deep = view.points[:, 2] > max(_WALL_FROM_MM, NOISE_SIGMAS * noise_mm)
-    wall = np.flatnonzero(facing & deep & (np.abs(off) < band_mm))
-    return wall[:: len(wall) // _WALL_MAX + 1]
+    return np.flatnonzero(facing & deep & (np.abs(off) < band_mm))
 
 
 def _system(
@@ -239,7 +237,8 @@ def _own_system(
         residual, own, pooled = wall_terms(points[:, :2], points[:, 2], slope, owner, state, _WALL, _PUSH)
         sigma_mm = max(spread(residual), 0.03)
         own_mm = _own_spreads(residual, owner, np.array([0.0 if v is None else v.range_mm for v in views]), sigma_mm)
-        weight = tukey(residual / own_mm) / (_WALL_CORRELATION * own_mm) ** 2
+        share = np.minimum(1.0, _WALL_MAX / np.bincount(owner)[owner])
+        weight = share * tukey(residual / own_mm) / (_WALL_CORRELATION * own_mm) ** 2
         system.add(Terms(own, pooled, weight * residual, weight, owner))
     system.add_beliefs(believed, state)
     return system, sigma_mm
@@ -256,7 +255,7 @@ def _own_spreads(residual: Array, owner: IntArray, ranges_mm: Array, pooled_mm: 
     for k in np.unique(owner):
         own = owner == k
         expected = pooled_mm * ranges_mm[k] / typical_mm
-        count = int(own.sum())
+        count = min(int(own.sum()), _WALL_MAX)
         variance = (count * spread(residual[own]) ** 2 + _SPREAD_BELIEF * expected**2) / (count + _SPREAD_BELIEF)
         found[own] = max(np.sqrt(variance), 0.03)
     return found
@@ -312,7 +311,6 @@ def _edge_rays_of(
     to_wall = np.sqrt(np.maximum(radius_mm**2 - distance**2 + along**2, 0.0)) - along
     sampling = _sampling(view, centre, radius_mm, noise_mm)
     chosen = np.flatnonzero(used)
-    chosen = chosen[:: len(chosen) // _EDGE_RAYS_MAX + 1]
     away = along > 0
     return {
         "about": about[chosen],
