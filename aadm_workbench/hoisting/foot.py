@@ -53,7 +53,6 @@ _LEAN_SIGMA, _OWN_RADIUS_MM = 0.008, 0.06
 # floors: no push is known better, whatever the likelihood's curvature says (a choice: ±30 % moves u by 3 %)
 _OWN_PUSH_MIN_MM, _PUSH_FLOOR_PITCHES = 0.02, 0.02
 _FACE_HEIGHT_SHARE = 0.1  # of the face's scatter: found over frames of 600 to 1,400 mm columns, 0.72 to 1.4 m away
-_OWN_SIGMA_RATIO = 1.5  # of what the likelihood's curvature says: its steps are not smooth
 _FLOOR_MM = 0.02  # what the warp of a camera leaves over one mouth, however many points there are
 _SHOWN_SHARE = 0.3  # of what returns about most mouths (a choice: ±30 % moves nothing on sound scans)
 _SEEN_MM = 0.35  # what is known better than this has evidence of its own
@@ -174,7 +173,7 @@ def _of_face_height_mm(face: FootFace, centres: Array) -> float:
 
 def _with_push(believed: Believed, push: Push, floor_mm: float) -> Believed:
     """What the rays tell of the push: of all walls, and of each sleeve's own where they differ among themselves."""
-    own_sigma = _OWN_SIGMA_RATIO * push.own_sigma
+    own_sigma = push.own_sigma
     spread_mm = max(_OWN_PUSH_MIN_MM, _spread_of(push.own, own_sigma))
     share = spread_mm**2 / (spread_mm**2 + own_sigma**2)
     own, sigma = np.array(believed.own), np.array(believed.own_sigma)

@@ -28,6 +28,10 @@ _MEAN_REACH_MM, _MEAN_GRID = (0.12, 0.05), np.linspace(-1.0, 1.0, 5)
 # of the log likelihood: as wide as the floor under what is known of a push (hoisting/foot.py), 0.02 to 0.04 mm, and not
 # as narrow as the steps of single rays; from 3 to 30 pushes move by less than 0.015 mm
 _FLATTER = 10.0
+# of a sleeve's own push: sleeves of the reference camera's scenes differ by up to 0.4 mm; fine enough for the flatter
+# likelihood of so few rays, of which its steps leave so much unsure
+_OWN_GRID_MM = np.arange(-10, 11) * 0.05
+_OWN_FLATTER, _OWN_LEAST_MM = 3.0, 0.015
 _MEAN_ROUNDS, _STILL_MM = 6, 0.003  # a cap; a tenth of that floor
 # bounds of the time; farther from the edge than two steps of the grid a ray tells nothing
 _COARSE_RAYS, _FINE_RAYS, _NEAR_MM = 1_200, 3_500, 0.7
@@ -225,14 +229,15 @@ def _score(rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radius_mm
 def _own(
     rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radius_mm: float, sleeves: int, prior_mm: float
 ) -> Push:
-    """Curvature of the likelihood about its best point, of all rays and of each sleeve's own."""
-    step = 0.15
-    moved = [_likelihood(rays, fixed, push + k * step, chamfer, radius_mm) for k in (-2, -1, 0, 1, 2)]
-    each = np.array([np.bincount(rays.owner, values, minlength=sleeves) for values in moved]) / _CORRELATION
-    # A parabola through five points smooths what single rays do to the likelihood.
-    offsets = step * np.arange(-2, 3)
-    bend, slope, _ = np.polyfit(offsets, each, 2)
-    bend = np.maximum(-2.0 * bend, 1e-3)
-    total = bend.sum() + prior_mm**-2.0
-    own = np.clip(slope / bend, -1.0, 1.0)
-    return Push(push, float(total**-0.5), chamfer, own, np.asarray(bend**-0.5))
+    """How far beyond the push each sleeve's own rays are, averaged as the push is, and how far that may be off."""
+    each = np.array(
+        [
+            np.bincount(rays.owner, _likelihood(rays, fixed, push + off_mm, chamfer, radius_mm), minlength=sleeves)
+            for off_mm in _OWN_GRID_MM
+        ]
+    )
+    weight = np.exp((each - each.max(axis=0)) / (_CORRELATION * _OWN_FLATTER))
+    weight /= weight.sum(axis=0)
+    own = _OWN_GRID_MM @ weight
+    own_sigma = np.sqrt(np.maximum(_OWN_GRID_MM**2 @ weight - own**2, _OWN_LEAST_MM**2))
+    return Push(push, float(((own_sigma**-2.0).sum() + prior_mm**-2.0) ** -0.5), chamfer, own, own_sigma)
