@@ -109,8 +109,10 @@ def fit_foot(
     views = [view_mouth(frame, face, centre, radius_mm) for centre in state.centres]
     believed = _believed(len(views), radius_mm, leans)
     walls: list[IntArray] = []
-    for band_mm in _BANDS_MM if before is None else _TRACKED_BANDS_MM:
-        walls = [_far_wall(view, state, k, noise_mm, band_mm) for k, view in enumerate(views)]
+    bands_mm = _BANDS_MM if before is None else _TRACKED_BANDS_MM
+    for band_mm in bands_mm:
+        walls = _far_walls(views, state, noise_mm, band_mm)
+        walls = _few(walls) if band_mm > bands_mm[-1] else walls
         state, _ = _system(views, walls, state, pattern, believed)[0].stepped(state)
         if band_mm < _LOOSE_FROM_MM:
             pattern = loosened(pattern, state)
@@ -201,6 +203,15 @@ def _spread_of(values: Array, sigma: Array) -> float:
     return float(np.sqrt(max(excess, 0.0) / scale)) if scale > 0.0 else 0.0
 
 
+def _few(walls: list[IntArray]) -> list[IntArray]:
+    """Some points of each wall, for a search: which ones hangs on each before them, and all decide in the end."""
+    return [wall[:: len(wall) // _WALL_MAX + 1] for wall in walls]
+
+
+def _far_walls(views: list[MouthView | None], state: State, noise_mm: float, band_mm: float) -> list[IntArray]:
+    return [_far_wall(view, state, k, noise_mm, band_mm) for k, view in enumerate(views)]
+
+
 def _far_wall(view: MouthView | None, state: State, k: int, noise_mm: float, band_mm: float) -> IntArray:
     """Indices of the points on the wall that the camera looks at, through the open part of the mouth."""
     if view is None:
@@ -251,10 +262,11 @@ def _own_spreads(residual: Array, owner: IntArray, ranges_mm: Array, pooled_mm: 
     """
     typical_mm = float(np.median(ranges_mm[owner]))
     found = np.empty(len(residual))
+    bounds = np.searchsorted(owner, np.arange(len(ranges_mm) + 1))
     for k in np.unique(owner):
-        own = owner == k
+        own = slice(bounds[k], bounds[k + 1])
         expected = pooled_mm * ranges_mm[k] / typical_mm
-        count = min(int(own.sum()), _WALL_MAX)
+        count = min(int(bounds[k + 1] - bounds[k]), _WALL_MAX)
         variance = (count * spread(residual[own]) ** 2 + _SPREAD_BELIEF * expected**2) / (count + _SPREAD_BELIEF)
         found[own] = max(np.sqrt(variance), 0.03)
     return found

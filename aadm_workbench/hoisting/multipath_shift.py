@@ -20,7 +20,7 @@ _PUSH_REACH_MM, _PUSH_STEP_MM = 1.8, 0.3  # twice the push of the reference came
 # none to one and a half times the largest of the reference camera's scenes (1 mm)
 _CHAMFER_MM, _CHAMFER_STEP_MM = (0.0, 0.4, 0.8, 1.2, 1.6), 0.3
 # times the noise, so that a step of the grid cannot miss the peak; then down to the noise itself
-_BLUR, _FINE_BLURS = 3.0, (2.0, 1.5, 1.0, 1.0)
+_BLUR, _FINE_BLURS = 3.0, (2.0, 1.5, 1.0)
 _NARROWED = 0.55  # from step to step of the fine search: half a step of the last one, and a tenth to spare
 # where the average lies: reach of its grid in push plus chamfer and in push less chamfer, three standard deviations of
 # what the rays leave possible and more
@@ -30,11 +30,11 @@ _MEAN_REACH_MM, _MEAN_GRID = (0.12, 0.05), np.linspace(-1.0, 1.0, 5)
 _FLATTER = 10.0
 # of a sleeve's own push: sleeves of the reference camera's scenes differ by up to 0.4 mm; fine enough for the flatter
 # likelihood of so few rays, of which its steps leave so much unsure
-_OWN_GRID_MM = np.arange(-10, 11) * 0.05
+_OWN_GRID_MM = np.arange(-6, 7) * 0.075
 _OWN_FLATTER, _OWN_LEAST_MM = 3.0, 0.015
 _MEAN_ROUNDS, _STILL_MM = 6, 0.003  # a cap; a tenth of that floor
 # bounds of the time; farther from the edge than two steps of the grid a ray tells nothing
-_COARSE_RAYS, _FINE_RAYS, _NEAR_MM = 1_200, 3_500, 0.7
+_COARSE_RAYS, _FINE_RAYS, _NEAR_MM, _NEAR_PITCHES = 1_200, 2_000, 0.7, 0.6
 _SOFTNESS = 0.03  # of a pixel: an edge is a step, and softer laws lean to where more rays return
 _SOFTNESS_MIN_MM = 0.01  # finer, single rays make the likelihood jump
 # of a pixel, on the side where the edge is a step in depth and pixels mix: twice as soft; a choice: ±30 % moves
@@ -106,7 +106,7 @@ def find_push(rays: EdgeRays, radius_mm: float, sleeves: int, prior_mm: float, b
     best = _coarse(rays, radius_mm, prior_mm) if before is None else (before.push_mm, before.chamfer_mm)
     about = rays.about + best[0] * rays.direction
     off_mm = np.abs(np.hypot(about[:, 0], about[:, 1]) - radius_mm - best[1])
-    near = np.flatnonzero(off_mm < _NEAR_MM + rays.pitch)
+    near = np.flatnonzero(off_mm < _NEAR_MM + _NEAR_PITCHES * rays.pitch)
     if before is None:
         some = _chosen(rays, near[:: len(near) // _FINE_RAYS + 1])
         best = _fine(some, best, radius_mm, prior_mm)
