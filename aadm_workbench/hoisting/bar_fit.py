@@ -36,11 +36,14 @@ _ABOVE_MM = 14.0  # how far above the level of all tops one may end: by right th
 _BANDS_MM = (3.0, 2.0, 1.6, 1.6, 1.6)
 _SETTLED_MM = 0.01  # a third of the uncertainty's floor below
 _TRACKED_ROUNDS = 2  # bars stand where they stood in the frame before
-_LAST_ROUNDS = 2  # with the scatter that the bars show: all else is settled before
+# with the scatter that the bars show, until all stay: a cap, and a tenth of the uncertainty's floor; ended before, a fit
+# is where it began as much as where the points are
+_LAST_ROUNDS, _STILL_MM = 12, 0.003
 _INWARDS_MM = 1.0  # ribs only stand outwards: what lies farther inside of the core is a stray
 # of a window, evenly taken: half of them are the side's; where it is known already, fewer find 300 of them
 _PIXELS, _TRACKED_PIXELS = 4_000, 2_000
-_POINTS_MAX = 300  # of a side, evenly taken: neighbours share their errors, more of them tell little
+_TAKEN = 1_500  # of these pixels: neighbours share their errors, but single ones are not to decide
+_POINTS_MAX = 300  # points of a side tell as much as there are errors of their own among them
 _FEWEST = 40  # points of a side (a choice: ±30 % moves nothing on sound scans)
 # neighbouring points of a side share their errors: standard errors are this much larger; a choice: ±30 % changes what
 # is found
@@ -145,8 +148,10 @@ def fit_bars(
     pattern = as_built(loosened(pattern, state), state, counts >= _FEWEST)
     for _ in range(_LAST_ROUNDS if before is None else _TRACKED_ROUNDS):
         system = _system(terms, pattern, believed, state)
-        state, _ = system.stepped(state)
+        state, step_mm = system.stepped(state)
         terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
+        if step_mm < _STILL_MM:
+            break
     covariance, pose_covariance, _ = system.covariance()
     own_mm = np.sqrt(np.diag(covariance).reshape(-1, 2).max(axis=1))
     seen = (counts >= _FEWEST) & (own_mm < np.minimum(_SEEN_MM, np.maximum(0.5 * pattern.scatter_mm, 0.1)))
@@ -220,9 +225,12 @@ def _side(
     high = np.minimum(np.ceil(pixels.max(axis=0)).astype(int) + 1, frame.shape[::-1])
     if (high - low < 3).any():
         return None
-    step = max(1, int(np.sqrt(np.prod(high - low) / most)))
+    # by what is not rounded, and from fixed rows and columns: which pixels are taken hangs on no hair's breadth
+    step = max(1, int(np.sqrt(np.prod(np.ptp(pixels, axis=0)) / most)))
+    low -= low % step
     points = frame.points[low[1] : high[1] : step, low[0] : high[0] : step]
-    local = axes.local(points[_borne(points[..., 2])].astype(np.float64))
+    kept = _borne(points[..., 2]) & _every(max(1, int(step**-2 * np.prod(np.ptp(pixels, axis=0)) / _TAKEN)), points)
+    local = axes.local(points[kept].astype(np.float64))
     near = np.hypot(*(local[:, :2] - centre).T) < reach
     near &= (local[:, 2] > top_mm - _LENGTH_MM) & (local[:, 2] < top_mm + _ABOVE_MM)
     local = local[near]
@@ -230,6 +238,12 @@ def _side(
         return None
     view = local[:, :2] - axes.eye[:2]
     return _Side(local, view / np.linalg.norm(view, axis=1)[:, None], _top(local[:, 2]))
+
+
+def _every(nth: int, points: FloatArray) -> BoolArray:
+    """Every ``nth`` pixel (h, w) of a window, along diagonals: chosen by where it is, and not by what it shows."""
+    rows, columns = np.ogrid[: points.shape[0], : points.shape[1]]
+    return np.asarray((rows + columns) % nth == 0)
 
 
 def _width(about: Array, view: Array) -> float:
@@ -249,11 +263,10 @@ def _borne(depth: FloatArray) -> BoolArray:
 
 
 def _top(heights: Array) -> float:
-    """Height at which the side of a bar ends: where the points become few."""
-    counts, edges = np.histogram(heights, np.arange(heights.min(), heights.max() + 2 * _TOP_BIN_MM, _TOP_BIN_MM))
-    full = np.median(counts[counts > 0])
-    last = int(np.flatnonzero(counts > 0.4 * full)[-1])
-    return float(edges[last + 1])
+    """Height at which the side of a bar ends: the highest point that has its share of points just below it."""
+    rising = np.sort(heights)
+    counts = np.arange(len(rising)) - np.searchsorted(rising, rising - _TOP_BIN_MM)
+    return float(rising[np.flatnonzero(counts >= 0.4 * np.median(counts))[-1]])
 
 
 def _terms(sides: list[_Side | None], state: State, band_mm: float, law: BracketLaw) -> tuple[Terms, IntArray, float]:
@@ -268,11 +281,11 @@ def _terms(sides: list[_Side | None], state: State, band_mm: float, law: Bracket
         off = distance - state.pooled[0] - state.own[k, 5]
         facing = -np.einsum("ij,ij->i", about, side.view) > _FACING_COSINE * distance
         used = np.flatnonzero((depth > 1.0) & (off > -max(_INWARDS_MM, 0.6 * band_mm)) & (off < band_mm) & facing)
-        used = used[:: len(used) // _POINTS_MAX + 1]
         if len(used) < _FEWEST:
             continue
         width = _width(about[used], side.view[used]) / (2.0 * state.pooled[0])
-        trusts.append(np.full(len(used), np.clip((width - _NARROWEST) / (_WIDE - _NARROWEST), 1e-4, 1.0) ** 3))
+        trust = np.clip((width - _NARROWEST) / (_WIDE - _NARROWEST), 1e-4, 1.0) ** 3
+        trusts.append(np.full(len(used), trust * min(1.0, _POINTS_MAX / len(used))))
         owners.append(np.full(len(used), k))
         points.append(side.points[used, :2])
         depths.append(depth[used])
@@ -281,8 +294,7 @@ def _terms(sides: list[_Side | None], state: State, band_mm: float, law: Bracket
     xy = np.concatenate(points or [np.empty((0, 2))])
     depth = np.concatenate(depths or [np.empty(0)])
     residual, own, pooled = wall_terms(xy, depth, np.zeros_like(xy), owner, state, 0, None)
-    trust = np.concatenate(trusts or [np.empty(0)])
-    pull = -law.slope(-residual) * trust / _CORRELATION**2
+    pull = -law.slope(-residual) * np.concatenate(trusts or [np.empty(0)]) / _CORRELATION**2
     bend = np.abs(pull) / np.maximum(np.abs(residual), law.softness_mm)
     inwards = residual[(residual < 0) & (residual > -_INWARDS_MM)]
     width_mm = TO_SIGMA * float(np.median(np.abs(inwards))) if len(inwards) > 20 else 0.15

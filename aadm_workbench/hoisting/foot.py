@@ -39,13 +39,12 @@ _LAST_ROUNDS, _LAST_TRACKED_ROUNDS = 3, 2  # with the push: what the frame befor
 _TRACKED_BANDS_MM = (3.0, 1.0)  # about the radius, of a column that moved by some mm since the last frame
 _LOOSE_FROM_MM = 2.0  # in narrower bands bores are found: what then stands far from its place is not to pull the others
 _WALL_FROM_MM = 1.15  # chamfers end before
-_WALL_MAX = 200  # of a bore, evenly taken: neighbours share their errors, more of them tell little
+_WALL_MAX = 200  # points of a bore: neighbours share their errors, more of them tell no more than so many
 _WALL_FEWEST = 25  # points of a bore: as in pooled/fit.py
 # neighbouring wall points share their errors: standard errors are this much larger; a choice: ±30 % moves centres by
 # up to 0.9 u and u by 6 %
 _WALL_CORRELATION = 1.6
 _SPREAD_BELIEF = 20  # points: a spread of so few is known to a sixth
-_EDGE_RAYS_MAX = 1_500  # of a mouth: it only bounds the time
 _EDGE_REACH_MM = 2.4  # about the bore as its wall appears: pushes and chamfers are smaller
 # bores are nominal within this; light that bounces pushes walls by up to 0.8 mm (reference camera)
 _RADIUS_SIGMA_MM, _PUSH_SIGMA_MM = 0.4, 0.7
@@ -54,7 +53,6 @@ _LEAN_SIGMA, _OWN_RADIUS_MM = 0.008, 0.06
 # floors: no push is known better, whatever the likelihood's curvature says (a choice: ±30 % moves u by 3 %)
 _OWN_PUSH_MIN_MM, _PUSH_FLOOR_PITCHES = 0.02, 0.02
 _FACE_HEIGHT_SHARE = 0.1  # of the face's scatter: found over frames of 600 to 1,400 mm columns, 0.72 to 1.4 m away
-_OWN_SIGMA_RATIO = 1.5  # of what the likelihood's curvature says: its steps are not smooth
 _FLOOR_MM = 0.02  # what the warp of a camera leaves over one mouth, however many points there are
 _SHOWN_SHARE = 0.3  # of what returns about most mouths (a choice: ±30 % moves nothing on sound scans)
 _SEEN_MM = 0.35  # what is known better than this has evidence of its own
@@ -111,8 +109,10 @@ def fit_foot(
     views = [view_mouth(frame, face, centre, radius_mm) for centre in state.centres]
     believed = _believed(len(views), radius_mm, leans)
     walls: list[IntArray] = []
-    for band_mm in _BANDS_MM if before is None else _TRACKED_BANDS_MM:
-        walls = [_far_wall(view, state, k, noise_mm, band_mm) for k, view in enumerate(views)]
+    bands_mm = _BANDS_MM if before is None else _TRACKED_BANDS_MM
+    for band_mm in bands_mm:
+        walls = _far_walls(views, state, noise_mm, band_mm)
+        walls = _few(walls) if band_mm > bands_mm[-1] else walls
         state, _ = _system(views, walls, state, pattern, believed)[0].stepped(state)
         if band_mm < _LOOSE_FROM_MM:
             pattern = loosened(pattern, state)
@@ -175,7 +175,7 @@ def _of_face_height_mm(face: FootFace, centres: Array) -> float:
 
 def _with_push(believed: Believed, push: Push, floor_mm: float) -> Believed:
     """What the rays tell of the push: of all walls, and of each sleeve's own where they differ among themselves."""
-    own_sigma = _OWN_SIGMA_RATIO * push.own_sigma
+    own_sigma = push.own_sigma
     spread_mm = max(_OWN_PUSH_MIN_MM, _spread_of(push.own, own_sigma))
     share = spread_mm**2 / (spread_mm**2 + own_sigma**2)
     own, sigma = np.array(believed.own), np.array(believed.own_sigma)
@@ -203,6 +203,15 @@ def _spread_of(values: Array, sigma: Array) -> float:
     return float(np.sqrt(max(excess, 0.0) / scale)) if scale > 0.0 else 0.0
 
 
+def _few(walls: list[IntArray]) -> list[IntArray]:
+    """Some points of each wall, for a search: which ones hangs on each before them, and all decide in the end."""
+    return [wall[:: len(wall) // _WALL_MAX + 1] for wall in walls]
+
+
+def _far_walls(views: list[MouthView | None], state: State, noise_mm: float, band_mm: float) -> list[IntArray]:
+    return [_far_wall(view, state, k, noise_mm, band_mm) for k, view in enumerate(views)]
+
+
 def _far_wall(view: MouthView | None, state: State, k: int, noise_mm: float, band_mm: float) -> IntArray:
     """Indices of the points on the wall that the camera looks at, through the open part of the mouth."""
     if view is None:
@@ -212,8 +221,7 @@ def _far_wall(view: MouthView | None, state: State, k: int, noise_mm: float, ban
     off = np.hypot(about[:, 0], about[:, 1]) - state.pooled[_WALL] - own[5]
     facing = np.einsum("ij,ij->i", about, view.slope) > 0
     deep = view.points[:, 2] > max(_WALL_FROM_MM, NOISE_SIGMAS * noise_mm)
-    wall = np.flatnonzero(facing & deep & (np.abs(off) < band_mm))
-    return wall[:: len(wall) // _WALL_MAX + 1]
+    return np.flatnonzero(facing & deep & (np.abs(off) < band_mm))
 
 
 def _system(
@@ -239,7 +247,8 @@ def _own_system(
         residual, own, pooled = wall_terms(points[:, :2], points[:, 2], slope, owner, state, _WALL, _PUSH)
         sigma_mm = max(spread(residual), 0.03)
         own_mm = _own_spreads(residual, owner, np.array([0.0 if v is None else v.range_mm for v in views]), sigma_mm)
-        weight = tukey(residual / own_mm) / (_WALL_CORRELATION * own_mm) ** 2
+        share = np.minimum(1.0, _WALL_MAX / np.bincount(owner)[owner])
+        weight = share * tukey(residual / own_mm) / (_WALL_CORRELATION * own_mm) ** 2
         system.add(Terms(own, pooled, weight * residual, weight, owner))
     system.add_beliefs(believed, state)
     return system, sigma_mm
@@ -253,10 +262,11 @@ def _own_spreads(residual: Array, owner: IntArray, ranges_mm: Array, pooled_mm: 
     """
     typical_mm = float(np.median(ranges_mm[owner]))
     found = np.empty(len(residual))
+    bounds = np.searchsorted(owner, np.arange(len(ranges_mm) + 1))
     for k in np.unique(owner):
-        own = owner == k
+        own = slice(bounds[k], bounds[k + 1])
         expected = pooled_mm * ranges_mm[k] / typical_mm
-        count = int(own.sum())
+        count = min(int(bounds[k + 1] - bounds[k]), _WALL_MAX)
         variance = (count * spread(residual[own]) ** 2 + _SPREAD_BELIEF * expected**2) / (count + _SPREAD_BELIEF)
         found[own] = max(np.sqrt(variance), 0.03)
     return found
@@ -312,7 +322,6 @@ def _edge_rays_of(
     to_wall = np.sqrt(np.maximum(radius_mm**2 - distance**2 + along**2, 0.0)) - along
     sampling = _sampling(view, centre, radius_mm, noise_mm)
     chosen = np.flatnonzero(used)
-    chosen = chosen[:: len(chosen) // _EDGE_RAYS_MAX + 1]
     away = along > 0
     return {
         "about": about[chosen],

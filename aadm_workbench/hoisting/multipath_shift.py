@@ -20,10 +20,21 @@ _PUSH_REACH_MM, _PUSH_STEP_MM = 1.8, 0.3  # twice the push of the reference came
 # none to one and a half times the largest of the reference camera's scenes (1 mm)
 _CHAMFER_MM, _CHAMFER_STEP_MM = (0.0, 0.4, 0.8, 1.2, 1.6), 0.3
 # times the noise, so that a step of the grid cannot miss the peak; then down to the noise itself
-_BLUR, _FINE_BLURS = 3.0, (2.0, 1.5, 1.0, 1.0)
+_BLUR, _FINE_BLURS = 3.0, (2.0, 1.5, 1.0)
 _NARROWED = 0.55  # from step to step of the fine search: half a step of the last one, and a tenth to spare
+# where the average lies: reach of its grid in push plus chamfer and in push less chamfer, three standard deviations of
+# what the rays leave possible and more
+_MEAN_REACH_MM, _MEAN_GRID = (0.12, 0.05), np.linspace(-1.0, 1.0, 5)
+# of the log likelihood: as wide as the floor under what is known of a push (hoisting/foot.py), 0.02 to 0.04 mm, and not
+# as narrow as the steps of single rays; from 3 to 30 pushes move by less than 0.015 mm
+_FLATTER = 10.0
+# of a sleeve's own push: sleeves of the reference camera's scenes differ by up to 0.4 mm; fine enough for the flatter
+# likelihood of so few rays, of which its steps leave so much unsure
+_OWN_GRID_MM = np.arange(-6, 7) * 0.075
+_OWN_FLATTER, _OWN_LEAST_MM = 3.0, 0.015
+_MEAN_ROUNDS, _STILL_MM = 6, 0.003  # a cap; a tenth of that floor
 # bounds of the time; farther from the edge than two steps of the grid a ray tells nothing
-_COARSE_RAYS, _FINE_RAYS, _NEAR_MM = 1_200, 3_500, 0.7
+_COARSE_RAYS, _FINE_RAYS, _NEAR_MM, _NEAR_PITCHES = 1_200, 2_000, 0.7, 0.6
 _SOFTNESS = 0.03  # of a pixel: an edge is a step, and softer laws lean to where more rays return
 _SOFTNESS_MIN_MM = 0.01  # finer, single rays make the likelihood jump
 # of a pixel, on the side where the edge is a step in depth and pixels mix: twice as soft; a choice: ±30 % moves
@@ -86,28 +97,60 @@ class Push:
 
 
 def find_push(rays: EdgeRays, radius_mm: float, sleeves: int, prior_mm: float, before: Push | None = None) -> Push:
-    """The push and the chamfer under which the rays about all mouths are most likely.
+    """The push and the chamfer that the rays about all mouths tell.
 
-    A coarse search asks some of the rays, and a finer one all of those that are near to the edge which that finds. What
-    was found in the frame ``before`` takes the place of the coarse search.
+    A coarse search asks some of the rays, a finer one more of those that are near to the edge which that finds, and all
+    of these tell where between the points of its grid push and chamfer are. What was found in the frame ``before``
+    takes the place of the search.
     """
     best = _coarse(rays, radius_mm, prior_mm) if before is None else (before.push_mm, before.chamfer_mm)
     about = rays.about + best[0] * rays.direction
     off_mm = np.abs(np.hypot(about[:, 0], about[:, 1]) - radius_mm - best[1])
-    near = np.flatnonzero(off_mm < _NEAR_MM + rays.pitch)
-    rays = _chosen(rays, near[:: len(near) // _FINE_RAYS + 1])
+    near = np.flatnonzero(off_mm < _NEAR_MM + _NEAR_PITCHES * rays.pitch)
+    if before is None:
+        some = _chosen(rays, near[:: len(near) // _FINE_RAYS + 1])
+        best = _fine(some, best, radius_mm, prior_mm)
+    rays = _chosen(rays, near)
+    fixed = _fixed(rays)
+    push, chamfer = _mean(rays, fixed, best, radius_mm, prior_mm)
+    return _own(rays, fixed, push, chamfer, radius_mm, sleeves, prior_mm)
+
+
+def _fine(rays: EdgeRays, best: tuple[float, float], radius_mm: float, prior_mm: float) -> tuple[float, float]:
     steps = np.array([_PUSH_STEP_MM, _CHAMFER_STEP_MM])
-    blurs: tuple[float, ...] = _FINE_BLURS
-    if before is not None:
-        blurs, steps = _FINE_BLURS[-1:], _NARROWED ** (len(_FINE_BLURS) - 1) * steps
-    for blur in blurs:
+    for blur in _FINE_BLURS:
         seen = replace(rays, wall_sigma=blur * rays.wall_sigma)
-        fixed = _fixed(seen)
         pushes = best[0] + steps[0] * np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
         chamfers = np.maximum(best[1] + steps[1] * np.array([-1.0, -0.5, 0.0, 0.5, 1.0]), 0.0)
-        best = _best(seen, fixed, pushes, chamfers, radius_mm, prior_mm)
+        best = _best(seen, _fixed(seen), pushes, chamfers, radius_mm, prior_mm)
         steps = _NARROWED * steps
-    return _own(rays, fixed, best[0], best[1], radius_mm, sleeves, prior_mm)
+    return best
+
+
+def _mean(
+    rays: EdgeRays, fixed: _Fixed, best: tuple[float, float], radius_mm: float, prior_mm: float
+) -> tuple[float, float]:
+    """Push and chamfer averaged over what the rays leave possible about the most likely ones.
+
+    An edge is a step: its likelihood is rough, and which of its peaks is the highest hangs on single rays. The average
+    does not, and it is nearer to the truth. Far rims show push less chamfer, near ones the sum; the grid lies along
+    both, and is laid about its own average until that stays.
+    """
+    push, chamfer = best
+    for _ in range(_MEAN_ROUNDS):
+        sums, differences = np.meshgrid(*(reach_mm * _MEAN_GRID for reach_mm in _MEAN_REACH_MM), indexing="ij")
+        pushes = (push + (sums + differences) / 2).ravel()
+        chamfers = np.maximum(chamfer + (sums - differences) / 2, 0.0).ravel()
+        score = np.array(
+            [_score(rays, fixed, a, b, radius_mm, prior_mm) for a, b in zip(pushes, chamfers, strict=True)]
+        )
+        weight = np.exp((score - score.max()) / _FLATTER)
+        weight /= weight.sum()
+        moved_mm = abs(float(weight @ pushes) - push)
+        push, chamfer = float(weight @ pushes), float(weight @ chamfers)
+        if moved_mm < _STILL_MM:
+            break
+    return push, chamfer
 
 
 def _coarse(rays: EdgeRays, radius_mm: float, prior_mm: float) -> tuple[float, float]:
@@ -155,7 +198,7 @@ def _likelihood(rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radi
     logit = np.clip((edge_mm - distance) / fixed.softness + rays.sampling, -40.0, 40.0)
     chance = 1.0 / (1.0 + np.exp(-logit))
     inside = fixed.on_wall
-    if chamfer > 0.02:
+    if chamfer > 0.0:
         along = np.einsum("ij,ij->i", about, rays.direction)
         # where a ray leaves the cone |p| = edge - height: a chamfer of 45 degrees
         lean, steep = along + edge_mm * rays.climb, 1.0 - rays.climb**2
@@ -172,29 +215,29 @@ def _best(
     rays: EdgeRays, fixed: _Fixed, pushes: Array, chamfers: Array, radius_mm: float, prior_mm: float
 ) -> tuple[float, float]:
     """The most likely push and chamfer of a grid."""
-    score = [
-        [
-            float(_likelihood(rays, fixed, push, chamfer, radius_mm).sum()) / _CORRELATION
-            - 0.5 * (push / prior_mm) ** 2
-            for chamfer in chamfers
-        ]
-        for push in pushes
-    ]
+    score = [[_score(rays, fixed, push, chamfer, radius_mm, prior_mm) for chamfer in chamfers] for push in pushes]
     row, column = np.unravel_index(int(np.argmax(score)), (len(pushes), len(chamfers)))
     return float(pushes[row]), float(chamfers[column])
+
+
+def _score(rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radius_mm: float, prior_mm: float) -> float:
+    """Log likelihood of all rays, with what is known of the push beforehand."""
+    told = float(_likelihood(rays, fixed, push, chamfer, radius_mm).sum()) / _CORRELATION
+    return told - 0.5 * (push / prior_mm) ** 2
 
 
 def _own(
     rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radius_mm: float, sleeves: int, prior_mm: float
 ) -> Push:
-    """Curvature of the likelihood about its best point, of all rays and of each sleeve's own."""
-    step = 0.15
-    moved = [_likelihood(rays, fixed, push + k * step, chamfer, radius_mm) for k in (-2, -1, 0, 1, 2)]
-    each = np.array([np.bincount(rays.owner, values, minlength=sleeves) for values in moved]) / _CORRELATION
-    # A parabola through five points smooths what single rays do to the likelihood.
-    offsets = step * np.arange(-2, 3)
-    bend, slope, _ = np.polyfit(offsets, each, 2)
-    bend = np.maximum(-2.0 * bend, 1e-3)
-    total = bend.sum() + prior_mm**-2.0
-    own = np.clip(slope / bend, -1.0, 1.0)
-    return Push(push, float(total**-0.5), chamfer, own, np.asarray(bend**-0.5))
+    """How far beyond the push each sleeve's own rays are, averaged as the push is, and how far that may be off."""
+    each = np.array(
+        [
+            np.bincount(rays.owner, _likelihood(rays, fixed, push + off_mm, chamfer, radius_mm), minlength=sleeves)
+            for off_mm in _OWN_GRID_MM
+        ]
+    )
+    weight = np.exp((each - each.max(axis=0)) / (_CORRELATION * _OWN_FLATTER))
+    weight /= weight.sum(axis=0)
+    own = _OWN_GRID_MM @ weight
+    own_sigma = np.sqrt(np.maximum(_OWN_GRID_MM**2 @ weight - own**2, _OWN_LEAST_MM**2))
+    return Push(push, float(((own_sigma**-2.0).sum() + prior_mm**-2.0) ** -0.5), chamfer, own, own_sigma)

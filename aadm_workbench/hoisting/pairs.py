@@ -10,6 +10,7 @@ import numpy as np
 from aadm_workbench.assembly.decision import DecisionRule, decide_radial, standard_uncertainty
 from aadm_workbench.assembly.pose.eopa import NoFit, turn
 from aadm_workbench.assembly.pose.minimax import fit_minimax
+from aadm_workbench.assembly.pose.minimax_spread import minimax_covariance
 from aadm_workbench.assembly.tolerances import describe_limit, rules_for
 from aadm_workbench.hoisting.bar_fit import BarFit
 from aadm_workbench.hoisting.face import FootFace
@@ -287,7 +288,9 @@ def _correction(hung: HungFit, found: _Offsets, rule: Rule | None, labels: Seque
     if isinstance(pose, NoFit):
         return None
     rows = (2 * known[:, None] + np.arange(2)).ravel()
-    spread = _least_squares_covariance(source[known], found.covariance[np.ix_(rows, rows)])
+    generator = np.random.default_rng(0)  # the same frame is reported alike
+    covariance = found.covariance[np.ix_(rows, rows)]
+    spread = minimax_covariance(source[known], target[known], covariance, pose, generator)
     left_mm = float(np.hypot(*(source @ turn(pose.yaw).T + pose.shift - target).T).max())
     move = pose.shift @ found.to_bars[:2]
     ahead = np.array([0.0, 0.0, 1.0]) - found.to_bars[2, 2] * found.to_bars[2]
@@ -312,15 +315,6 @@ def _well_known(hung: HungFit, found: _Offsets) -> BoolArray:
     spread_mm = np.sqrt(np.diag(found.covariance).reshape(-1, 2).mean(axis=1))
     known = hung.seen | (spread_mm < _KNOWN_MM)
     return known if known.sum() >= _FEWEST_DECIDE else np.ones(len(known), bool)
-
-
-def _least_squares_covariance(source: Array, covariance: Array) -> Array:
-    """Covariance (3, 3) of the shift and turn that fit offsets (k, 2), given the offsets' own (2k, 2k)."""
-    system = np.zeros((2 * len(source), 3))
-    system[0::2, 0] = system[1::2, 1] = 1.0
-    system[0::2, 2], system[1::2, 2] = -source[:, 1], source[:, 0]
-    weights = np.linalg.inv(covariance)
-    return np.asarray(np.linalg.inv(system.T @ weights @ system))
 
 
 def _poses(frame: HoistingFrame, hung: HungFit, found: _Offsets) -> tuple[Array, Array]:
