@@ -36,8 +36,8 @@ _ABOVE_MM = 14.0  # how far above the level of all tops one may end: by right th
 _BANDS_MM = (3.0, 2.0, 1.6, 1.6, 1.6)
 _SETTLED_MM = 0.01  # a third of the uncertainty's floor below
 _TRACKED_ROUNDS = 2  # bars stand where they stood in the frame before
-# with the scatter that the bars show, until all stay: a cap, and a tenth of the uncertainty's floor; ended before, a fit
-# is where it began as much as where the points are
+# with the scatter that the bars show, until all stay: a cap, and a tenth of the uncertainty's floor; ended before, a
+# fit is where it began as much as where the points are
 _LAST_ROUNDS, _STILL_MM = 12, 0.003
 _INWARDS_MM = 1.0  # ribs only stand outwards: what lies farther inside of the core is a stray
 # of a window, evenly taken: half of them are the side's; where it is known already, fewer find 300 of them

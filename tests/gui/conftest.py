@@ -16,7 +16,19 @@ from tests.gui.model_text import MODEL
 
 _BODIES = tuple(
     f"{name}_body.py"
-    for name in ("bare", "session", "results", "capture", "floor", "private", "floor_check", "legible", "looks", "end")
+    for name in (
+        "bare",
+        "session",
+        "results",
+        "capture",
+        "starts",
+        "floor",
+        "private",
+        "floor_check",
+        "legible",
+        "looks",
+        "end",
+    )
 )
 
 

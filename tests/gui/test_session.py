@@ -82,6 +82,14 @@ def test_a_live_camera_gives_a_column_its_scan(session: dict[str, Any]) -> None:
     assert before == after
 
 
+def test_a_step_file_and_folders_of_captures_lead_to_the_verdict(session: dict[str, Any]) -> None:
+    assert len(session["step_columns"]) == 1
+    assert session["said_by_folders"] == [[], []]
+    assert session["said_by_step_check"] == []
+    # That of the same column as FreeCAD's own document holds it, with the same scans as files.
+    assert session["step_verdict"] == session["verdict"]
+
+
 def test_without_a_document_one_command_leads_to_one(session: dict[str, Any]) -> None:
     assert session["active_without_document"] == ["AADM_SampleDesign"]
     assert session["objects_after_nonsense"] == []
