@@ -23,7 +23,8 @@ from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.extract.method import extract
 from aadm_workbench.extract.sample import thinned
 from aadm_workbench.extract.section.outline import SIDES, section_edges
-from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.inspection.check import check_column
+from aadm_workbench.inspection.measure import CheckSettings, ColumnScans
 from aadm_workbench.model import Array, Camera, Kind, Reason, Scan
 from aadm_workbench.scan.read import read_scan
 from aadm_workbench.twin.noise import CameraNoise

@@ -19,7 +19,8 @@ import numpy as np
 
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.errors import ScanError
-from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.inspection.check import check_column
+from aadm_workbench.inspection.measure import CheckSettings, ColumnScans
 from aadm_workbench.model import ColumnReport, Kind, Scan
 from aadm_workbench.scan.plausible import check_plausible
 from aadm_workbench.twin.filters import Filters

@@ -13,6 +13,8 @@ mirror=${AADM_MIRROR:-$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Deb
 packages="ca-certificates fonts-noto-cjk freecad libegl1 libgl1-mesa-dri python3-pip python3-pytest xvfb"
 # What the tests themselves need, beside FreeCAD; what FreeCAD's checks run with is made by the workbench's own button.
 wheels="numpy scipy opencv-python-headless ifcopenshell msgspec psutil python-neo-lzf rich"
+# The newest with which FreeCAD's native opening works, as its user may have put it there.
+shown_by="ifcopenshell==0.8.4"
 [ "$#" -gt 0 ] || set -- trixie sid
 [ "$(id -u)" = 0 ] || { echo "this needs root, for chroot" >&2; exit 2; }
 mkdir -p "$documents"
@@ -42,7 +44,10 @@ set_up() {
     fi
     mountpoint -q "$place/proc" || mount -t proc proc "$place/proc"
     mountpoint -q "$place/dev" || mount --bind /dev "$place/dev"
-    if [ ! -e "$place/opt/ready" ]; then
+    # A chroot of an earlier version of this script lacks what was added since: what it was set up with is its stamp.
+    wanted=$(printf '%s\n' "$packages" "$wheels" "$shown_by" | cat - "$root/requirements/test.txt" | sha256sum)
+    if [ "$(cat "$place/opt/ready" 2>/dev/null)" != "$wanted" ]; then
+        rm -rf "$place/opt/packages" "$place/opt/ifc"
         inside "$place" apt-get update
         # shellcheck disable=SC2086  # names of packages hold no spaces
         inside "$place" apt-get install --yes --no-install-recommends $packages
@@ -51,10 +56,9 @@ set_up() {
         # shellcheck disable=SC2086
         inside "$place" python3 -m pip install --quiet --disable-pip-version-check --target /opt/packages \
             --constraint /opt/pins.txt $wheels
-        # The newest with which FreeCAD's native opening works, as its user may have put it there.
         inside "$place" python3 -m pip install --quiet --disable-pip-version-check --target /opt/ifc --no-deps \
-            ifcopenshell==0.8.4
-        : >"$place/opt/ready"
+            "$shown_by"
+        printf '%s\n' "$wanted" >"$place/opt/ready"
     fi
 }
 

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.inspection.check import check_column
+from aadm_workbench.inspection.measure import CheckSettings, ColumnScans
 from aadm_workbench.model import ColumnDesign, ColumnReport, Scan, Verdict
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot
 from aadm_workbench.twin.scenes import FIELD, LAB, random_bars, random_foot

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.inspection.check import check_column
+from aadm_workbench.inspection.measure import CheckSettings, ColumnScans
 from aadm_workbench.model import ColumnReport, GroupReport, Kind, Verdict
 from aadm_workbench.twin.camera import PRO_M
 from aadm_workbench.twin.filters import NO_FILTERS, Filters, filtered

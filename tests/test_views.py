@@ -8,7 +8,8 @@ import numpy as np
 
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.design.recognise.pattern import inline_design
-from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.inspection.check import check_column
+from aadm_workbench.inspection.measure import CheckSettings, ColumnScans
 from aadm_workbench.model import Array, ColumnReport, Verdict
 from aadm_workbench.twin.camera import facing
 from aadm_workbench.twin.parts import Foot, SleeveAsBuilt

@@ -16,9 +16,9 @@ import numpy as np
 from aadm_workbench import __version__
 from aadm_workbench.assembly.findings.finding import with_same_scans
 from aadm_workbench.errors import DesignError, JobError, did_you_mean
-from aadm_workbench.inspection.check import CheckSettings
 from aadm_workbench.inspection.job import Job, JobColumn
 from aadm_workbench.inspection.learned import named_profile, notes_on_profile
+from aadm_workbench.inspection.measure import CheckSettings
 from aadm_workbench.model import (
     Array,
     Camera,

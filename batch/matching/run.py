@@ -11,9 +11,9 @@ from aadm_workbench.assembly.matching.assign import best_assignment
 from aadm_workbench.assembly.trial.shipment import interchangeable, joined_design, try_margin
 from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.errors import DesignError, JobError
-from aadm_workbench.inspection.check import CheckSettings, Measured, measure_column
 from aadm_workbench.inspection.column import attempt, read_scans
 from aadm_workbench.inspection.job import Job
+from aadm_workbench.inspection.measure import CheckSettings, Measured, measure_column
 from aadm_workbench.inspection.stopwatch import Stopwatch
 from aadm_workbench.inspection.tasks import ColumnTask, job_entry, plan_job, tool_entry
 from aadm_workbench.model import (

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from aadm_workbench.inspection import check
+from aadm_workbench.inspection import measure
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Scan
 from aadm_workbench.scan.write import write_ply
 from aadm_workbench.twin.parts import ring
@@ -88,4 +88,4 @@ def exact_extraction(monkeypatch: pytest.MonkeyPatch) -> None:
         )
         return Extraction(kind, method, points, None, up, "exact", quality={"points": len(scan.points)})
 
-    monkeypatch.setattr(check, "extract_sizes", extract)
+    monkeypatch.setattr(measure, "extract_sizes", extract)

@@ -11,7 +11,7 @@ import pytest
 
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.errors import JobError
-from aadm_workbench.inspection.check import CheckSettings
+from aadm_workbench.inspection.measure import CheckSettings
 from aadm_workbench.inspection.tasks import JobPlan, job_entry
 from aadm_workbench.report.ifc.model import ids_path
 from batch.job.file import read_job

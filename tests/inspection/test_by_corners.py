@@ -7,7 +7,8 @@ import pytest
 
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.hoisting.published import measure_published
-from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.inspection.check import check_column
+from aadm_workbench.inspection.measure import CheckSettings, ColumnScans
 from aadm_workbench.model import Verdict
 from tests.extract.published.test_corners import PATTERN, design_of, scan_of
 

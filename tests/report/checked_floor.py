@@ -12,8 +12,9 @@ import numpy as np
 from aadm_workbench.assembly.mould.moulds import assess_moulds
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.design.recognise.pattern import inline_design
-from aadm_workbench.inspection import check
-from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.inspection import measure
+from aadm_workbench.inspection.check import check_column
+from aadm_workbench.inspection.measure import CheckSettings, ColumnScans
 from aadm_workbench.model import Array, AssemblyPoint, ColumnReport, Extraction, JobReport, Kind, Scan, Verdict
 from aadm_workbench.report.json import encoded_report
 from aadm_workbench.twin.parts import ring
@@ -77,7 +78,7 @@ def checked(case: Case) -> ColumnReport:
     scans = {kind: (Scan(np.zeros((9, 3)), f"{case.name}-{kind.plural}.ply", "a" * 64),) for kind in case.kinds}
     up = {f"{kind.plural}_up_deg": 90.0 for kind in case.kinds}
     given = ColumnScans(scans.get(Kind.SLEEVE, ()), scans.get(Kind.REBAR, ()), **up)
-    with mock.patch.object(check, "extract_sizes", lambda scan, kind, *_, **__: _found(case, kind)):
+    with mock.patch.object(measure, "extract_sizes", lambda scan, kind, *_, **__: _found(case, kind)):
         return check_column(design, given, CheckSettings(PROFILE))
 
 

@@ -12,8 +12,9 @@ from scipy.spatial.transform import Rotation
 
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.design.recognise.pattern import inline_design
-from aadm_workbench.inspection import check
-from aadm_workbench.inspection.check import CheckSettings, ColumnScans, check_column
+from aadm_workbench.inspection import measure
+from aadm_workbench.inspection.check import check_column
+from aadm_workbench.inspection.measure import CheckSettings, ColumnScans
 from aadm_workbench.model import (
     Array,
     AssemblyPoint,
@@ -88,7 +89,7 @@ class Standing:
         up = {f"{kind.plural}_up_deg": 90.0 for kind in self.kinds}
         points = self._control_points() if Kind.REBAR in self.kinds else ()
         given = ColumnScans(scans.get(Kind.SLEEVE, ()), scans.get(Kind.REBAR, ()), **up, control_points=points)
-        with mock.patch.object(check, "extract_sizes", lambda scan, kind, *_, **__: self._found(kind)):
+        with mock.patch.object(measure, "extract_sizes", lambda scan, kind, *_, **__: self._found(kind)):
             return check_column(design, given, CheckSettings(PROFILE))
 
     def _control_points(self) -> tuple[ControlPoint, ...]:

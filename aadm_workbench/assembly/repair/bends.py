@@ -43,10 +43,10 @@ SAMPLES = 1000
 
 _GRAVEST_FIRST = tuple(reversed(RepairAction))
 
-DISPOSAL_PLAN = Reason("assembly.disposal_plan")
-NOTHING_FOUND = Reason("assembly.no_bars_found", plan=DISPOSAL_PLAN)
+DISPOSAL_PLAN = Reason("repair.disposal_plan")
+NOTHING_FOUND = Reason("repair.no_bars_found", plan=DISPOSAL_PLAN)
 
-ADVICE_TO_RESCAN = Reason("assembly.rescan")
+ADVICE_TO_RESCAN = Reason("repair.rescan")
 
 _MOST_NAMED = 3  # more of them make no line
 
@@ -86,7 +86,7 @@ def advise_repair(
         plan, exact = found
     report = _tried_again(_report(case, plan, exact), case, plan, decision, generator)
     advice = advice_on_steps(report, trial) if plan.bends else ADVICE_TO_RESCAN
-    notes = (Reason("assembly.not_in_advice", labels=trial.missing),) if trial.missing else ()
+    notes = (Reason("repair.not_in_advice", labels=trial.missing),) if trial.missing else ()
     return replace(report, advice=advice, notes=(*report.notes, *notes))
 
 
@@ -165,29 +165,29 @@ def advice_on_steps(report: RepairReport, trial: TrialReport) -> Reason:
     if report.action is RepairAction.DISPOSAL_PLAN:
         why = [step.reason for step in report.steps if step.action is RepairAction.DISPOSAL_PLAN]
         more = [Reason("assembly.more", count=len(why) - _MOST_NAMED)] if len(why) > _MOST_NAMED else []
-        return Reason("assembly.advise_plan", plan=DISPOSAL_PLAN, why=[*why[:_MOST_NAMED], *more])
+        return Reason("repair.advise_plan", plan=DISPOSAL_PLAN, why=[*why[:_MOST_NAMED], *more])
     what = Reason("said.all", parts=[_of_step(step) for step in report.steps])
     if not report.exact:
-        what = Reason("assembly.best_found", what=what)
+        what = Reason("repair.best_found", what=what)
     if report.after is not None:
         what = _outcome(what, report.after.max_mm, report.probability)
     if report.still_fails:
         one = len(report.still_fails) == 1
-        code = "assembly.still_beyond" if one else "assembly.still_beyond.several"
+        code = "repair.still_beyond" if one else "repair.still_beyond.several"
         what = Reason(code, what=what, labels=report.still_fails)
     doubtful = trial.verdict is Verdict.INCONCLUSIVE
-    return Reason("assembly.advise.if_confirmed" if doubtful else "assembly.advise", what=what)
+    return Reason("repair.advise.if_confirmed" if doubtful else "repair.advise", what=what)
 
 
 def _of_step(step: RepairStep) -> str:
     if step.action is RepairAction.REJECT_SLEEVE:
-        return Reason("assembly.reject", sleeve=step.sleeve, why=step.reason)
+        return Reason("repair.reject", sleeve=step.sleeve, why=step.reason)
     dx, dy = step.bend_mm or (0.0, 0.0)
-    text = Reason("assembly.bend.upright" if step.upright else "assembly.bend", rebar=step.rebar, dx=dx, dy=dy)
+    text = Reason("repair.bend.upright" if step.upright else "repair.bend", rebar=step.rebar, dx=dx, dy=dy)
     return in_one([text, step.reason] if step.reason else [text])
 
 
 def _outcome(what: Reason, max_mm: float, probability: float | None) -> Reason:
     if probability is not None and probability < PASS_PROBABILITY:
-        return Reason("assembly.after.doubtful", what=what, max_mm=max_mm, percent=100.0 * probability)
-    return Reason("assembly.after", what=what, max_mm=max_mm)
+        return Reason("repair.after.doubtful", what=what, max_mm=max_mm, percent=100.0 * probability)
+    return Reason("repair.after", what=what, max_mm=max_mm)

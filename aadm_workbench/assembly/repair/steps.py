@@ -50,11 +50,11 @@ def _step(
         action, reason = RepairAction.BEND, ""
     elif sleeve_to_blame:
         action = RepairAction.REJECT_SLEEVE
-        reason = Reason("assembly.sleeve_off", sleeve=pair.sleeve, off_mm=sleeve_off_mm, rebar=pair.rebar)
+        reason = Reason("repair.sleeve_off", sleeve=pair.sleeve, off_mm=sleeve_off_mm, rebar=pair.rebar)
     elif may_bend:
         action = RepairAction.BEND
         reason = Reason(
-            "assembly.then_from_design", rebar=pair.rebar, after_mm=after_mm, limit=describe_limit(case.rebar_rule)
+            "repair.then_from_design", rebar=pair.rebar, after_mm=after_mm, limit=describe_limit(case.rebar_rule)
         )
     else:
         action, reason = RepairAction.DISPOSAL_PLAN, _why_not_bent(case, bend)
@@ -79,10 +79,10 @@ def _step(
 def _why_not_bent(case: RepairCase, bend: Bend) -> str:
     pair = case.pairs[bend.pair]
     if bend.by is None:
-        return Reason("assembly.no_bend_helps", rebar=pair.rebar, sleeve=pair.sleeve)
+        return Reason("repair.no_bend_helps", rebar=pair.rebar, sleeve=pair.sleeve)
     if case.adjustment_rule is None:
-        return Reason("assembly.too_far.no_rule", rebar=pair.rebar, length_mm=bend.length_mm)
-    far = Reason("assembly.too_far", rebar=pair.rebar, length_mm=bend.length_mm)
+        return Reason("repair.too_far.no_rule", rebar=pair.rebar, length_mm=bend.length_mm)
+    far = Reason("repair.too_far", rebar=pair.rebar, length_mm=bend.length_mm)
     rule = case.adjustment_rule
     return Reason("assembly.beyond", how=far, upper=rule.upper, clause=describe_clause(rule))
 

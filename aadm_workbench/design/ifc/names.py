@@ -20,7 +20,8 @@ _MARK = frozenset({"mark", "标记", "標記", "マーク", "kennzeichen"})
 """Revit's own mark of an instance, as its languages export it; its Tag is the number of the element."""
 
 _MACHINE_MADE = re.compile(
-    r"\d+|ID[0-9a-f-]{30,}|[{(]?[0-9a-f]{8}(-?[0-9a-f]{4}){3}-?[0-9a-f]{12}[)}]?|[0-3][0-9a-z_$]{21}", re.IGNORECASE
+    r"\d+|ID[0-9a-f-]{30,}|[{(]?[0-9a-f]{8}(-?[0-9a-f]{4}){3}-?[0-9a-f]{12}[)}]?|(ID)?[-_ ]?[0-3][0-9a-z_$]{21}",
+    re.IGNORECASE,
 )
 """Tags that programs give (Revit's element number, Tekla's and ArchiCAD's GUID) and nobody on site says."""
 

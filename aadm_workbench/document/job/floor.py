@@ -71,6 +71,14 @@ def owner_by_name(file: Path, columns: Sequence[Any]) -> Any:
     return next((column for column in columns if [column.Name] == names), None)
 
 
+def shortest_name(columns: Sequence[Any]) -> str:
+    """The shortest name that the first of some columns shares with no other: with it a scan is found."""
+    known = {column.Name: names_of(column) for column in columns}
+    first = columns[0]
+    own = [name for name in known[first.Name] if owners_of(name, known) == [first.Name]]
+    return min(own, key=len, default=str(first.ColumnId))
+
+
 def assigned_by_job(job: Path, columns: Sequence[Any]) -> tuple[dict[str, Assigned], list[str]]:
     """What a job file says of the columns, by their objects' names; and ids of the job that no column has.
 

@@ -18,6 +18,9 @@ from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, TABLES
 translate = FreeCAD.Qt.translate
 _COLUMN, _SLEEVES, _REBARS, _UP = range(4)  # places in the table, from left to right
 _FILES = QtCore.Qt.UserRole
+_MOST_OF_A_NAME = 24
+"""Letters of mean width: a mark of ten with its box, its icon and the longest verdict behind it."""
+
 _FORMATS = " ".join(f"*{suffix}" for suffix in (*DEPTH_MAPS, *CLOUDS, *TABLES))
 
 
@@ -61,6 +64,9 @@ class AssignedTable(QtGui.QTableWidget):
                 self.setItem(place, column, item)
             self.item(place, _COLUMN).setFlags(self.item(place, _COLUMN).flags() | QtCore.Qt.ItemIsUserCheckable)
             self.item(place, _COLUMN).setCheckState(QtCore.Qt.Checked)
+            self.item(place, _COLUMN).setToolTip(name)
+        self.setWordWrap(False)
+        self.setTextElideMode(QtCore.Qt.ElideMiddle)
         self._ids = list(ids)
         self.itemSelectionChanged.connect(self._tell)
         self.cellDoubleClicked.connect(self._double_clicked)
@@ -71,7 +77,7 @@ class AssignedTable(QtGui.QTableWidget):
             self._put_files(place, _SLEEVES, row.sleeves)
             self._put_files(place, _REBARS, row.rebars)
             self.item(place, _UP).setText(row.up)
-        self.resizeColumnsToContents()
+        self._fit()
 
     def rows(self) -> list[Row]:
         """What stands in the table now."""
@@ -104,7 +110,13 @@ class AssignedTable(QtGui.QTableWidget):
             font = item.font()
             font.setBold(verdict not in {"", "pass"})
             item.setFont(font)
+        self._fit()
+
+    def _fit(self) -> None:
+        """As wide as what stands in it; long names of columns give way in their middle, so that scans are seen."""
         self.resizeColumnsToContents()
+        widest = _MOST_OF_A_NAME * self.fontMetrics().averageCharWidth()
+        self.setColumnWidth(_COLUMN, min(self.columnWidth(_COLUMN), widest))
 
     def _put_files(self, place: int, column: int, files: Sequence[Path]) -> None:
         item = self.item(place, column)
@@ -130,4 +142,4 @@ class AssignedTable(QtGui.QTableWidget):
         chosen, _ = QtGui.QFileDialog.getOpenFileNames(self, title, begin, f"{title} ({_FORMATS})")
         if chosen:
             self._put_files(place, column, [Path(one) for one in chosen])
-            self.resizeColumnsToContents()
+            self._fit()

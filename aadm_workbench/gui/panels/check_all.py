@@ -22,6 +22,7 @@ from aadm_workbench.document.job.floor import (
     camera_work,
     put_scans,
     save_job,
+    shortest_name,
 )
 from aadm_workbench.document.job.opened import model_of
 from aadm_workbench.document.private_process import Work
@@ -97,7 +98,16 @@ class CheckAllPanel(WorkingPanel):
         """Say how many columns have scans, and the verdicts that the document holds."""
         with_scans = sum(bool(one.files) for one in self.table.rows())
         said = translate("AADM_CheckAll", "{count} of {all} columns have scans")
-        self.state.setText(said.format(count=with_scans, all=len(self.columns)))
+        lines = [said.format(count=with_scans, all=len(self.columns))]
+        if self.folder.text() and with_scans < len(self.columns):
+            lines.append(
+                translate(
+                    "AADM_CheckAll",
+                    "A scan is found where its name holds that of its column, and sleeves or bars, such as "
+                    "{id}-foot.ply. Others: double-click their place in the table.",
+                ).format(id=shortest_name(self.columns))
+            )
+        self.state.setText("\n".join(lines))
         self.table.show_verdicts([column.Result.Verdict if column.Result else "" for column in self.columns])
 
     def _folder_chosen(self, chosen: str) -> None:

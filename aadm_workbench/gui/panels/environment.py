@@ -135,6 +135,7 @@ class EnvironmentWindow(QtGui.QDialog):
         if code == 0:
             self._say(translate("AADM_Install", "Installed. Repeat the command."))
             if self.after is not None:
+                super().reject()  # what follows says by itself that it is there, and must not lie behind this window
                 self.after()
         elif self.problem:
             self._say(translate("AADM_Install", _PROBLEMS.get(self.problem, _PROBLEMS["pip"])), bad=True)

@@ -7,7 +7,7 @@ from typing import Any
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 from aadm_workbench.document.private_process import Work
 from aadm_workbench.errors import AadmError
@@ -17,6 +17,8 @@ from aadm_workbench.gui.sentences import sentences, show_error
 
 translate = FreeCAD.Qt.translate
 _OPEN: list[Any] = []
+_MOST_OF_A_TITLE = 24
+"""Letters of mean width: with icon and arrow as much as FreeCAD's task view shows at the width that it starts with."""
 
 
 class TaskPanel:
@@ -31,7 +33,10 @@ class TaskPanel:
         # FreeCAD takes the form away from a panel that it closes.
         self.title, self.owner = title, owner
         self.form = QtGui.QWidget()
-        self.form.setWindowTitle(title)
+        # The title is never narrower than its text, and with it the panel: the name of a column may have forty letters.
+        metrics = self.form.fontMetrics()
+        widest = _MOST_OF_A_TITLE * metrics.averageCharWidth()
+        self.form.setWindowTitle(metrics.elidedText(title, QtCore.Qt.ElideMiddle, widest))
         self.form.setWindowIcon(icon(self.ICON))
         self.layout = QtGui.QVBoxLayout(self.form)
 

@@ -5,37 +5,10 @@ from __future__ import annotations
 from aadm_workbench.model.sentences import Sentence
 
 SENTENCES: dict[str, Sentence] = {
-    "assembly.advise": Sentence("subject to the engineer's release: {what}", "须经工程师批准：{what}"),
-    "assembly.advise.if_confirmed": Sentence(
-        "subject to the engineer's release: rescan closer; if that confirms it, {what}",
-        "须经工程师批准：靠近重新扫描；若结果相同，{what}",
-    ),
-    "assembly.advise_plan": Sentence(
-        "subject to the engineer's release: no bend can be advised; {plan}: {why:;}",
-        "须经工程师批准：不能建议弯筋；{plan}：{why:;}",
-    ),
-    "assembly.after": Sentence(
-        "{what}. Then the largest distance is {max_mm:.2f} mm",
-        "{what}。处理后最大中心距 {max_mm:.2f} mm",
-    ),
-    "assembly.after.doubtful": Sentence(
-        "{what}. Then the largest distance is {max_mm:.2f} mm, and the trial may stay inconclusive (a pose exists "
-        "with {percent:.0f} %)",
-        "{what}。处理后最大中心距 {max_mm:.2f} mm，预拼装可能仍不确定（可就位概率 {percent:.0f} %）",
-    ),
     "assembly.axes_not_told": Sentence(
         "the file does not tell how its axes run: the top of the picture was taken for -y of the file; write axes "
         '= "opengl" where it is +y',
         '文件未说明坐标轴方向：图像上方按文件的 -y 处理；若应为 +y，请写 axes = "opengl"',
-    ),
-    "assembly.bend": Sentence("bend {rebar} by ({dx:+.1f}, {dy:+.1f}) mm", "将 {rebar} 弯移 ({dx:+.1f}, {dy:+.1f}) mm"),
-    "assembly.bend.upright": Sentence(
-        "bend {rebar} by ({dx:+.1f}, {dy:+.1f}) mm and set it upright",
-        "将 {rebar} 弯移 ({dx:+.1f}, {dy:+.1f}) mm，并扶直",
-    ),
-    "assembly.best_found": Sentence(
-        "{what} (the best that was found; fewer bars might do)",
-        "{what}（已找到的最佳方案；或许更少的钢筋即可）",
     ),
     "assembly.bent": Sentence(
         "{rebars}: a lean of up to {lean_deg:.1f}° in what was seen, from {seen_mm:.0f} mm below the top on down they "
@@ -75,10 +48,6 @@ SENTENCES: dict[str, Sentence] = {
     "assembly.displaced_alike": Sentence(
         "displaced alike in {columns} columns: {sleeves}; look at the mould",
         "{columns} 根柱中一致偏移：{sleeves}；请检查模具",
-    ),
-    "assembly.disposal_plan": Sentence(
-        "a disposal plan (特殊处理方案) agreed with the designer is needed",
-        "须与设计单位商定特殊处理方案",
     ),
     "assembly.erected": Sentence("it is measured on the erected column", "须在安装后的柱上测量"),
     "assembly.extra": Sentence(
@@ -169,14 +138,6 @@ SENTENCES: dict[str, Sentence] = {
         "absolute position not checked: the job gives no control points",
         "未检查绝对位置：任务没有控制点",
     ),
-    "assembly.no_bars_found": Sentence(
-        "no set of bars was found whose bending would let the column in: {plan}",
-        "没有找到弯筋后可就位的方案：{plan}",
-    ),
-    "assembly.no_bend_helps": Sentence(
-        "no bend helps: {rebar} over its ribs and its lean takes more room than {sleeve} has",
-        "弯筋无效：{rebar} 连同肋和倾斜所需空间大于 {sleeve} 的净空",
-    ),
     "assembly.no_camera": Sentence(
         "the cloud does not tell where its camera stood, so its edges are less certain; with [camera] and the "
         "camera's own depth map or cloud they are better",
@@ -208,10 +169,6 @@ SENTENCES: dict[str, Sentence] = {
         "这 {columns} 根柱中没有一致偏移的套筒",
     ),
     "assembly.none_found": Sentence("no {kind:word} was found in the scan", "扫描中未找到{kind:word}"),
-    "assembly.not_in_advice": Sentence(
-        "not measured, and not in this advice: {labels}",
-        "未测得，不在本建议内：{labels}",
-    ),
     "assembly.not_measured": Sentence("{label} not measured: {why}", "{label} 未测得：{why}"),
     "assembly.of_no_pair": Sentence("it is no limit of a single pair", "它不是单对的限值"),
     "assembly.off_own_place": Sentence(
@@ -236,11 +193,6 @@ SENTENCES: dict[str, Sentence] = {
         "可就位概率 {percent:.1f} %",
     ),
     "assembly.rebar_of": Sentence("the rebar of {sleeve}", "{sleeve} 的钢筋"),
-    "assembly.reject": Sentence("reject the position of {sleeve}: {why}", "不接受 {sleeve} 的位置：{why}"),
-    "assembly.rescan": Sentence(
-        "rescan closer: at the measured values the column goes in, no bar has to be bent",
-        "靠近重新扫描：按实测值可以就位，无需弯筋",
-    ),
     "assembly.ribs_after": Sentence("diameter over the ribs after {source}", "肋外径取自 {source}"),
     "assembly.ribs_and_lean": Sentence(
         "over its ribs and its lean it takes more room than {sleeve} has",
@@ -268,10 +220,6 @@ SENTENCES: dict[str, Sentence] = {
         "the points it shares with the others differ by more than their uncertainty: it is open which they are",
         "与其余视角共有的点之差超出不确定度，无法确定对应关系",
     ),
-    "assembly.sleeve_off": Sentence(
-        "{sleeve} is {off_mm:.2f} mm off the place that the other sleeves give it, {rebar} is not",
-        "{sleeve} 偏离其余套筒给出的位置 {off_mm:.2f} mm，{rebar} 未偏离",
-    ),
     "assembly.spaced": Sentence(
         "{first}–{second} are spaced {deviation_mm:+.2f} mm from design, limit {limits} mm ({clause})",
         "{first}–{second} 间距与设计相差 {deviation_mm:+.2f} mm，限值 {limits} mm（{clause}）",
@@ -283,23 +231,6 @@ SENTENCES: dict[str, Sentence] = {
     "assembly.sticks_out": Sentence(
         "{label} sticks out {exposed_mm:.1f} mm, {deviation_mm:+.1f} mm from design, limit {limits} mm ({clause})",
         "{label} 外露 {exposed_mm:.1f} mm，与设计相差 {deviation_mm:+.1f} mm，限值 {limits} mm（{clause}）",
-    ),
-    "assembly.still_beyond": Sentence(
-        "{what}. Still beyond its own limit of position then: {labels}",
-        "{what}。处理后仍超出自身位置限值：{labels}",
-    ),
-    "assembly.still_beyond.several": Sentence(
-        "{what}. Still beyond their own limit of position then: {labels}",
-        "{what}。处理后仍超出自身位置限值：{labels}",
-    ),
-    "assembly.then_from_design": Sentence(
-        "{rebar} then is {after_mm:.2f} mm from design, {limit}",
-        "处理后 {rebar} 偏离设计位置 {after_mm:.2f} mm，{limit}",
-    ),
-    "assembly.too_far": Sentence("{rebar} would have to move {length_mm:.1f} mm", "{rebar} 须移动 {length_mm:.1f} mm"),
-    "assembly.too_far.no_rule": Sentence(
-        "{rebar} would have to move {length_mm:.1f} mm, and the profile does not say how far a bar may be bent",
-        "{rebar} 须移动 {length_mm:.1f} mm，而规范没有给出钢筋允许弯移多少",
     ),
     "assembly.turn_decides": Sentence(
         "the verdict depends on how the column is turned, which the scan does not show",

@@ -1,4 +1,4 @@
-"""The words of the reports, in English and Chinese; ``resources/report/words.toml`` holds them all."""
+"""The words of the reports, in English and Chinese; ``resources/report/words*.toml`` hold them all."""
 
 from __future__ import annotations
 
@@ -46,8 +46,9 @@ class Phrase(NamedTuple):
 @cache
 def all_words() -> dict[str, Phrase]:
     """Every text by its name, ``verdict.pass``."""
-    path = resource_folder() / "words.toml"
-    sections: dict[str, dict[str, list[str]]] = tomllib.loads(path.read_text(encoding="utf-8"))
+    sections: dict[str, dict[str, list[str]]] = {}
+    for path in sorted(resource_folder().glob("words*.toml")):
+        sections |= tomllib.loads(path.read_text(encoding="utf-8"))
     return {
         f"{section}.{name}": Phrase(english, chinese)
         for section, texts in sections.items()

@@ -323,6 +323,10 @@
    <translation>有一根柱已不存在：请重新打开此面板。</translation>
   </message>
   <message>
+   <source>A scan is found where its name holds that of its column, and sleeves or bars, such as {id}-foot.ply. Others: double-click their place in the table.</source>
+   <translation>扫描文件名中含柱名，并含套筒或钢筋字样时（如 {id}-foot.ply）会自动找到；其余请在表中双击相应位置选择。</translation>
+  </message>
+  <message>
    <source>Camera</source>
    <translation>相机</translation>
   </message>

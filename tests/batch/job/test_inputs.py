@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from aadm_workbench.inspection.check import CheckSettings
 from aadm_workbench.inspection.job import JobColumn
+from aadm_workbench.inspection.measure import CheckSettings
 from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.model import Camera
 from batch.job.file import read_job

@@ -62,6 +62,7 @@ def test_a_mark_of_the_type_is_no_name_of_one_column(author: Callable[..., Any])
         "ID50d0a3c4-0000-0016-3136-333330343133",
         "346512",
         "0lY6P5Ur90TAQnnnI6wtnb",
+        "ID0lY6P5Ur90TAQnnnI6wtnb",
     ],
 )
 def test_tags_that_programs_make_up_do_not_beat_names(author: Callable[..., Any], tag: str) -> None:

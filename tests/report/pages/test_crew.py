@@ -217,3 +217,11 @@ def test_plugged_sleeves_are_cleaned_together(floor: dict[str, Any]) -> None:
         "Open and clean sleeve S1, S2, then scan the foot again.",
         "Scan S8 again, closer and straight.",
     ]
+
+
+def test_an_open_trial_names_the_points_that_are_to_be_scanned_again(floor: dict[str, Any]) -> None:
+    column = copy.deepcopy(next(one for one in floor["columns"] if one.get("repair")))
+    column["verdict"], column["repair"]["action"] = "inconclusive", "rescan"
+    column["trial_assembly"]["rescan"] = ["S7", "S2"]
+    told = " ".join(step.text.en for step in crew_advice(typed(floor), of_column(column)).steps)
+    assert "S7, S2" in told
