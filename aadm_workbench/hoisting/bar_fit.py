@@ -35,9 +35,8 @@ _ABOVE_MM = 14.0  # how far above the level of all tops one may end: by right th
 # about the radius, from a first guess of some mm down to what a rib of 0.9 mm stands out by and its noise
 _BANDS_MM = (3.0, 2.0, 1.6, 1.6, 1.6)
 _SETTLED_MM = 0.01  # a third of the uncertainty's floor below
-_TRACKED_ROUNDS = 2  # bars stand where they stood in the frame before
-# with the scatter that the bars show, until all stay: a cap, and a tenth of the uncertainty's floor; ended before, a
-# fit is where it began as much as where the points are
+# with the scatter that the bars show, until all stay: a cap, and a tenth of the uncertainty's floor; ended before, it
+# tells where it began
 _LAST_ROUNDS, _STILL_MM = 12, 0.003
 _INWARDS_MM = 1.0  # ribs only stand outwards: what lies farther inside of the core is a stray
 # of a window, evenly taken: half of them are the side's; where it is known already, fewer find 300 of them
@@ -146,7 +145,7 @@ def fit_bars(
         state, law = _settled(sides, state, pattern, believed, law)
     terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
     pattern = as_built(loosened(pattern, state), state, counts >= _FEWEST)
-    for _ in range(_LAST_ROUNDS if before is None else _TRACKED_ROUNDS):
+    for _ in range(_LAST_ROUNDS):
         system = _system(terms, pattern, believed, state)
         state, step_mm = system.stepped(state)
         terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
@@ -229,7 +228,8 @@ def _side(
     step = max(1, int(np.sqrt(np.prod(np.ptp(pixels, axis=0)) / most)))
     low -= low % step
     points = frame.points[low[1] : high[1] : step, low[0] : high[0] : step]
-    kept = _borne(points[..., 2]) & _every(max(1, int(step**-2 * np.prod(np.ptp(pixels, axis=0)) / _TAKEN)), points)
+    nth = max(1, int(step**-2 * np.prod(np.ptp(pixels, axis=0)) / _TAKEN))
+    kept = _borne(points[..., 2]) & _every(nth, points)
     local = axes.local(points[kept].astype(np.float64))
     near = np.hypot(*(local[:, :2] - centre).T) < reach
     near &= (local[:, 2] > top_mm - _LENGTH_MM) & (local[:, 2] < top_mm + _ABOVE_MM)

@@ -111,7 +111,7 @@ def fit_foot(
     walls: list[IntArray] = []
     bands_mm = _BANDS_MM if before is None else _TRACKED_BANDS_MM
     for band_mm in bands_mm:
-        walls = _far_walls(views, state, noise_mm, band_mm)
+        walls = [_far_wall(view, state, k, noise_mm, band_mm) for k, view in enumerate(views)]
         walls = _few(walls) if band_mm > bands_mm[-1] else walls
         state, _ = _system(views, walls, state, pattern, believed)[0].stepped(state)
         if band_mm < _LOOSE_FROM_MM:
@@ -206,10 +206,6 @@ def _spread_of(values: Array, sigma: Array) -> float:
 def _few(walls: list[IntArray]) -> list[IntArray]:
     """Some points of each wall, for a search: which ones hangs on each before them, and all decide in the end."""
     return [wall[:: len(wall) // _WALL_MAX + 1] for wall in walls]
-
-
-def _far_walls(views: list[MouthView | None], state: State, noise_mm: float, band_mm: float) -> list[IntArray]:
-    return [_far_wall(view, state, k, noise_mm, band_mm) for k, view in enumerate(views)]
 
 
 def _far_wall(view: MouthView | None, state: State, k: int, noise_mm: float, band_mm: float) -> IntArray:

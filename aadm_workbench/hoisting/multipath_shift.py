@@ -29,9 +29,10 @@ _MEAN_REACH_MM, _MEAN_GRID = (0.12, 0.05), np.linspace(-1.0, 1.0, 5)
 # as narrow as the steps of single rays; from 3 to 30 pushes move by less than 0.015 mm
 _FLATTER = 10.0
 # of a sleeve's own push: sleeves of the reference camera's scenes differ by up to 0.4 mm; fine enough for the flatter
-# likelihood of so few rays, of which its steps leave so much unsure
+# likelihood of so few rays
 _OWN_GRID_MM = np.arange(-6, 7) * 0.075
-_OWN_FLATTER, _OWN_LEAST_MM = 3.0, 0.015
+_OWN_FLATTER = 3.0  # u becomes 1.7 times as large: as much as steps of single rays leave unsure
+_OWN_LEAST_MM = 0.015  # a fifth of the grid's step: below, it tells nothing
 _MEAN_ROUNDS, _STILL_MM = 6, 0.003  # a cap; a tenth of that floor
 # bounds of the time; farther from the edge than two steps of the grid a ray tells nothing
 _COARSE_RAYS, _FINE_RAYS, _NEAR_MM, _NEAR_PITCHES = 1_200, 2_000, 0.7, 0.6

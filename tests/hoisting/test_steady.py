@@ -1,0 +1,31 @@
+"""A hair's breadth of noise on a frame moves its pairs by a hair's breadth: no choice hangs on single points."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("open3d")
+pytest.importorskip("manifold3d")
+
+from aadm_workbench.hoisting.measure import measure_hoisting
+from aadm_workbench.model import Array
+from aadm_workbench.twin.scenes import LAB
+from aadm_workbench.twin.study.hoisting import design_of
+from tests import hoisting_scenes as scenes
+
+ALIKE_MM, NOISE_MM, DRAWS = 0.025, 0.01, 5
+
+
+def distances(depth: Array) -> Array:
+    scan = replace(scenes.usual().frame, depth=depth.astype(np.float32)).scan()
+    report = measure_hoisting(scan, design_of(LAB), near=scenes.NEAR).report
+    return np.array([pair.distance_mm for pair in report.pairs])
+
+
+def test_noise_of_a_hundredth_of_a_millimetre_moves_no_pair_by_more_than_a_fortieth() -> None:
+    depth, rng = scenes.usual().frame.depth, np.random.default_rng(3)
+    plain = distances(depth)
+    for _ in range(DRAWS):
+        noisy = distances(np.where(depth > 0, depth + rng.uniform(-NOISE_MM, NOISE_MM, depth.shape), 0.0))
+        assert np.abs(noisy - plain).max() < ALIKE_MM
