@@ -19,7 +19,7 @@ from aadm_workbench.camera.coordinates import Part
 from aadm_workbench.camera.features import Features
 from aadm_workbench.camera.frame import Closing, Device, Frame
 from aadm_workbench.camera.genicam_frame import FRAME_WITHIN_S, first_line, frame_of, prepare
-from aadm_workbench.camera.network import ip_of
+from aadm_workbench.camera.network import asked_for, ip_of
 from aadm_workbench.errors import CameraGoneError, CaptureError, MissingDependencyError
 from aadm_workbench.model.reason import said_of
 
@@ -43,14 +43,8 @@ def devices(address: str) -> list[Device]:
         Without Aravis.
     """
     ip = ip_of(address, needed=False)
-    found = [
-        Device(f"{SCHEME}://{one.address}", one.vendor, one.model, one.serial)
-        for one in aravis.cameras(address)
-        if not ip or one.address == ip
-    ]
-    if ip and not found:
-        raise CameraGoneError(said_of(address, "camera.not_there"))
-    return found
+    found = [Device(f"{SCHEME}://{one.address}", one.vendor, one.model, one.serial) for one in aravis.cameras(address)]
+    return asked_for(address, ip, found)
 
 
 def open_camera(address: str) -> GigeCamera:

@@ -23,7 +23,7 @@ from aadm_workbench.camera import mecheye_program
 from aadm_workbench.camera.coordinates import Coding, Part, measured
 from aadm_workbench.camera.frame import Closing, Device, Frame
 from aadm_workbench.camera.genicam_frame import FRAME_WITHIN_S
-from aadm_workbench.camera.network import ip_of
+from aadm_workbench.camera.network import asked_for, ip_of
 from aadm_workbench.camera.settings import warnings_of
 from aadm_workbench.errors import CameraGoneError, CaptureError, MissingDependencyError, package_called
 from aadm_workbench.model import Camera, Reason
@@ -52,9 +52,7 @@ def devices(address: str) -> list[Device]:
     with _Program(address) as program:
         listed, _ = program.asked("devices")
     found = [Device(f"{SCHEME}://{one['ip']}", _VENDOR, one["model"], one["serial"]) for one in listed["devices"]]
-    if ip and not (found := [one for one in found if one.address == f"{SCHEME}://{ip}"]):
-        raise CameraGoneError(said_of(address, "camera.not_there"))
-    return found
+    return asked_for(address, ip, found)
 
 
 def open_camera(address: str) -> MechEyeCamera:

@@ -9,9 +9,10 @@ from aadm_workbench.atomic import write_atomically
 from aadm_workbench.calibration.gauge.anova import Estimate
 from aadm_workbench.calibration.gauge.drawing import captures_sketch, components_sketch, style_of
 from aadm_workbench.calibration.gauge.study import GaugeStudy, QuantityStudy
-from aadm_workbench.model import Reason, Verdict, worst
+from aadm_workbench.model import Verdict, worst
 from aadm_workbench.report.pages.static_page import drawn, static_page
 from aadm_workbench.report.words.labels import Language, Phrase, phrase, verdict_words
+from aadm_workbench.report.words.reasons import in_both_languages
 
 _LINES = (("ev", "repeatability"), ("av", "reproducibility"), ("grr", "gauge"), ("pv", "parts"))
 """The words of each variance, and its name in the study."""
@@ -35,17 +36,12 @@ def gauge_page(found: GaugeStudy, language: Language = "en") -> str:
     return static_page("gauge.html.j2", _context(found), language, "gauge.html")
 
 
-def both(reason: str) -> Phrase:
-    """A sentence in both languages."""
-    return Phrase(reason, reason.in_language("zh")) if isinstance(reason, Reason) else Phrase(reason, reason)
-
-
 def _context(found: GaugeStudy) -> dict[str, object]:
     verdict = worst(found.verdicts)
     return {
         "found": found,
         "w": lambda name, **values: phrase(f"gauge.{name}", **values),
-        "said": both,
+        "said": in_both_languages,
         "headline": {Verdict.PASS: "good", Verdict.FAIL: "bad"}.get(verdict, ""),
         "quantities": [(one, *_drawn(one), lines_of_variances(one)) for one in found.quantities],
         "verdict_words": verdict_words,

@@ -166,10 +166,6 @@ def _dictionary(sentences: Iterable[Phrase]) -> dict[str, dict[str, list[str]] |
     }
 
 
-def _views(found: list[Finding]) -> dict[str, dict[str, Any]]:
-    return {one.anchor: asdict(view_of(one.column)) for one in found if one.column.groups}
-
-
 def _plans(report: JobReport, found: list[Finding]) -> list[tuple[Plan, str]]:
     """Each plan, and as SVG."""
     anchors = {finding.column.id: finding.anchor for finding in found}
