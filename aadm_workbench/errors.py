@@ -156,4 +156,6 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
 
     known = tuple(known)
     near = get_close_matches(word, known, n=1, cutoff=0.6)
-    return f'did you mean "{near[0]}"?' if near else f"known: {', '.join(known)}"
+    from aadm_workbench.model.reason import Reason  # as above
+
+    return Reason("command.did_you_mean", near=near[0]) if near else Reason("command.known", known=", ".join(known))

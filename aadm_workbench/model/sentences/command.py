@@ -5,6 +5,8 @@ from __future__ import annotations
 from aadm_workbench.model.sentences import Sentence
 
 SENTENCES: dict[str, Sentence] = {
+    "command.did_you_mean": Sentence('did you mean "{near}"?', "是否指“{near}”？"),
+    "command.known": Sentence("known: {known}", "已知：{known}"),
     "command.asks_without_scan": Sentence(
         "column {column}: the job asks for {parts}, but names no scan for it",
         "柱 {column}：作业要求{parts}，但未给出其扫描",
