@@ -11,7 +11,7 @@ from benchmarks.columns import PATTERNS
 from benchmarks.smooth_margin import margins_mm
 
 LIMIT_MM, WALKERS, SETTLE, SNAPSHOTS, BETWEEN = 3.0, 800, 100, 3, 25
-STUDENT, NORMAL = 0, 1
+STUDENT = 0  # of the two laws
 
 
 class Walkers:
@@ -80,12 +80,9 @@ def by_walkers(places: Array, measured: Array, u_mm: Array, rng: np.random.Gener
     return float(np.mean(shares))
 
 
-@pytest.mark.parametrize(
-    ("pattern", "scatter_mm", "hardly"),
-    [("four", 1.5, 0), ("four", 1.9, 0), ("double row", 0.9, 2), ("double row", 1.2, 1), ("row", 1.1, 2)],
-)
+@pytest.mark.parametrize(("pattern", "scatter_mm", "hardly"), [("four", 2.6, 1), ("double row", 1.1, 3)])
 def test_stated_is_what_walkers_find(pattern: str, scatter_mm: float, hardly: int) -> None:
-    """Columns known to 0.3 mm, some pairs to 2.5 mm: there, all hangs on what is thought of tails."""
+    """Known to 0.3 mm, some pairs to 2.5 mm: there, all hangs on which law the pairs scatter by, and on its width."""
     rng = np.random.default_rng([hardly, int(10.0 * scatter_mm)])
     places = PATTERNS[pattern] - PATTERNS[pattern].mean(axis=0)
     u_mm = np.where(np.arange(len(places)) < hardly, 2.5, 0.3)
@@ -94,9 +91,8 @@ def test_stated_is_what_walkers_find(pattern: str, scatter_mm: float, hardly: in
         Pair(f"S{k}", f"R{k}", place, place + offset, np.zeros(2), np.zeros(2), None, u**2 * np.eye(2))
         for k, (place, offset, u) in enumerate(zip(places, measured, u_mm, strict=True))
     ]
-    stated = probability_of_a_pose(pairs, np.full(len(places), LIMIT_MM), np.random.default_rng(1), 6000)
+    stated = probability_of_a_pose(pairs, np.full(len(places), LIMIT_MM), np.random.default_rng(1), 3000)
     expected = by_walkers(places, measured, u_mm, rng)
-    print(pattern, stated, expected)
-    assert 0.02 < expected < 0.98
-    # Six thousand draws on either side, of which those of the walkers are not all independent.
+    assert 0.3 < expected < 0.97
+    # Three thousand draws here, some two thousand there: 0.007 each. Tails in every column would be 0.06 too low.
     assert stated == pytest.approx(expected, abs=0.035)
