@@ -30,6 +30,13 @@ class AadmError(Exception):
 
         return cls(Reason(code, **values))
 
+    @classmethod
+    def about(cls, file: object, code: str, /, **values: object) -> Self:
+        """The error whose reason is a sentence that is said of a file, or of whatever else stands before its colon."""
+        from aadm_workbench.model.reason import said_of  # as above
+
+        return cls(said_of(file, code, **values))
+
 
 class JobError(AadmError):
     """The text of a job cannot be used: nothing was checked."""
