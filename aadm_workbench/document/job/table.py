@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.design.design_text import write_model
-from aadm_workbench.design.directions import UP_DEG, up_deg
+from aadm_workbench.design.directions import up_deg
 from aadm_workbench.document.column import column_design
 from aadm_workbench.document.display.reported_design import FROM_REPORT
 from aadm_workbench.document.job.toml import Table
 from aadm_workbench.document.scan_cloud import kind_of
 from aadm_workbench.errors import DesignError, ScanError
-from aadm_workbench.model import Camera, Kind
+from aadm_workbench.model import UP_DEG, Camera, Kind
 
 _DEFAULTS = {"units": "mm", "tolerances": "cn", "decision": "guarded", "turns": False}
 """What holds where a job says nothing, as the command reads it."""
