@@ -205,10 +205,13 @@ def _declared(units: str, camera: Camera | None, depth_scale_mm: float | None, a
 
 def _measured(file: ScanFile, cloud: Cloud, camera: Camera | None, axes: str) -> tuple[FloatArray, int]:
     """Return the points in mm in the scan frame, in a camera's axes, and how many of the file are no measurement."""
-    missing = without_return(cloud.points)
+    # What a depth map lacks is NaN already, and its points lie on the camera's rays because they were laid there.
+    missing = np.isnan(cloud.points[..., 2]) if cloud.is_depth_map else without_return(cloud.points)
     dropped = int(np.count_nonzero(missing))
     if dropped == missing.size:
         raise file.wrong(Reason("scan.nothing_measured", count=missing.size))
+    if cloud.is_depth_map:
+        return cloud.points, dropped + cloud.dropped
     # A declared camera fixes the frame to its own, in which the files of all cameras hold their points.
     T_scan_file = None if camera is not None else cloud.T_scan_file
     if dropped and (camera is not None or cloud.points.ndim == 3):

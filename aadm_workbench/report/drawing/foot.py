@@ -113,7 +113,7 @@ def foot_sketch(
     places = {
         mark.label: (SIDE / 2 + mark.design_mm[0] * scale, SIDE / 2 + mark.design_mm[1] * scale) for mark in marks
     }
-    layout = _taken(marks, places, scale, factor, max(radius, ring), shapes)
+    layout = _taken(marks, places, scale, factor, (radius, ring), shapes)
     for mark in marks:
         at = places[mark.label]
         shapes += _mark(mark, at, scale, factor, radius, ring)
@@ -127,36 +127,47 @@ def foot_sketch(
 
 
 def _taken(
-    marks: Sequence[Mark], places: dict[str, Point], scale: float, factor: int, reach: float, axes: Sequence[Shape]
+    marks: Sequence[Mark], places: dict[str, Point], scale: float, factor: int, radii: Point, below: Sequence[Shape]
 ) -> Layout:
-    """Where no name may stand: points with their rings, arrows that leave these, the axes in the corner."""
+    """Where no name may stand: points with their rings, arrows that leave these, the outline, the axes in the corner."""
     layout = Layout(SIDE, SIDE)
-    for shape in axes:
+    reach = max(radii)
+    for shape in below:
         if isinstance(shape, Label):
             layout.keep_label(shape)
-        elif isinstance(shape, Polyline) and not shape.closed:
-            layout.keep_line(shape.points[0], shape.points[-1])
+        elif isinstance(shape, Polyline):
+            layout.keep_path(shape)
     for mark in marks:
         at = places[mark.label]
-        layout.keep_circle(at, reach + (_ALARM_RING if mark.is_alarming else 0.0))
+        layout.keep_circle(at, reach + (_ALARM_RING if mark.is_alarming else 0.0), radii[0])
         if mark.offset_mm is not None and _length(mark.offset_mm) * scale * factor > reach:
-            layout.keep_line(at, _end(mark.offset_mm, at, scale, factor))
+            layout.keep_path(_arrow(mark, at, scale, factor))
     return layout
 
 
-def _end(offset_mm: Point, at: Point, scale: float, factor: int) -> Point:
-    return at[0] + offset_mm[0] * scale * factor, at[1] + offset_mm[1] * scale * factor
+def _arrow(mark: Mark, at: Point, scale: float, factor: int) -> Polyline:
+    """From the place of the design to the magnified one that was measured."""
+    x, y = mark.offset_mm or (0.0, 0.0)
+    style = "follows" if mark.follows else mark.verdict
+    return arrow(at, (at[0] + x * scale * factor, at[1] + y * scale * factor), style, 3.6)
 
 
 def _name(layout: Layout, mark: Mark, at: Point, reach: float, *, marked: bool) -> Iterator[Shape]:
-    """Towards the middle of the foot, where no arrow of another point and no edge is; elsewhere where that is taken."""
+    """Towards the middle of the foot, where no arrow of another point and no edge is; elsewhere where that is taken.
+
+    Without its sign where there is no room for both: arrows and rings say the same.
+    """
     sign = {"fail": " ✗", "inconclusive": " ?", "not_measured": " –"}.get(mark.verdict, "")
     sign = f" ({sign.strip()})" if mark.follows and sign else sign
     failed = mark.verdict == "fail" and not mark.follows
     inwards = (SIDE / 2 - at[0], SIDE / 2 - at[1])
     radius = reach + (_ALARM_RING if mark.is_alarming else 0.0) + (_ALARM_RING if marked else 0.0)
     style = "text-fail" if failed else "text"
-    yield from layout.beside(at, f"{mark.label}{sign}", 7.5, radius, inwards, style=style, bold=failed)
+    for text in (f"{mark.label}{sign}", mark.label):
+        shapes = list(layout.beside(at, text, 7.5, radius, inwards, style=style, bold=failed))
+        if shapes:
+            yield from shapes
+            return
 
 
 def _layer(shape: Shape) -> tuple[int, str]:
@@ -218,8 +229,7 @@ def _mark(mark: Mark, at: Point, scale: float, factor: int, radius: float, ring:
     if mark.offset_mm is None:
         yield from _unmeasured(at, radius)
     else:
-        style = "follows" if mark.follows else mark.verdict
-        yield arrow(at, _end(mark.offset_mm, at, scale, factor), style, 3.6)
+        yield _arrow(mark, at, scale, factor)
 
 
 def _unmeasured(at: Point, radius: float) -> Iterator[Shape]:

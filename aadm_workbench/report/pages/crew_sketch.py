@@ -9,7 +9,7 @@ from aadm_workbench.assembly.following import blame_of
 from aadm_workbench.model import ColumnReport, Kind, PointResult
 from aadm_workbench.report.directions import SMALLEST_MM, Compass
 from aadm_workbench.report.drawing.layout import Layout
-from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow
+from aadm_workbench.report.drawing.sketch import STYLES, Circle, Label, Point, Polyline, Shape, Sketch, arrow
 from aadm_workbench.report.pages.crew import SMALLEST_TURN_DEG, CrewAdvice, Shift
 from aadm_workbench.report.words.labels import Language
 
@@ -32,7 +32,7 @@ def crew_sketch(column: ColumnReport, advice: CrewAdvice, language: Language) ->
     frame = _Frame(column, points, advice.compass.turn_deg)
     shifts = {shift.label: shift for shift in advice.shifts}
     layout = Layout(SIDE, SIDE)
-    shapes = [*_outline(column, frame), *_edge_names(advice.compass, language, layout)]
+    shapes = [*_outline(column, frame, layout), *_edge_names(advice.compass, language, layout)]
     if "" in shifts:
         shapes += _move(shifts[""], frame, advice.turn_deg, layout)
     return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, shifts, {*blame_of(column).follows}, layout)))
@@ -44,8 +44,9 @@ def sleeves_from_below(column: ColumnReport) -> Sketch | None:
     if all(point.verdict in ("pass", "not_assessed") for point in points):
         return None
     frame = _Frame(column, points, 0.0, mirrored=True)
-    marked = _marked(points, frame, {}, {*blame_of(column).follows}, Layout(SIDE, SIDE))
-    return Sketch(SIDE, SIDE, (*_outline(column, frame), *marked))
+    layout = Layout(SIDE, SIDE)
+    shapes = [*_outline(column, frame, layout)]
+    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, {}, {*blame_of(column).follows}, layout)))
 
 
 def _marked(
@@ -60,12 +61,12 @@ def _marked(
     dot = min(_DOT, 0.34 * _apart(points, frame))
     for point in points:
         at = frame.place(point.design_mm)
-        layout.keep_circle(at, _RING if point.label in alarming else dot)
+        layout.keep_circle(at, _RING + STYLES["ring-fail"].width / 2.0 if point.label in alarming else dot)
         yield from _dot(point, at, dot)
         if point.label in alarming:
             yield Circle(at, _RING, "ring-fail")
         if point.label in shifts:
-            layout.keep_line(at, _end(shifts[point.label], at, frame))
+            layout.keep_path(_arrow(shifts[point.label], at, frame))
     for point in points:
         if point.label in shifts:
             yield from _bend(shifts[point.label], frame.place(point.design_mm), frame, layout)
@@ -109,10 +110,13 @@ class _Frame:
         return self.mirror * across, self.sine * vector[0] + self.cosine * vector[1]
 
 
-def _outline(column: ColumnReport, frame: _Frame) -> Iterator[Shape]:
+def _outline(column: ColumnReport, frame: _Frame, layout: Layout) -> Iterator[Shape]:
     if column.size_mm is not None:
         x, y = (side / 2.0 for side in column.size_mm)
-        yield Polyline(tuple(frame.place(c) for c in ((-x, -y), (x, -y), (x, y), (-x, y))), "outline", closed=True)
+        corners = ((-x, -y), (x, -y), (x, y), (-x, y))
+        outline = Polyline(tuple(frame.place(corner) for corner in corners), "outline", closed=True)
+        layout.keep_path(outline)
+        yield outline
 
 
 def _dot(point: PointResult, at: Point, radius: float) -> Iterator[Shape]:
@@ -136,18 +140,19 @@ def _name(point: PointResult, frame: _Frame, layout: Layout, dot: float, *, alar
     yield from layout.beside(at, f"{point.label}{sign}", size, radius, straight, style=style, bold=alarming)
 
 
-def _end(shift: Shift, at: Point, frame: _Frame) -> Point:
-    """Where the arrow of a bar ends."""
+def _arrow(shift: Shift, at: Point, frame: _Frame) -> Polyline:
+    """Where to a bar is bent."""
     x, y = frame.turned(shift.vector_mm)
     length = math.hypot(x, y) or 1.0
-    return at[0] + x / length * _ARROW, at[1] + y / length * _ARROW
+    return arrow(at, (at[0] + x / length * _ARROW, at[1] + y / length * _ARROW), "move", 9.0)
 
 
 def _bend(shift: Shift, at: Point, frame: _Frame, layout: Layout) -> Iterator[Shape]:
     length = math.hypot(*shift.vector_mm)
     if length > 0.0:
-        end = _end(shift, at, frame)
-        yield arrow(at, end, "move", 9.0)
+        drawn = _arrow(shift, at, frame)
+        yield drawn
+        end = drawn.points[-1]
         ahead = (end[0] - at[0], end[1] - at[1])
         yield from layout.beside(end, f"{length:.1f} mm", 10.0, 2.0, ahead, style="text-move", bold=True)
 
@@ -158,8 +163,9 @@ def _move(shift: Shift, frame: _Frame, turn_deg: float, layout: Layout) -> Itera
     middle = (SIDE / 2.0, SIDE / 2.0)
     if length >= SMALLEST_MM:
         end = (middle[0] + x / length * _MOVE, middle[1] + y / length * _MOVE)
-        layout.keep_line(middle, end)
-        yield arrow(middle, end, "move", 16.0)
+        drawn = arrow(middle, end, "move", 16.0)
+        layout.keep_path(drawn)
+        yield drawn
         half = (middle[0] + 0.55 * x / length * _MOVE, middle[1] + 0.55 * y / length * _MOVE)
         across = (-y / length, x / length)
         yield from layout.beside(half, f"{length:.1f} mm", 13.0, 5.0, across, style="text-move", bold=True)

@@ -64,6 +64,9 @@ def picture_sketch(card: ScanCard, part: CardPart) -> Sketch:
     shapes += [arrow((_SIDE / 2.0, _SIDE - 14.0), (_SIDE / 2.0, _SIDE - 1.0), "move", 8.0), top]
     layout = Layout(_SIDE, _SIDE)
     layout.keep_label(top)
+    for line in shapes:
+        if isinstance(line, Polyline):
+            layout.keep_path(line)
     places = {label: _place(mm, scale) for label, mm in seen.items()}
     radii = {point.label: min(max(4.0, point.diameter_mm / 2.0 * scale), _widest(places)) for point in part.points}
     for label, at in places.items():
