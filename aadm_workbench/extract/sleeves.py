@@ -102,6 +102,24 @@ def extract_sleeves(
     found = face_with_holes(scan, sample, diameter_mm / 2, rng)
     if found is None:
         return Extraction(Kind.SLEEVE, "refined", (), None, None, reason=Reason("extract.no_face"))
+    seen = _in_face(scan, sample, found, diameter_mm, places, others_mm)
+    if found[0].rough:
+        # Where plugs close many mouths, what lies behind the face is these, and no layer: then more are round.
+        smooth = face_with_holes(scan, sample, diameter_mm / 2, rng, may_be_rough=False)
+        as_smooth = seen if smooth is None else _in_face(scan, sample, smooth, diameter_mm, places, others_mm)
+        seen = max(seen, as_smooth, key=lambda one: len(one.points))
+    return seen
+
+
+def _in_face(
+    scan: Scan,
+    sample: Thinned,
+    found: tuple[FootFace, Array, float],
+    diameter_mm: float,
+    places: Array | None,
+    others_mm: tuple[float, ...],
+) -> Extraction:
+    """The sleeves in one face, about the holes that were found in it; the rest as for :func:`extract_sleeves`."""
     layer, centres, pitch_mm = found
     face = layer.plane
     if places is not None and len(places):
