@@ -303,4 +303,12 @@ SENTENCES: dict[str, Sentence] = {
         "套筒组在截面内偏离 {dx_mm:+.1f}、{dy_mm:+.1f} mm",
     ),
     "assembly.section_rough": Sentence("a face that is roughened has no flatness", "粗糙面不评定平整度"),
+    "assembly.eopa_shapes": Sentence(
+        "EOPA needs two arrays of shape (n, {width}), row for row; got {first} and {second}",
+        "EOPA 需要两个形状为 (n, {width}) 且逐行对应的数组；现为 {first} 与 {second}",
+    ),
+    "assembly.minimax_limits": Sentence(
+        "minimax needs one limit above zero for each of the {count:d} points",
+        "minimax 需要为 {count:d} 个点各给出一个大于零的限值",
+    ),
 }
