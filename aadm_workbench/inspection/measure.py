@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule
+from aadm_workbench.assembly.findings.finding import SeenGroup
+from aadm_workbench.assembly.findings.scale import doubted_scale_error
 from aadm_workbench.assembly.group_notes import (
     axes_not_told,
     in_coordinates_of_the_file,
@@ -133,8 +135,9 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             reasons = dict.fromkeys(missing_places(points, match), unseen)
         else:
             reasons = reasons_of_missing(scan, extraction, missing_places(points, match), diameter_mm, rng)
-    scale_error = scale_error_of(scan, kind)
+    seen_group = SeenGroup(kind, points, extraction, match, scale_error_of(scan, kind))
     with stage("assembly"):
+        scale_error = doubted_scale_error(seen_group)
         report = inspect_group(
             points,
             extraction,

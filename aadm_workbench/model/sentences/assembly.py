@@ -159,6 +159,10 @@ SENTENCES: dict[str, Sentence] = {
         "the profile has no limit for the position of sleeves",
         "规范没有给出套筒位置的限值",
     ),
+    "assembly.no_probability": Sentence(
+        "the probability that a pose exists is not stated, because it would be without what was not measured: {labels}",
+        "未给出可就位概率，因为未测得：{labels}",
+    ),
     "assembly.no_trial": Sentence(
         "no trial with {count} pairs of sleeve and rebar: {why}",
         "{count} 对套筒与钢筋无法试拼：{why}",
@@ -191,6 +195,10 @@ SENTENCES: dict[str, Sentence] = {
     "assembly.probability": Sentence(
         "the probability that a pose exists is {percent:.1f} %",
         "可就位概率 {percent:.1f} %",
+    ),
+    "assembly.probability.of_measured": Sentence(
+        "the probability that a pose exists for the pairs that were measured is {percent:.1f} %",
+        "已测各对的可就位概率 {percent:.1f} %",
     ),
     "assembly.rebar_of": Sentence("the rebar of {sleeve}", "{sleeve} 的钢筋"),
     "assembly.ribs_after": Sentence("diameter over the ribs after {source}", "肋外径取自 {source}"),
