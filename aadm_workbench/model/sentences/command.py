@@ -1,4 +1,4 @@
-"""What the commands say of what they are asked for, links and virtual cameras among it, and of what is not installed."""
+"""What the commands say of what they are asked for, of links and virtual cameras, and of what is not installed."""
 
 from __future__ import annotations
 
