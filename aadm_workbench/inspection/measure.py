@@ -27,7 +27,6 @@ from aadm_workbench.assembly.inspect import inspect_group
 from aadm_workbench.assembly.matching.match import Match, match_extraction
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.pose.eopa import NoFit
-from aadm_workbench.extract.edges.learned_edges import with_learned_edges
 from aadm_workbench.extract.method import Known, extract_sizes
 from aadm_workbench.model import (
     Array,
@@ -173,7 +172,11 @@ def _extracted(
 ) -> Extraction:
     """The points of a scan, set right by what was learned of its camera: with the method that it was learned with."""
     found = extract_sizes(scan, kind, _diameters_mm(points), settings.method, rng, places, known=known)
-    return with_learned_edges(found, scan.learned) if settings.method == "refined" else found
+    if scan.learned is None or settings.method != "refined":
+        return found
+    from aadm_workbench.extract.edges.learned_edges import with_learned_edges
+
+    return with_learned_edges(found, scan.learned)
 
 
 def scale_error_of(scan: Scan, kind: Kind) -> float:
