@@ -9,9 +9,10 @@ import pytest
 
 from aadm_workbench.assembly.findings.finding import SeenGroup
 from aadm_workbench.assembly.findings.mistaken import fits
+from aadm_workbench.assembly.findings.of_column import without_spoilt
 from aadm_workbench.assembly.findings.rules import lean_findings
 from aadm_workbench.assembly.findings.scale import doubted_scale_error, scale_findings
-from aadm_workbench.model import Kind
+from aadm_workbench.model import ColumnReport, Kind, TrialReport, Verdict
 from tests.assembly.test_findings import design_of, group
 
 SMALL = [complex(x, y) for x in (-30.0, 30.0) for y in (-30.0, 30.0)]
@@ -102,3 +103,14 @@ def test_upright_bores_of_which_little_is_seen_lean_nowhere() -> None:
     for seed in range(60):
         both = leaning(Kind.SLEEVE, (0.0, 0.0), 0.02, seed), leaning(Kind.REBAR, (0.0, 0.0), 0.01, seed + 100)
         assert list(lean_findings(both)) == []
+
+
+def test_sleeves_and_bars_that_all_lean_leave_the_trial_open() -> None:
+    """Each by another angle: that both do so by chance is no likelier than a camera that bores hide a part of."""
+    trial = TrialReport(Verdict.FAIL, reasons=("R1 collides with S1",))
+    report = ColumnReport("C-1", Verdict.FAIL, goes_on=Verdict.FAIL, reasons=trial.reasons, trial_assembly=trial)
+    foot, bars = leaning(Kind.SLEEVE, (0.029, 0.0), 0.002, 1), leaning(Kind.REBAR, (0.055, 0.0), 0.002, 2)
+    found = list(lean_findings((foot, bars)))
+    assert [one.about for one in found] == [("sleeves",), ("rebars",)]
+    assert without_spoilt(report, found, ("trial",)).goes_on is Verdict.INCONCLUSIVE
+    assert without_spoilt(report, found[:1], ("trial",)).goes_on is Verdict.FAIL
