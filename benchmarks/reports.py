@@ -5,14 +5,14 @@
     python -m benchmarks.reports --failing             # every column fails: each has a topic, reasons, advice
 
 The columns are those of the sample floor, checked from their scans, again and again under other names and GlobalIds,
-six metres apart, with other figures: what a format shares between columns that are alike is not to flatter it. Prints a table; ends with 1 where a format needs more than it should.
+six metres apart, with other figures: what a format shares between columns that are alike is not to flatter it. Prints a
+table; ends with 1 where a format needs more than it should.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import random
 import resource
 import subprocess
 import sys
@@ -22,6 +22,8 @@ import uuid
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from aadm_workbench.report.read import read_report
 from batch.report_files import write_reports
@@ -52,7 +54,7 @@ def many_columns(document: dict[str, Any], number: int, *, failing: bool = False
     """The same columns again and again, under names, GlobalIds and places of their own."""
     columns = [c for c in document["columns"] if c["verdict"] == "fail" or not failing]
     made = []
-    generator = random.Random(number)  # noqa: S311 - figures, no secrets
+    generator = np.random.default_rng(number)
     for k in range(number):
         column = _otherwise(columns[k % len(columns)], generator)
         column["id"] = f"K-{k:04d}"
@@ -69,14 +71,14 @@ def many_columns(document: dict[str, Any], number: int, *, failing: bool = False
     return document | {"columns": made, "mould_drift": document["mould_drift"]}
 
 
-def _otherwise(value: Any, generator: random.Random) -> Any:
+def _otherwise(value: Any, generator: np.random.Generator) -> Any:
     """A copy with other lengths and angles."""
     if isinstance(value, dict):
         kept = {name: entry for name, entry in value.items() if any(part in name for part in _SAME)}
         return {name: kept[name] if name in kept else _otherwise(entry, generator) for name, entry in value.items()}
     if isinstance(value, list):
         return [_otherwise(entry, generator) for entry in value]
-    return round(value + generator.uniform(0.0, _OTHERWISE_MM), 4) if isinstance(value, float) else value
+    return round(value + float(generator.uniform(0.0, _OTHERWISE_MM)), 4) if isinstance(value, float) else value
 
 
 def _letters(number: int) -> str:

@@ -111,7 +111,7 @@ def _encoded(canvas: Any, text: str) -> list[_Part]:
     except KeyError:
         signs = [known.setdefault(sign, _sign(canvas, sign)) for sign in text]
     first = signs[0]
-    if all([sign[0] == first[0] for sign in signs]):
+    if {sign[0] for sign in signs} == {first[0]}:
         return [(first[0], first[1], "".join([sign[2] for sign in signs]))]
     return [
         (subset, name, "".join([sign[2] for sign in group]))
