@@ -102,20 +102,21 @@ def measure(path: Path, name: str, folder: Path) -> dict[str, float]:
 def measured(path: Path, name: str, folder: Path) -> dict[str, float]:
     """The same, in this process."""
     report = read_report(path)
-    before, wall = _cpu_s(), time.perf_counter()
-    read_mb = _peak_mb()
+    before, wall = cpu_s(), time.perf_counter()
+    read_mb = peak_mb()
     written = write_reports(report, (name,), folder)
-    seconds, took = _cpu_s() - before, time.perf_counter() - wall
+    seconds, took = cpu_s() - before, time.perf_counter() - wall
     size = sum(file.stat().st_size for file in written.files.values())
-    return {"cpu_s": seconds, "wall_s": took, "read_mb": read_mb, "peak_mb": _peak_mb(), "mb": size / 1e6}
+    return {"cpu_s": seconds, "wall_s": took, "read_mb": read_mb, "peak_mb": peak_mb(), "mb": size / 1e6}
 
 
-def _cpu_s() -> float:
+def cpu_s() -> float:
+    """That this process has used."""
     used = resource.getrusage(resource.RUSAGE_SELF)
     return used.ru_utime + used.ru_stime
 
 
-def _peak_mb() -> float:
+def peak_mb() -> float:
     """Of this process alone: what getrusage says begins with that of its parent."""
     status = Path("/proc/self/status").read_text(encoding="utf-8")
     return float(next(line.split()[1] for line in status.splitlines() if line.startswith("VmHWM:"))) / 1024.0
