@@ -81,7 +81,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
         words = [sys.executable, "-m", "benchmarks.writeback", "--measure", str(folder)]
         found = json.loads(subprocess.run(words, stdout=subprocess.PIPE, check=True).stdout)
     print(
-        f"{options.columns} columns: {found['kb']:.1f} kB a column, {found['cpu_s']:.1f} CPU s, {found['peak_mb']:.0f} MB"
+        f"{options.columns} columns: {found['kb']:.1f} kB a column, "
+        f"{found['cpu_s']:.1f} CPU s, {found['peak_mb']:.0f} MB"
     )
     return int(found["kb"] > MOST_KB or found["peak_mb"] > MOST_MEMORY_MB)
 

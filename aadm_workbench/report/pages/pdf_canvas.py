@@ -71,7 +71,7 @@ class Letters:
         self._bold, self._colour = bold, colour
         self._in_force: tuple[int, float] | None = None
         if bold:
-            self._written.append(f"{_paint(colour)} RG 2 Tr")
+            self._written.append(f"[] 0 d {_paint(colour)} RG 2 Tr")
 
     def put(self, x: float, y: float, text: str, size: float) -> None:
         """A text of printable signs, its base line at (x, y)."""
