@@ -22,7 +22,8 @@ from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc.text.step import step_text
 from aadm_workbench.errors import ReportError
-from aadm_workbench.model import Array, ColumnReport, JobReport, PointResult
+from aadm_workbench.model import Array, ColumnReport, JobReport, PointResult, Reason
+from aadm_workbench.model.reason import listed, said_of
 from aadm_workbench.own_files import is_there
 from aadm_workbench.report.ifc import sets as ifc_sets
 from aadm_workbench.report.ifc.addition import Addition, Property
@@ -165,7 +166,7 @@ def remove_ifc(model: Path, out: Path) -> WriteBack:
     opened = open_ifc(model)
     stripped = without_results(opened.file, step_text(model.read_bytes()))
     if not stripped.found:
-        raise ReportError(f"{model} holds no results of a check: there is nothing to take out")
+        raise ReportError.because("report.no_results", model=model)
     # What can be written again from the report needs no backup.
     changed, backup = _put([stripped.content], out, model, "" if stripped.exact else opened.sha256)
     how = (
@@ -192,12 +193,10 @@ def _original(model: Path) -> tuple[Stripped, OpenedIfc]:
 def _check_writable(model: Path) -> None:
     """Refuse forms of IFC in which no line can be put behind the others."""
     if model.suffix.lower() == ".ifczip":
-        raise ReportError(
-            f"{model}: results are written into .ifc files; unpack it and name the .ifc, and check with it"
-        )
+        raise ReportError.about(model, "report.ifczip")
     with suppress(OSError), model.open("rb") as stream:  # whoever opens it says what is wrong
         if stream.read(2) in (b"\xff\xfe", b"\xfe\xff"):
-            raise ReportError(f"{model}: is written in UTF-16, into which no line of STEP fits; export it again")
+            raise ReportError.about(model, "report.utf16")
 
 
 def _is_same_model(report: JobReport, model: Path, stripped: Stripped) -> bool:
@@ -211,16 +210,9 @@ def _is_same_model(report: JobReport, model: Path, stripped: Stripped) -> bool:
 
 def _not_the_same(report: JobReport, model: Path, stripped: Stripped) -> str:
     if report.model is None:
-        return (
-            f"{model}: the columns of this report were checked against designs in the job, not against a model, so no "
-            "element is theirs. Check them with [model] in the job"
-        )
-    now, checked = _sha256(stripped.content), report.model["sha256"]
-    return (
-        f"{model} is not the model that was checked ({report.model['source']}), or has changed since: its sha256 "
-        f"begins with {now[:_SHORT_HASH]}, that of the report with {checked[:_SHORT_HASH]}. Repeat the check; or write "
-        "into it as it is, columns found by GlobalId (--force)"
-    )
+        return said_of(model, "report.no_model")
+    now, checked = (text[:_SHORT_HASH] for text in (_sha256(stripped.content), report.model["sha256"]))
+    return Reason("report.other_model", model=model, source=report.model["source"], now=now, checked=checked)
 
 
 def _frames(report: JobReport, of_column: Mapping[str, Any]) -> dict[int, Array]:
@@ -261,10 +253,8 @@ def _line(file: Any, number: int) -> bytes:
 
 def _no_column(report: JobReport, model: Path, elements: Elements) -> str:
     if notes := list(elements.notes(report.columns)):
-        return f"{model}: {notes[0]}"
-    ids = [str(column.id) for column in report.columns]
-    shown = ", ".join(ids[:5]) + (", …" if len(ids) > 5 else "")
-    return f"{model} holds none of the report's columns ({shown}): no element has their GlobalIds. Name another model"
+        return Reason("said.of_file", file=model, why=notes[0])
+    return Reason("report.no_element", model=model, shown=listed([column.id for column in report.columns], 5))
 
 
 def _sha256(content: bytes) -> str:
@@ -289,9 +279,7 @@ def _put(parts: Iterable[bytes], out: Path, model: Path, keep_as: str) -> tuple[
             return False, None
         mode = place.stat().st_mode if in_place else None
         if mode is not None and not mode & _WRITABLE:
-            raise ReportError(
-                f"{model} may only be read, so that nobody changes it: allow writing it, or write another file (--out)"
-            )
+            raise ReportError.because("report.read_only", model=model)
         backup = _backup(model, keep_as) if keep_as and in_place else None
         write_atomically(place, _from_start(made))
     if mode is not None:
