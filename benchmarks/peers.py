@@ -2,10 +2,10 @@
 
     python -m benchmarks.peers [--scenes 5] [--seed 1] [--settings lab field] [--json FILE]
 
-Each peer finds the plane of the face, or of the floor, by RANSAC (Open3D, 1 mm, all points), takes the holes in the mask of the
-face, or the tops in the mask of what stands out, and fits an ellipse to each contour: OpenCV's contours and ellipses,
-or scikit-image's. Contours lie on pixels, so their rays are cut with the plane before the ellipse is fitted: better
-than ellipses in pixels, and what a careful user does. The methods of the literature stand beside them. Times are
+Each peer finds the plane of the face, or of the floor, by RANSAC (Open3D, 1 mm, all points), takes the holes in the
+mask of the face, or the tops in the mask of what stands out, and fits an ellipse to each contour: OpenCV's contours and
+ellipses, or scikit-image's. Contours lie on pixels, so their rays are cut with the plane before the ellipse is fitted:
+better than ellipses in pixels, and what a careful user does. The methods of the literature stand beside them. Times are
 processor seconds of all threads, medians over the scans; every package is loaded before. Peers that are not installed
 are named and left out (Open3D: the extra ``published``; scikit-image: ``pip install scikit-image``).
 """

@@ -23,7 +23,6 @@ from aadm_workbench.errors import AadmError, JobError
 from ..exit_codes import INTERNAL, INTERRUPTED
 from ..job.command import add_job_arguments, pool_options, report_folder
 from ..report_files import add_format_switches, chosen_formats, require_packages
-from ..shown.told import told
 
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
@@ -102,7 +101,7 @@ def run(options: argparse.Namespace) -> int:
         except (AadmError, KeyboardInterrupt) as stop:
             if isinstance(stop, AadmError) and not shown.done:
                 raise
-            return _stopped(stop, told(stop, options), shown, journal, events)
+            return _stopped(stop, shown, journal, events, options)
         code, made = _hand_over(done, journal.finished, job, folder, options)
         if code != INTERNAL:
             journal.finish(made.text() if made is not None else "")
@@ -147,13 +146,16 @@ def _interrupt(number: int, frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 
-def _stopped(stop: BaseException, said: str, shown: ShownCheck, journal: Journal, events: Events) -> int:
+def _stopped(
+    stop: BaseException, shown: ShownCheck, journal: Journal, events: Events, options: argparse.Namespace
+) -> int:
     """Say that a check ends before its end, and what is kept of it."""
     from ..shown.terminal import say
+    from ..shown.told import told
 
     journal.stop()
     events.send("interrupted", done=shown.done, columns=shown.total)
-    say(f"aadm: {said or 'interrupted'}")
+    say(f"aadm: {told(stop, options) or 'interrupted'}")
     kept = f"{shown.done} of {shown.total} columns are kept in {journal.path}"
     say(f"aadm: {kept}; repeat the command with --resume")
     return INTERRUPTED if isinstance(stop, KeyboardInterrupt) else INTERNAL
@@ -185,7 +187,7 @@ def _hand_over(
         code = made.exit_code if _write_reports(job, folder, options) else INTERNAL
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
-        say(f"aadm: {told(error, options)}")
+        _complain(error, options)
     _show(served, None if made is None else path, options)
     if options.write_ifc and code != INTERNAL:
         code = _write_model(job, folder, options) or code
@@ -203,9 +205,8 @@ class _Served:
     @cached_property
     def report(self) -> JobReport:
         from ..served_report import without_absolute_paths
-        from ..tower_plan import with_setting
 
-        report = with_setting(self.done.report, self.job.model_path)
+        report = _with_setting(self.done.report, self.job)
         report.verdicts()  # once, before every text is looked at
         return report if self.absolute_paths else without_absolute_paths(report, self.job)
 
@@ -222,6 +223,21 @@ def _show(served: _Served, path: Path | None, options: argparse.Namespace) -> No
         from ..shown.verdict_table import show_verdicts
 
         show_verdicts(served.report, path, options.language or "en")
+
+
+def _with_setting(report: JobReport, job: Job) -> JobReport:
+    if job.stack is None:
+        return report
+    from ..tower_plan import with_setting
+
+    return with_setting(report, job.model_path)
+
+
+def _complain(error: AadmError, options: argparse.Namespace) -> None:
+    from ..shown.terminal import say
+    from ..shown.told import told
+
+    say(f"aadm: {told(error, options)}")
 
 
 def _write_reports(job: Job, folder: Path, options: argparse.Namespace) -> bool:
@@ -249,7 +265,7 @@ def _write_model(job: Job, folder: Path, options: argparse.Namespace) -> int:
     try:
         written = write_checked_model(read_report(folder / "report.json"), job, folder)
     except AadmError as error:
-        say(f"aadm: {told(error, options)}")
+        _complain(error, options)
         return INTERNAL
     if not options.quiet:
         say("\n".join(written_lines(written)))
