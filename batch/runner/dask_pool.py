@@ -233,8 +233,9 @@ class DaskPool:
 
     def _addresses(self) -> set[str]:
         try:
+            # A client that has lost its scheduler knows of no workers, and not even of that.
             return set(self._client.scheduler_info(n_workers=-1)["workers"])
-        except GONE as error:
+        except (*GONE, KeyError) as error:
             raise AadmError.because("run.scheduler_gone") from error
 
     def _dropped(self, worker: _Worker) -> list[Ended]:

@@ -94,6 +94,17 @@ def test_a_wrong_certificate_ends_it_at_once(
     assert "certificates go with an address that begins with tls://" in capsys.readouterr().err
 
 
+def test_a_wrong_certificate_of_dasks_own_configuration_ends_it_at_once(
+    cluster: str, pem: dict[str, Path], job: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    dask = pytest.importorskip("dask")
+    monkeypatch.setattr("distributed.Client", None)
+    client = {"cert": str(pem["stranger"]), "key": str(pem["stranger-key"])}
+    with dask.config.set({"distributed.comm.tls": {"ca-file": str(pem["ca"]), "client": client}}):
+        assert check(job, "f", cluster) == 2
+    assert "does not take the certificate of --tls-cert" in capsys.readouterr().err
+
+
 def test_certificates_that_are_not_there(job: Path, pem: dict[str, Path], capsys: pytest.CaptureFixture[str]) -> None:
     nowhere = job.parent / "nowhere.pem"
     assert check(job, "a", "tls://127.0.0.1:9", nowhere, pem["cert"], pem["key"]) == 2
