@@ -25,6 +25,7 @@ import numpy as np
 
 from aadm_workbench.assembly.findings.diameters import diameter_findings
 from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
+from aadm_workbench.assembly.findings.views import bend_findings, profile_findings
 from aadm_workbench.assembly.matching.match import FAR_FROM_DECLARED
 from aadm_workbench.assembly.matching.pattern_search import USUAL_SCATTER_MM
 from aadm_workbench.assembly.pose.eopa import wrap
@@ -70,6 +71,8 @@ def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Find
     found += scale_findings(groups)
     found += lean_findings(groups)
     found += filter_findings(groups)
+    found += bend_findings(groups)
+    found += profile_findings(groups)
     for group in groups:
         found += diameter_findings(group)
         found += exposed_length_findings(group, design.exposed_length_mm)

@@ -56,6 +56,12 @@ SENTENCES: dict[str, Sentence] = {
         "this is no plate.toml ({why}); draw one with aadm camera plate",
         "这不是 plate.toml（{why}）；请用 aadm camera plate 绘制",
     ),
+    "calibration.no_reversal": Sentence(
+        "nothing was captured twice: {count} captures have no column's sleeves or rebars in common. Name two jobs or "
+        "reports on the same columns, the camera turned by half a turn or moved across in between",
+        "没有被采集两次的构件：{count} 次采集中没有同一柱的套筒或钢筋。请给出同一批柱的两个任务或报告，"
+        "其间相机转动半圈或横移",
+    ),
     "calibration.no_profile": Sentence(
         "this is no profile of a camera ({why}); make one with aadm camera learn",
         "这不是相机档案（{why}）；请用 aadm camera learn 生成",
