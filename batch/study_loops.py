@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from aadm_workbench.hoisting.motion import Look, look_at, motion_of, with_look
+from aadm_workbench.hoisting.swing.motion import Look, look_at, motion_of, with_look
 from aadm_workbench.twin.study.loops import LIMIT_MM, DrawnColumn, drawn_column
 
 from .link.controller import Reading, act

@@ -14,7 +14,7 @@ import numpy as np
 
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
-from aadm_workbench.hoisting.sighting import SightedMeasurement, Sighting
+from aadm_workbench.hoisting.sequence.sighting import SightedMeasurement, Sighting
 from aadm_workbench.model import Array, ColumnDesign, HoistingMeasurement
 from aadm_workbench.twin.hoisting import Hang, HoistingScan, Stand, hoisting_scan
 from aadm_workbench.twin.noise import CameraNoise

@@ -11,9 +11,9 @@ pytest.importorskip("open3d")
 pytest.importorskip("manifold3d")
 
 from aadm_workbench.assembly.tolerances import load_profile
-from aadm_workbench.hoisting.contradiction import contradiction_of
-from aadm_workbench.hoisting.joint import measure_jointly, shapes_agree
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
+from aadm_workbench.hoisting.sequence.contradiction import contradiction_of
+from aadm_workbench.hoisting.sequence.joint import measure_jointly, shapes_agree
 from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.model import HoistingMeasurement, Verdict
 from aadm_workbench.report.words.reasons import in_both_languages

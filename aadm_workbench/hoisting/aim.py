@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from aadm_workbench.hoisting.motion import moved_correction
+from aadm_workbench.hoisting.swing.motion import moved_correction
 from aadm_workbench.model import AimedPose, HoistingReport
 
 

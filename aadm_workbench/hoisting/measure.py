@@ -14,18 +14,19 @@ import numpy as np
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.errors import ScanError
-from aadm_workbench.hoisting.bar_fit import fit_bars
-from aadm_workbench.hoisting.bars import find_bars
-from aadm_workbench.hoisting.face import NoFace, find_foot
-from aadm_workbench.hoisting.foot import FootFit, fit_foot
+from aadm_workbench.hoisting.bars.fit import fit_bars
+from aadm_workbench.hoisting.bars.search import find_bars
+from aadm_workbench.hoisting.foot.face import NoFace, find_foot
+from aadm_workbench.hoisting.foot.fit import FootFit, fit_foot
 from aadm_workbench.hoisting.frame import HoistingFrame, NoFrame, frame_of
 from aadm_workbench.hoisting.match import Laid, NoMatch, corner_name, match_hoisting
 from aadm_workbench.hoisting.moved import moved_since, still_known, with_scans_named
-from aadm_workbench.hoisting.pairs import HungFit, report_pairs, unmeasured
+from aadm_workbench.hoisting.offsets import HungFit
+from aadm_workbench.hoisting.pairs import report_pairs, unmeasured
 from aadm_workbench.hoisting.pattern_fit import Pattern
 from aadm_workbench.hoisting.sense import shown_sleeves, why_half, why_not_bars, why_not_foot
-from aadm_workbench.hoisting.sighting import SightedMeasurement, Sighting, with_sighting
-from aadm_workbench.hoisting.track import Found, follow, has_lost_bars, has_lost_foot
+from aadm_workbench.hoisting.sequence.sighting import SightedMeasurement, Sighting, with_sighting
+from aadm_workbench.hoisting.sequence.track import Found, follow, has_lost_bars, has_lost_foot
 from aadm_workbench.hoisting.turn_findings import held_while_ambiguous, with_turn_finding
 from aadm_workbench.hoisting.unseen import measured_labels
 from aadm_workbench.model import (

@@ -3,26 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule, decide_radial, standard_uncertainty
-from aadm_workbench.assembly.pose.eopa import NoFit, turn
-from aadm_workbench.assembly.pose.minimax import fit_minimax
-from aadm_workbench.assembly.pose.minimax_spread import minimax_covariance
 from aadm_workbench.assembly.tolerances import describe_limit, rules_for
-from aadm_workbench.hoisting.bar_fit import BarFit
-from aadm_workbench.hoisting.face import FootFace
-from aadm_workbench.hoisting.foot import FootFit
-from aadm_workbench.hoisting.frame import HoistingFrame, LocalAxes
+from aadm_workbench.hoisting.correction import correction_of
+from aadm_workbench.hoisting.frame import HoistingFrame
+from aadm_workbench.hoisting.offsets import HungFit, Offsets, offsets_of
 from aadm_workbench.hoisting.unseen import look_again, unseen_in_words, verdict_unseen, would_pass
 from aadm_workbench.model import (
     Array,
-    BoolArray,
-    CameraMove,
     ColumnDesign,
-    Correction,
     HoistingMeasurement,
     HoistingPair,
     HoistingReport,
@@ -36,55 +28,7 @@ from aadm_workbench.model import (
     worst,
 )
 
-_NORMAL_U = 1.5e-4  # rad: what the warp of a camera does to the normal of a face
-WARP_MM = 0.025
-"""Of a place in the picture, rms: the reference camera warps by 0.05 mm."""
-
 _SCALE_ERROR = 1e-4  # relative: of the reference camera, where the job tells no other
-_KNOWN_MM, _FEWEST_DECIDE = 0.25, 3  # as well as what is seen (hoisting_bar_fit.py); a pose has three unknowns
-
-
-@dataclass(frozen=True, eq=False)
-class HungFit:
-    """All that was fitted in one frame: the foot in the axes of its face, the bars in axes along their vertical.
-
-    ``floor`` (3,) is its normal in the axes of the face, None where too little of it is seen; ``before`` are the labels
-    of what was measured before hoisting.
-    """
-
-    face: FootFace
-    foot: FootFit
-    axes: LocalAxes
-    bars: BarFit
-    floor: Array | None = None
-    before: tuple[str, ...] = ()
-
-    @property
-    def seen(self) -> BoolArray:
-        """Which pairs (k,) have evidence of their own for the sleeve and for the bar."""
-        return np.asarray(self.foot.seen & self.bars.seen)
-
-
-@dataclass(frozen=True, eq=False)
-class _Offsets:
-    """Pairs in the bars' frame. ``to_bars`` (3, 3) rows are its axes in the frame; ``origin`` (3,) its origin there.
-
-    ``sleeves``, ``rebars`` (k, 3) mm are centres in the frame, ``offsets`` (k, 2) mm, with the joint ``covariance``
-    (2k, 2k); ``distances`` (k,) mm.
-    """
-
-    to_bars: Array
-    origin: Array
-    sleeves: Array
-    rebars: Array
-    offsets: Array
-    distances: Array
-    covariance: Array
-    height_mm: float
-
-    def of_pair(self, k: int) -> Array:
-        """Covariance (2, 2) mm² of one pair's offset."""
-        return self.covariance[2 * k : 2 * k + 2, 2 * k : 2 * k + 2]
 
 
 def unmeasured(scan: Scan, design: ColumnDesign, method: str, reason: str) -> HoistingMeasurement:
@@ -111,11 +55,11 @@ def report_pairs(
 ) -> HoistingMeasurement:
     """The measurement of a frame; with a ``reason`` against it, its verdict is ``not_measured``."""
     scale_error = scan.camera.scale_error if scan.camera is not None else _SCALE_ERROR
-    found = _offsets(hung, scale_error)
+    found = offsets_of(hung, scale_error)
     rule = _rule(profile)
     pairs = tuple(_pair(frame, design, hung, found, k, rule, decision, reason) for k in range(len(design.sleeves)))
     keys = _keys(found.sleeves)
-    correction = _correction(hung, found, rule, [sleeve.label for sleeve in design.sleeves])
+    correction = correction_of(hung, found, rule, [sleeve.label for sleeve in design.sleeves])
     tilt = float(np.degrees(np.arccos(np.clip(found.to_bars[2] @ hung.face.axes[2], -1.0, 1.0))))
     report = HoistingReport(
         source=scan.source,
@@ -138,54 +82,6 @@ def report_pairs(
     return HoistingMeasurement(report, found.offsets, covariances, *_poses(frame, hung, found))
 
 
-def _offsets(hung: HungFit, scale_error: float) -> _Offsets:
-    face, bars = hung.face, hung.bars
-    tops = bars.tops.copy()
-    level = float(np.nanmedian(np.where(bars.seen, tops[:, 2], np.nan)))
-    tops[~bars.seen, 2] = level
-    in_frame = hung.axes.to_frame(tops)
-    local = face.local(in_frame)
-    apart = local[:, :2] - hung.foot.centres
-    to_bars = _bar_axes(hung)
-    across = to_bars[:2] @ face.axes[:2].T
-    origin = hung.axes.to_frame(np.array([*bars.pose[:2], level]))
-    gap_mm = np.abs(local[:, 2])
-    count = len(apart)
-    covariance = hung.foot.covariance + bars.covariance
-    # what tilts the face moves all bars' projections alike; what stretches the camera's lengths, each offset
-    gaps = np.repeat(gap_mm, 2)
-    covariance = covariance + _NORMAL_U**2 * np.outer(gaps, gaps) * np.kron(np.ones((count, count)), np.eye(2))
-    covariance = covariance + scale_error**2 * np.outer(apart.ravel(), apart.ravel()) + WARP_MM**2 * np.eye(2 * count)
-    # the directions of the bars' frame are those of bars that scatter about their places
-    turning = np.column_stack([-apart[:, 1], apart[:, 0]]).ravel()
-    covariance = covariance + bars.turn_u**2 * np.outer(turning, turning)
-    turned = np.kron(np.eye(count), across)
-    return _Offsets(
-        to_bars=to_bars,
-        origin=origin,
-        sleeves=face.to_frame(np.column_stack([hung.foot.centres, np.zeros(count)])),
-        rebars=in_frame,
-        offsets=apart @ across.T,
-        distances=np.hypot(apart[:, 0], apart[:, 1]),
-        covariance=turned @ covariance @ turned.T,
-        height_mm=float(np.median(gap_mm)),
-    )
-
-
-def _bar_axes(hung: HungFit) -> Array:
-    """Axes (3, 3) of the bars' frame, rows in the frame: z the floor's normal or the mean of the bars, x their own."""
-    seen = hung.bars.seen
-    if hung.floor is not None:
-        vertical = hung.axes.axes @ hung.face.axes.T @ hung.floor
-    else:
-        lean = np.median(hung.bars.leans[seen], axis=0) if seen.any() else np.zeros(2)
-        vertical = np.array([*lean, 1.0]) / np.linalg.norm([*lean, 1.0])
-    x = np.append(turn(float(hung.bars.pose[2]))[:, 0], 0.0)
-    x = x - (x @ vertical) * vertical
-    x /= np.linalg.norm(x)
-    return np.asarray(np.vstack([x, np.cross(vertical, x), vertical]) @ hung.axes.axes)
-
-
 def _rule(profile: Profile | None) -> Rule | None:
     return None if profile is None else next(iter(rules_for(profile, "sleeve_rebar_distance")), None)
 
@@ -194,7 +90,7 @@ def _pair(
     frame: HoistingFrame,
     design: ColumnDesign,
     hung: HungFit,
-    found: _Offsets,
+    found: Offsets,
     k: int,
     rule: Rule | None,
     decision: DecisionRule,
@@ -276,48 +172,7 @@ def _keys(sleeves: Array) -> list[int]:
     return sorted(chosen)
 
 
-def _correction(hung: HungFit, found: _Offsets, rule: Rule | None, labels: Sequence[str]) -> Correction | None:
-    """The move of the column that leaves the smallest largest distance, and how sure it is."""
-    foot = hung.foot
-    across = found.to_bars[:2] @ hung.face.axes[:2].T
-    source = (foot.centres - foot.pose[:2]) @ across.T
-    limit_mm = 1.0 if rule is None else rule.upper
-    target = source + found.offsets
-    known = np.flatnonzero(_well_known(hung, found))
-    pose = fit_minimax(source[known], target[known], np.full(len(known), limit_mm))
-    if isinstance(pose, NoFit):
-        return None
-    rows = (2 * known[:, None] + np.arange(2)).ravel()
-    generator = np.random.default_rng(0)  # the same frame is reported alike
-    covariance = found.covariance[np.ix_(rows, rows)]
-    spread = minimax_covariance(source[known], target[known], covariance, pose, generator)
-    left_mm = float(np.hypot(*(source @ turn(pose.yaw).T + pose.shift - target).T).max())
-    move = pose.shift @ found.to_bars[:2]
-    ahead = np.array([0.0, 0.0, 1.0]) - found.to_bars[2, 2] * found.to_bars[2]
-    ahead /= np.linalg.norm(ahead)
-    right = np.cross(ahead, found.to_bars[2])
-    yaw_deg = float(np.degrees(pose.yaw))
-    return Correction(
-        dx_mm=float(pose.shift[0]),
-        dy_mm=float(pose.shift[1]),
-        yaw_deg=yaw_deg,
-        left_mm=left_mm,
-        margin=None if rule is None else 1.0 - left_mm / limit_mm,
-        u_mm=float(np.sqrt(np.trace(spread[:2, :2]) / 2.0)),
-        u_yaw_deg=float(np.degrees(np.sqrt(spread[2, 2]))),
-        camera=CameraMove(float(move @ right), float(move @ ahead), yaw_deg),
-        over=tuple(labels[k] for k in known.tolist()),
-    )
-
-
-def _well_known(hung: HungFit, found: _Offsets) -> BoolArray:
-    """Pairs (k,) that decide the move: those that are seen, or known closely from before hoisting; at least three."""
-    spread_mm = np.sqrt(np.diag(found.covariance).reshape(-1, 2).mean(axis=1))
-    known = hung.seen | (spread_mm < _KNOWN_MM)
-    return known if known.sum() >= _FEWEST_DECIDE else np.ones(len(known), bool)
-
-
-def _poses(frame: HoistingFrame, hung: HungFit, found: _Offsets) -> tuple[Array, Array]:
+def _poses(frame: HoistingFrame, hung: HungFit, found: Offsets) -> tuple[Array, Array]:
     """T_bars_column and T_scan_bars."""
     T_frame_bars = np.eye(4)
     T_frame_bars[:3, :3], T_frame_bars[:3, 3] = found.to_bars.T, found.origin

@@ -22,7 +22,7 @@ CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 _MARGIN_PIXELS = 25.0  # half a degree beside the aim, of the reference camera (21 pixels)
 _GRAZING_NONE = 0.075  # of the cosine: cameras return nothing of what they see more along than this
 _HIDDEN_SHARE = 0.55  # of a bar's width behind nearer bars: the rest is too narrow to measure
-# what frames of the virtual camera came to when it was made; the last as in hoisting_pairs.py
+# what frames of the virtual camera came to when it was made; the last as in offsets.py
 _FLOOR_MM, _OF_PITCH, _NORMAL_U = 0.075, 0.022, 1.5e-4
 _SHOWN_SHARE, _FEWEST_LAID = 2 / 3, 4  # a frame that shows less is not measured as a whole; three points test nothing
 _OTHERWISE = Reason("hoisting.plan_otherwise")

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from aadm_workbench.hoisting.bar_fit import BarFit
-from aadm_workbench.hoisting.bars import SeenBars
-from aadm_workbench.hoisting.face import FootFace
-from aadm_workbench.hoisting.foot import FootFit
+from aadm_workbench.hoisting.bars.fit import BarFit
+from aadm_workbench.hoisting.bars.search import SeenBars
+from aadm_workbench.hoisting.foot.face import FootFace
+from aadm_workbench.hoisting.foot.fit import FootFit
 from aadm_workbench.hoisting.frame import HoistingFrame
 from aadm_workbench.hoisting.match import Matched
-from aadm_workbench.hoisting.pairs import HungFit
+from aadm_workbench.hoisting.offsets import HungFit
 from aadm_workbench.hoisting.pattern_fit import placed
 from aadm_workbench.hoisting.unseen import hidden_shares
 from aadm_workbench.model import Array, BoolArray, Reason

@@ -10,10 +10,10 @@ import numpy as np
 
 from aadm_workbench.errors import AadmError
 from aadm_workbench.hoisting.aim import aimed
-from aadm_workbench.hoisting.contradiction import contradiction_of
-from aadm_workbench.hoisting.joint import measure_jointly
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
-from aadm_workbench.hoisting.sighting import SightedMeasurement
+from aadm_workbench.hoisting.sequence.contradiction import contradiction_of
+from aadm_workbench.hoisting.sequence.joint import measure_jointly
+from aadm_workbench.hoisting.sequence.sighting import SightedMeasurement
 from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.inspection.stopwatch import Stopwatch
 from aadm_workbench.inspection.tasks import ColumnTask

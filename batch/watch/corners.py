@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from aadm_workbench.hoisting.contradiction import contradiction_of
+from aadm_workbench.hoisting.sequence.contradiction import contradiction_of
 from aadm_workbench.hoisting.turn_findings import with_contradiction
 from aadm_workbench.inspection.hoisting import Before, join_frames
 from aadm_workbench.inspection.tasks import ColumnTask

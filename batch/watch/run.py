@@ -15,7 +15,7 @@ import numpy as np
 from aadm_workbench.assembly.tolerances import rules_for
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError, DesignError, JobError, ScanError
-from aadm_workbench.hoisting.motion import Look, Motion, Running, combined, look_at, motion_of, with_look
+from aadm_workbench.hoisting.swing.motion import Look, Motion, Running, combined, look_at, motion_of, with_look
 from aadm_workbench.inspection.column import inspect_column
 from aadm_workbench.inspection.hoisting import Before, measure_frame, unread
 from aadm_workbench.inspection.tasks import ColumnTask

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.hoisting.motion import Motion, Running
+from aadm_workbench.hoisting.swing.motion import Motion, Running
 from aadm_workbench.model import Array, HoistingReport, Json, Verdict
 from aadm_workbench.report.hoisting_fitness import VALID_FOR_S, Fitness, fitness_of, stamp_of
 from aadm_workbench.report.json import encode

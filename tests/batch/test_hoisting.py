@@ -19,7 +19,7 @@ pytest.importorskip("manifold3d")
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.document.hoisting_state import guidance_of, read_measurement
 from aadm_workbench.hoisting.measure import HoistingSettings, measure_hoisting
-from aadm_workbench.hoisting.motion import combined
+from aadm_workbench.hoisting.swing.motion import combined
 from aadm_workbench.inspection.tasks import plan_job
 from aadm_workbench.model import HoistingMeasurement
 from aadm_workbench.report.hoisting_fitness import seconds_of

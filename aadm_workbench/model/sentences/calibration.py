@@ -32,8 +32,8 @@ SENTENCES: dict[str, Sentence] = {
         "标定板的 {count} 个孔只见到 {found} 个：整块板须在画面内",
     ),
     "calibration.holes": Sentence(
-        "{count} holes make no square ring with pins between them: take 8, 12, 16 … up to {most}",
-        "{count} 个孔不能排成中间有销的方环：请取 8、12、16……至多 {most}",
+        "{count} holes make no square ring with pins between them: take 12, 16, 20 … up to {most}",
+        "{count} 个孔不能排成中间有销的方环：请取 12、16、20……至多 {most}",
     ),
     "calibration.no_camera_serial": Sentence(
         "the camera's profile: whether it is that of this camera is not known, a serial number is missing in "
@@ -104,5 +104,9 @@ SENTENCES: dict[str, Sentence] = {
         "the camera's profile was {days} days old when this was captured, it is valid for {valid_days}: verify or "
         "learn the camera again",
         "采集时相机档案已有 {days} 天，有效期为 {valid_days} 天：请重新核查或学习相机",
+    ),
+    "calibration.no_log": Sentence(
+        "is no log of aadm camera verify; name another one with --log",
+        "不是 aadm camera verify 的记录；请用 --log 给出另一个",
     ),
 }

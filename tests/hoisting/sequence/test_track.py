@@ -11,7 +11,7 @@ pytest.importorskip("open3d")
 pytest.importorskip("manifold3d")
 
 from aadm_workbench.hoisting.measure import measure_hoisting
-from aadm_workbench.hoisting.sighting import SightedMeasurement
+from aadm_workbench.hoisting.sequence.sighting import SightedMeasurement
 from aadm_workbench.twin.hoisting import Hang, HoistingScan, Stand
 from aadm_workbench.twin.scenes import LAB
 from aadm_workbench.twin.study.hoisting import design_of

@@ -16,10 +16,11 @@ from scipy import stats
 
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.pose.eopa import turn
-from aadm_workbench.hoisting.pairs import WARP_MM, HungFit, report_pairs
+from aadm_workbench.hoisting.offsets import WARP_MM, HungFit
+from aadm_workbench.hoisting.pairs import report_pairs
 from aadm_workbench.hoisting.pattern_fit import OWN, Evidence, Pattern, State, as_built, loosened, placed
 from aadm_workbench.hoisting.sense import why_half
-from aadm_workbench.hoisting.sighting import SightedMeasurement, Sighting, with_sighting
+from aadm_workbench.hoisting.sequence.sighting import SightedMeasurement, Sighting, with_sighting
 from aadm_workbench.model import Array, BoolArray, ColumnDesign, HoistingMeasurement, Profile
 
 _ROUNDS = 6  # poses come from frames that were fitted: the third step is below a micrometre

@@ -25,7 +25,7 @@ _NARROWED = 0.55  # from step to step of the fine search: half a step of the las
 # where the average lies: reach of its grid in push plus chamfer and in push less chamfer, three standard deviations of
 # what the rays leave possible and more
 _MEAN_REACH_MM, _MEAN_GRID = (0.12, 0.05), np.linspace(-1.0, 1.0, 5)
-# of the log likelihood: as wide as the floor under what is known of a push (hoisting/foot.py), 0.02 to 0.04 mm, and not
+# of the log likelihood: as wide as the floor under what is known of a push (foot/fit.py), 0.02 to 0.04 mm, and not
 # as narrow as the steps of single rays; from 3 to 30 pushes move by less than 0.015 mm
 _FLATTER = 10.0
 # of a sleeve's own push: sleeves of the reference camera's scenes differ by up to 0.4 mm; fine enough for the flatter

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.hoisting.face import FootFace
+from aadm_workbench.hoisting.foot.face import FootFace
 from aadm_workbench.hoisting.frame import HoistingFrame
 from aadm_workbench.model import Array, BoolArray, IntArray
 
-_MARGIN_MM = 7.0  # about a mouth: the face is counted up to 6.5 mm beyond the rim (hoisting_foot.py)
+_MARGIN_MM = 7.0  # about a mouth: the face is counted up to 6.5 mm beyond the rim (hoisting/foot/fit.py)
 NOISE_SIGMAS = 3.0
 """A point this many standard deviations behind the face is behind it: one in 740 of the face's own is farther."""
 SECTORS = 24

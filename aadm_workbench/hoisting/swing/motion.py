@@ -1,7 +1,7 @@
 """How the hanging column moves from frame to frame, and what that leaves to do: the correction is that of its rest.
 
 A frame shows the column at one moment of its swing. Its displacement from frame to frame is the rigid move that its
-pairs share; from three frames on these tell where it would come to rest (:mod:`.swing`).
+pairs share; from three frames on these tell where it would come to rest (:mod:`.pendulum`).
 
 A running estimate over frames of a hanging column: frames are combined while it is still, and begun anew when not. All
 frames share what a camera does to lengths and walls, so combining them removes noise and not that: the part of the
@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.hoisting.swing import Swing, swing_of
+from aadm_workbench.hoisting.swing.pendulum import Swing, swing_of
 from aadm_workbench.model import Array, BoolArray, Correction, HoistingMeasurement
 
 _MOST_LOOKS, _LONGEST_S = 10, 40.0  # three swings of the longest rope; older frames say little of today's rest
@@ -145,7 +145,7 @@ def _moves(looks: tuple[Look, ...], places: Array) -> tuple[Array, float]:
     system[0::2, 2], system[1::2, 2] = -about[:, 1] / reach_mm, about[:, 0] / reach_mm
     solve = np.linalg.pinv(system)
     moves = [solve @ (now.offsets_mm - look.offsets_mm)[common].ravel() for look in reversed(chosen)]
-    # half of a frame's variance is what its neighbours share with it, as in hoisting_running
+    # half of a frame's variance is what its neighbours share with it, as in the running estimate below
     noise = 0.5 * float(np.median(now.variances[common])) / len(about)
     return np.array(moves), float(np.sqrt(noise + _NOISE_FLOOR_MM**2))
 

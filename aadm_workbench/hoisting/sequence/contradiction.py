@@ -15,7 +15,7 @@ from scipy import stats
 
 from aadm_workbench.assembly.findings.finding import make_finding
 from aadm_workbench.assembly.pose.eopa import turn
-from aadm_workbench.hoisting.joint import shapes_agree
+from aadm_workbench.hoisting.sequence.joint import shapes_agree
 from aadm_workbench.model import Array, ColumnDesign, Finding, HoistingMeasurement
 
 _QUARTERS_DEG = (90, -90, 180)  # turns of a square column

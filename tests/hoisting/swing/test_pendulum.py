@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from aadm_workbench.hoisting.motion import Look, Motion, motion_of, with_look
-from aadm_workbench.hoisting.swing import swing_of
+from aadm_workbench.hoisting.swing.motion import Look, Motion, motion_of, with_look
+from aadm_workbench.hoisting.swing.pendulum import swing_of
 from aadm_workbench.model import Array, CameraMove, Correction
 
 RING = np.array([[x, y] for x in (-95.0, 0.0, 95.0) for y in (-95.0, 0.0, 95.0) if (x, y) != (0.0, 0.0)])

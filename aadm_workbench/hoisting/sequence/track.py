@@ -13,21 +13,21 @@ import numpy as np
 
 from aadm_workbench.assembly.pose.eopa import wrap
 from aadm_workbench.extract.plane import refined_plane
-from aadm_workbench.hoisting.bars import SeenBars
-from aadm_workbench.hoisting.face import FootFace
-from aadm_workbench.hoisting.foot import FootFit
+from aadm_workbench.hoisting.bars.search import SeenBars
+from aadm_workbench.hoisting.foot.face import FootFace
+from aadm_workbench.hoisting.foot.fit import FootFit
+from aadm_workbench.hoisting.foot.mouths import window_about
 from aadm_workbench.hoisting.frame import HoistingFrame
 from aadm_workbench.hoisting.match import Laid, Matched
-from aadm_workbench.hoisting.mouths import window_about
-from aadm_workbench.hoisting.pairs import HungFit
-from aadm_workbench.hoisting.sighting import Sighting
+from aadm_workbench.hoisting.offsets import HungFit
+from aadm_workbench.hoisting.sequence.sighting import Sighting
 from aadm_workbench.model import Array, Plane
 
 _AFRESH_EVERY = 30  # frames: once a second at video rate all is searched again, for what came into the picture since
 _FACE_POINTS, _FACE_FEWEST = 6_000, 300  # as many as a search measures the face on; fewer carry no plane
 _FACE_PIXELS = 30_000  # of them: two of three look into mouths, past the foot, or are lost
 _FACE_MOVES_MM, _FACE_BIN_MM = 12.0, 0.5  # a hoist lowers by a centimetre from frame to frame; the scatter of a face
-_BAND_SIGMAS = 3.5  # as in face.py
+_BAND_SIGMAS = 3.5  # as in foot/face.py
 _MOVED_MAX_MM, _TURNED_MAX = 3.0, np.radians(1.0)  # of the foot from frame to frame: what a window still holds wholly
 _BARS_MOVED_MM = 2.0  # bars that moved by more have another camera before them
 _LOST_SHARE = 0.8  # of what was seen before: with less in view something stands in between, or is not where it was

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.design.recognise.pattern import inline_design
-from aadm_workbench.hoisting.contradiction import contradiction_of
+from aadm_workbench.hoisting.sequence.contradiction import contradiction_of
 from aadm_workbench.model import Correction, Finding, HoistingMeasurement, HoistingPair, HoistingReport, Verdict
 
 SIDE = [complex(-240.0 + 160.0 * k, -240.0) for k in range(3)]

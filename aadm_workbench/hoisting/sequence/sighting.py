@@ -10,7 +10,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from aadm_workbench.hoisting.frame import HoistingFrame
-from aadm_workbench.hoisting.pairs import HungFit
+from aadm_workbench.hoisting.offsets import HungFit
 from aadm_workbench.hoisting.pattern_fit import Pattern
 from aadm_workbench.model import BoolArray, HoistingMeasurement, Scan
 

@@ -13,7 +13,7 @@ import cv2
 import numpy as np
 
 from aadm_workbench.extract.plane import refined_plane
-from aadm_workbench.hoisting.face import FootFace
+from aadm_workbench.hoisting.foot.face import FootFace
 from aadm_workbench.hoisting.frame import HoistingFrame
 from aadm_workbench.model import Array, IntArray, Plane
 

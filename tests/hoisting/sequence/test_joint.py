@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aadm_workbench.hoisting.joint import JointShape, Sight, join_sights
 from aadm_workbench.hoisting.pattern_fit import Evidence, Pattern
+from aadm_workbench.hoisting.sequence.joint import JointShape, Sight, join_sights
 from aadm_workbench.model import Array
 
 SIDE = [complex(-440.0 + 220.0 * k, -440.0) for k in range(4)]

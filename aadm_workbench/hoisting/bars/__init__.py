@@ -1,0 +1,1 @@
+"""Bars under a hanging foot: where they stand, and the fit of all their sides."""

@@ -1,0 +1,1 @@
+"""Sleeves of a hanging foot: the face, the mouths in it, and every sleeve by its own evidence."""

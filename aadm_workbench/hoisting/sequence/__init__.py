@@ -1,0 +1,1 @@
+"""Frames of one column that follow each other, or show it from several corners."""

@@ -1,0 +1,1 @@
+"""How a column swings between frames, and where it would come to rest."""
