@@ -51,7 +51,7 @@ class WatchBar(QtGui.QWidget):
         self.camera.setToolTip("\n".join(ADDRESSES))
         self.button = QtGui.QPushButton()
         self.button.clicked.connect(lambda: self.start() if self._process is None else self.stop())
-        self.state = QtGui.QLabel(translate("AADM_Hoisting", "Nothing is watched from here"))
+        self.state = QtGui.QLabel(translate("AADM_Hoisting", "Nothing is watched from here"), wordWrap=True)
         self.state.setSizePolicy(QtGui.QSizePolicy.Ignored, QtGui.QSizePolicy.Preferred)
         self._lay_out()
         self._busy(False)
