@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING, Literal
 
 from aadm_workbench.errors import AadmError
 
-from .shown.told import told
-
 if TYPE_CHECKING:
     from aadm_workbench.model import JobReport
     from aadm_workbench.model.reason import Language
@@ -116,6 +114,8 @@ class Written:
 
         for name, error in self.failed.items():
             known = isinstance(error, AadmError)
+            from .shown.told import told
+
             said = told(error, options) if known else f"{FORMATS[name][0]}: {type(error).__name__}: {error}"
             say(f"aadm: {said}")
             if options.debug and not known:

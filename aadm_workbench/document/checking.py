@@ -80,13 +80,13 @@ def _model_of(column: Any) -> dict[str, str] | None:
 def check_unchanged(cloud: Any) -> None:
     """Raise ScanError where a scan is no longer what was imported."""
     if not cloud.File:
-        raise ScanError(f"{cloud.Label} names no file: import the scan again")
+        raise ScanError.because("document.scan_nameless", label=cloud.Label)
     file = Path(cloud.File)
     if not file.exists():
-        raise ScanError(f"{file}: is not there any more; bring it back, or import the scan again")
+        raise ScanError.about(file, "document.scan_gone")
     # The hash of a capture is that of its parts, which the process that reads it knows.
     if cloud.Sha256 and file.is_file():
         with file.open("rb") as stream:
             now = hashlib.file_digest(stream, "sha256").hexdigest()
         if now != cloud.Sha256:
-            raise ScanError(f"{file}: has changed since it was imported; import it again, and check what it shows")
+            raise ScanError.about(file, "document.scan_changed")

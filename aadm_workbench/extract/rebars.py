@@ -56,7 +56,10 @@ _BAR_PRIORS = Priors(
     lean=0.03, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.06, wall_to_edge=0.02, rim_to_beyond=0.03
 )
 _BAR_LEAN_U = 7e-3  # ribs, which stand out on one side here and on the other there: half of one over 60 mm of side
-_USUAL_LEAN, _COMMON_COUNT = 5e-3, 4  # 0.3 degrees, as bars are cast in
+USUAL_LEAN = 5e-3
+"""0.3 degrees, as bars and sleeves are cast in; this product's own figure."""
+
+_COMMON_COUNT = 4  # fewer bars have no middle that one of them does not move
 _BENT_SHARE = 0.1  # of bars that lean by more than that: bent by hand, or hit
 _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)  # before the vertical is known bars lean by degrees
 # of the size that was looked for: cores have 0.94 to 1.03 of it, outlines a few hundredths more or less; each look
@@ -256,13 +259,13 @@ def _believed_leans(fit: PooledFit, prior: float) -> tuple[Array, Array]:
     told, weight = _told_by_sides(fit, prior)
     common = np.median(fit.lean, axis=0) if len(fit.lean) >= _COMMON_COUNT else np.zeros(2)
     off = weight - told @ common
-    usual, usual_off, usual_odds = _posterior(told, off, _USUAL_LEAN)
+    usual, usual_off, usual_odds = _posterior(told, off, USUAL_LEAN)
     bent, bent_off, bent_odds = _posterior(told, off, _BAR_PRIORS.lean)
     odds = np.log(_BENT_SHARE / (1.0 - _BENT_SHARE)) + bent_odds - usual_odds
     share = expit(odds)[:, None]
     apart = bent_off - usual_off
     unsure = (share * (1.0 - share))[..., None] * apart[:, :, None] * apart[:, None, :]
-    usual = usual + np.eye(2) * (_USUAL_LEAN**2 / max(len(fit.lean), 1))
+    usual = usual + np.eye(2) * (USUAL_LEAN**2 / max(len(fit.lean), 1))
     lean = common + usual_off + share * apart
     return lean, share[..., None] * bent + (1.0 - share[..., None]) * usual + unsure
 

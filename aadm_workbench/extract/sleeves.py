@@ -41,8 +41,13 @@ _WALL_LAW = BracketLaw(0.08, 0.4)  # many points lie on ribs, which only ever st
 # choice: ±30 % moves centres by up to 0.3 u and u by 7 %)
 _TAIL_PITCHES, _TAIL_TO_KEPT, _USUALLY_KEPT = 6.0, 1.5, 0.7
 _FIRST_SETTLED_MM = 0.03  # the first fit only tells which share of the pixels the camera keeps, and how bores scatter
-_BORE_LEAN_U = 2e-3  # light that bounces in a bore pushes its wall by less or more as it goes deeper
+BORE_LEAN_U = 2e-3
+"""Of a lean: light that bounces in a bore pushes its wall by less or more as it goes deeper."""
+
 _WHOLE_WITHIN_MM = 1.5  # between the innermost points of a rim and the disc that is seen: filters move it by less
+# beyond chamfers, within what a patch reaches; deeper than noise at 2 m, not as deep as a bore; of the ring's points,
+# in which flying pixels and dirt are one or two in a hundred
+_SPALL_RING_MM, _SPALL_DEPTH_MM, _SPALL_SHARE = (1.2, 3.5), (1.0, 6.0), 0.05
 _ERODED_RADIUS_MAX = 0.5  # rings: beyond, walls that light pushes know the radius better
 _BROKEN_U_MM = 0.3  # of a broken rim, seen by a camera that adds to its edges
 # 30 degrees of turn from the visible side each; of fewer rim points a share tells nothing
@@ -60,6 +65,7 @@ _FOREIGN = 0.01  # share of outline points that are flying pixels or dirt
 # of an outline on its circle, or running on into the wall: half of a taped mouth is more; a choice: ±30 % moves
 # nothing on sound scans
 _SOUND_SHARE = 0.3
+_AGREEING_SHARE = 0.75  # of a rim that is judged: sound ones at 2 m, a tenth of the pixels lost, have 0.8 to 1
 _RADIUS_MISFIT = 0.08  # relative: a hole this much larger or smaller than nominal is no sleeve
 
 
@@ -96,6 +102,24 @@ def extract_sleeves(
     found = face_with_holes(scan, sample, diameter_mm / 2, rng)
     if found is None:
         return Extraction(Kind.SLEEVE, "refined", (), None, None, reason=Reason("extract.no_face"))
+    seen = _in_face(scan, sample, found, diameter_mm, places, others_mm)
+    if found[0].rough:
+        # Where plugs close many mouths, what lies behind the face is these, and no layer: then more are round.
+        smooth = face_with_holes(scan, sample, diameter_mm / 2, rng, may_be_rough=False)
+        as_smooth = seen if smooth is None else _in_face(scan, sample, smooth, diameter_mm, places, others_mm)
+        seen = max(seen, as_smooth, key=lambda one: len(one.points))
+    return seen
+
+
+def _in_face(
+    scan: Scan,
+    sample: Thinned,
+    found: tuple[FootFace, Array, float],
+    diameter_mm: float,
+    places: Array | None,
+    others_mm: tuple[float, ...],
+) -> Extraction:
+    """The sleeves in one face, about the holes that were found in it; the rest as for :func:`extract_sleeves`."""
     layer, centres, pitch_mm = found
     face = layer.plane
     if places is not None and len(places):
@@ -174,6 +198,7 @@ def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm:
         return _fit_of_sharp(mouths, diameter_mm, pitch_mm)
     seen = _seen(lines, mouths.centre, diameter_mm, pitch_mm)
     whole = np.hypot(*(seen.centre - mouths.centre).T) < _WHOLE_WITHIN_MM
+    whole &= ~_are_spalled(lines, mouths.centre, diameter_mm / 2)
     if not whole.any():
         fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
         return _shifted(fit, shift_of_rims(lines.slope, mouths.rims, fit.centre, diameter_mm / 2, pitch_mm))
@@ -187,6 +212,15 @@ def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm:
         return _fit_of_bent(mouths, discs, whole, diameter_mm, pitch_mm)
     fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
     return _shifted(fit, shift_of_mouths(lines.slope, fit.centre, seen, whole, diameter_mm / 2, bend))
+
+
+def _are_spalled(lines: SightLines, centre: Array, radius_mm: float) -> BoolArray:
+    """Where (k,) a piece of the face is broken out beside a mouth: no camera bends a face so far from its edge."""
+    distance = np.hypot(lines.x - centre[:, :1], lines.y - centre[:, 1:])
+    low_mm, high_mm = (radius_mm + part for part in _SPALL_RING_MM)
+    ring = (distance > low_mm) & (distance < high_mm) & (lines.height > -_SPALL_DEPTH_MM[1])
+    broken = ring & (lines.height < -_SPALL_DEPTH_MM[0])
+    return np.asarray(broken.sum(axis=1) > _SPALL_SHARE * ring.sum(axis=1))
 
 
 def _shifted(fit: PooledFit, shift: Shift) -> PooledFit:
@@ -245,7 +279,11 @@ def _are_round(mouths: Mouths, fit: PooledFit, pitch_mm: float) -> BoolArray:
     behind = mouths.rims.distance(fit.centre) - fit.radius[:, None]
     # Rim points thin out over a few pixels behind the edge.
     on_circle = (behind > -AGREES_MM / 2) & (behind < max(AGREES_MM, 2.5 * pitch_mm)) & mouths.rims.seen
-    runs_on = np.where(mouths.wall_count() >= _WALL_COUNT_MIN, (~mouths.rims.seen).mean(axis=1), 0.0)
+    seen = mouths.rims.seen.mean(axis=1)
+    # Where few pixels of a wall come back, a rim that is round wherever it can be judged runs on into it all the same.
+    alike = on_circle.mean(axis=1) > _AGREEING_SHARE * seen
+    creased = np.where(alike, mouths.coverage - seen, 0.0)
+    runs_on = np.where(mouths.wall_count() >= _WALL_COUNT_MIN, 1.0 - seen, creased)
     return np.asarray(on_circle.mean(axis=1) + runs_on > _SOUND_SHARE)
 
 
@@ -291,6 +329,6 @@ def _points(mouths: Mouths, fit: PooledFit, face: Plane, pitch_mm: float) -> tup
             Reason("extract.walls_and_edges", walls=walls, edges=edges, pitch_mm=pitch_mm)
             for walls, edges in zip(fit.wall_count.tolist(), fit.edge_count.tolist(), strict=True)
         ],
-        fit.lean_covariance + _BORE_LEAN_U**2 * np.eye(2),
+        fit.lean_covariance + BORE_LEAN_U**2 * np.eye(2),
         seen_lengths(mouths.wall_depth, mouths.wall_seen),
     )

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule
+from aadm_workbench.assembly.findings.finding import SeenGroup
+from aadm_workbench.assembly.findings.scale import doubted_scale_error
 from aadm_workbench.assembly.group_notes import (
     axes_not_told,
     in_coordinates_of_the_file,
@@ -25,7 +27,6 @@ from aadm_workbench.assembly.inspect import inspect_group
 from aadm_workbench.assembly.matching.match import Match, match_extraction
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.pose.eopa import NoFit
-from aadm_workbench.extract.edges.learned_edges import with_learned_edges
 from aadm_workbench.extract.method import Known, extract_sizes
 from aadm_workbench.model import (
     Array,
@@ -134,8 +135,9 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             reasons = dict.fromkeys(missing_places(points, match), unseen)
         else:
             reasons = reasons_of_missing(scan, extraction, missing_places(points, match), diameter_mm, rng)
-    scale_error = scale_error_of(scan, kind)
+    seen_group = SeenGroup(kind, points, extraction, match, scale_error_of(scan, kind))
     with stage("assembly"):
+        scale_error = doubted_scale_error(seen_group)
         report = inspect_group(
             points,
             extraction,
@@ -170,7 +172,11 @@ def _extracted(
 ) -> Extraction:
     """The points of a scan, set right by what was learned of its camera: with the method that it was learned with."""
     found = extract_sizes(scan, kind, _diameters_mm(points), settings.method, rng, places, known=known)
-    return with_learned_edges(found, scan.learned) if settings.method == "refined" else found
+    if scan.learned is None or settings.method != "refined":
+        return found
+    from aadm_workbench.extract.edges.learned_edges import with_learned_edges
+
+    return with_learned_edges(found, scan.learned)
 
 
 def scale_error_of(scan: Scan, kind: Kind) -> float:

@@ -12,12 +12,15 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from aadm_workbench.atomic import write_atomically
-from aadm_workbench.model import ColumnReport, JobReport, Json, Profile, ShipmentReport
+from aadm_workbench.model import ColumnReport, JobReport, Json, Profile
+
+if TYPE_CHECKING:
+    from aadm_workbench.model.shipment import ShipmentReport
 
 SCHEMA = 1
 """Of report.json: keys are added under the same number, and never change their meaning."""

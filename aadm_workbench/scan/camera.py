@@ -46,16 +46,18 @@ def depth_to_points(depth_mm: FloatArray, camera: Camera) -> FloatArray:
     Returns
     -------
     FloatArray
-        (h, w, 3) float32, mm, camera frame; NaN where there is no return.
+        (h, w, 3) float32, mm, camera frame, each coordinate a plane of its own in memory; NaN where there is no
+        return.
     """
-    has_return = (depth_mm > 0) & (depth_mm < LARGEST_DEPTH_MM)
-    z = np.where(has_return, depth_mm, np.nan).astype(np.float32, copy=False)
-    height, width = z.shape
-    points = np.empty((height, width, 3), np.float32)
-    np.multiply(z, ((np.arange(width) - camera.cx) / camera.fx).astype(np.float32), out=points[..., 0])
-    np.multiply(z, ((np.arange(height) - camera.cy) / camera.fy).astype(np.float32)[:, None], out=points[..., 1])
-    points[..., 2] = z
-    return points
+    height, width = depth_mm.shape
+    # Plane by plane: three of the four steps, and all that is asked of depths alone later, then run over one plane.
+    points = np.empty((3, height, width), np.float32)
+    x, y, z = points
+    z.fill(np.nan)
+    np.copyto(z, depth_mm, casting="same_kind", where=(depth_mm > 0) & (depth_mm < LARGEST_DEPTH_MM))
+    np.multiply(z, ((np.arange(width) - camera.cx) / camera.fx).astype(np.float32), out=x)
+    np.multiply(z, ((np.arange(height) - camera.cy) / camera.fy).astype(np.float32)[:, None], out=y)
+    return points.transpose(1, 2, 0)
 
 
 def projected(points: FloatArray, camera: Camera) -> Array:

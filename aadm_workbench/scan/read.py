@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from aadm_workbench.errors import CameraError, ScanError
 from aadm_workbench.model import CAMERA_AXES, OPENGL_AXES, Array, Camera, FloatArray, Reason, Scan
-from aadm_workbench.scan.axes import AXES, TAKEN_FOR_OPENGL, axes_of, turned
+from aadm_workbench.scan.axes import AXES, axes_of, turned
 from aadm_workbench.scan.file import DEPTH_MAPS, Cloud, Declared, ScanFile, load, to_millimetres, without_return
 from aadm_workbench.scan.pixels import is_picture, on_pixels
 
@@ -182,7 +182,8 @@ def _axes(file: ScanFile, cloud: Cloud, declared: Declared) -> str:
 
 
 def _axes_note(axes: str, declared: Declared) -> tuple[str, ...]:
-    return (TAKEN_FOR_OPENGL,) if axes == OPENGL_AXES and declared.axes is None else ()
+    # A note of a cloud whose axes were found out.
+    return (Reason("scan.opengl_axes"),) if axes == OPENGL_AXES and declared.axes is None else ()
 
 
 def _unit_note(cloud: Cloud, declared: Declared) -> tuple[str, ...]:
@@ -204,10 +205,13 @@ def _declared(units: str, camera: Camera | None, depth_scale_mm: float | None, a
 
 def _measured(file: ScanFile, cloud: Cloud, camera: Camera | None, axes: str) -> tuple[FloatArray, int]:
     """Return the points in mm in the scan frame, in a camera's axes, and how many of the file are no measurement."""
-    missing = without_return(cloud.points)
+    # What a depth map lacks is NaN already, and its points lie on the camera's rays because they were laid there.
+    missing = np.isnan(cloud.points[..., 2]) if cloud.is_depth_map else without_return(cloud.points)
     dropped = int(np.count_nonzero(missing))
     if dropped == missing.size:
         raise file.wrong(Reason("scan.nothing_measured", count=missing.size))
+    if cloud.is_depth_map:
+        return cloud.points, dropped + cloud.dropped
     # A declared camera fixes the frame to its own, in which the files of all cameras hold their points.
     T_scan_file = None if camera is not None else cloud.T_scan_file
     if dropped and (camera is not None or cloud.points.ndim == 3):

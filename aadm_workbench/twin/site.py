@@ -192,7 +192,7 @@ def known_site(names: Sequence[str]) -> Sequence[str]:
     """
     for name in names:
         if name not in SITE:
-            raise AadmError(f"--site {name}: no site does that; there are {', '.join(SITE)}")
+            raise AadmError.because("twin.site", name=name, known=tuple(SITE))
     return names
 
 

@@ -114,7 +114,7 @@ def _draw(options: argparse.Namespace) -> int:
     try:
         options.out.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise DesignError(f"{options.out}: the folder cannot be made ({error.strerror})") from error
+        raise DesignError.because("command.no_folder", folder=options.out, why=error.strerror) from error
     write_plate(plate, options.out / "plate.toml")
     write_plate_dxf(plate, options.out / "plate.dxf")
     write_plate_pdf(plate, options.out / "plate.pdf", options.language)

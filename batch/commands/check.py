@@ -21,7 +21,6 @@ from aadm_workbench.errors import AadmError, JobError
 from ..exit_codes import INTERNAL, INTERRUPTED, exit_code_of
 from ..job.command import add_job_arguments, pool_options, report_folder
 from ..report_files import add_format_switches, chosen_formats, require_packages
-from ..shown.told import told
 
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
@@ -94,7 +93,7 @@ def run(options: argparse.Namespace) -> int:
         except (AadmError, KeyboardInterrupt) as stop:
             if isinstance(stop, AadmError) and not shown.done:
                 raise
-            return _stopped(stop, told(stop, options), shown, journal, events)
+            return _stopped(stop, shown, journal, events, options)
         code = _hand_over(done, job, folder, options)
         if code != INTERNAL:
             journal.finish()
@@ -138,13 +137,16 @@ def _interrupt(number: int, frame: FrameType | None) -> None:
     raise KeyboardInterrupt
 
 
-def _stopped(stop: BaseException, said: str, shown: ShownCheck, journal: Journal, events: Events) -> int:
+def _stopped(
+    stop: BaseException, shown: ShownCheck, journal: Journal, events: Events, options: argparse.Namespace
+) -> int:
     """Say that a check ends before its end, and what is kept of it."""
     from ..shown.terminal import say
+    from ..shown.told import told
 
     journal.stop()
     events.send("interrupted", done=shown.done, columns=shown.total)
-    say(f"aadm: {said or 'interrupted'}")
+    say(f"aadm: {told(stop, options) or 'interrupted'}")
     kept = f"{shown.done} of {shown.total} columns are kept in {journal.path}"
     say(f"aadm: {kept}; repeat the command with --resume")
     return INTERRUPTED if isinstance(stop, KeyboardInterrupt) else INTERNAL
@@ -157,12 +159,11 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
 
     from ..served_report import without_absolute_paths
     from ..shown.terminal import say, show_json
-    from ..tower_plan import with_setting
 
     if options.debug:
         for name, trace in done.traces.items():
             say(f"{name}: {trace}")
-    report = with_setting(done.report, job.model_path)
+    report = _with_setting(done.report, job)
     report = report if options.absolute_paths else without_absolute_paths(report, job)
     code, written = exit_code_of(column.verdict for column in report.columns), False
     try:
@@ -173,7 +174,7 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
             code = INTERNAL
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
-        say(f"aadm: {told(error, options)}")
+        _complain(error, options)
         code = INTERNAL
     if options.json:
         show_json(encoded_report(report))
@@ -184,6 +185,21 @@ def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace
     if options.write_ifc and code != INTERNAL:
         return _write_model(report, job, folder, options) or code
     return code
+
+
+def _with_setting(report: JobReport, job: Job) -> JobReport:
+    if job.stack is None:
+        return report
+    from ..tower_plan import with_setting
+
+    return with_setting(report, job.model_path)
+
+
+def _complain(error: AadmError, options: argparse.Namespace) -> None:
+    from ..shown.terminal import say
+    from ..shown.told import told
+
+    say(f"aadm: {told(error, options)}")
 
 
 def _write_reports(job: Job, folder: Path, options: argparse.Namespace) -> bool:
@@ -211,7 +227,7 @@ def _write_model(report: JobReport, job: Job, folder: Path, options: argparse.Na
     try:
         written = write_checked_model(read_report(folder / "report.json"), job, folder)
     except AadmError as error:
-        say(f"aadm: {told(error, options)}")
+        _complain(error, options)
         return INTERNAL
     if not options.quiet:
         say("\n".join(written_lines(written)))

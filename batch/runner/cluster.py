@@ -85,11 +85,8 @@ def remote_cluster(
             client = distributed.Client(address, timeout=_CONNECT_S, set_as_default=False, security=security)
         except (OSError, TimeoutError, ValueError, TypeError, ImportError, AttributeError, RuntimeError) as error:
             reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-            message = (
-                f"no scheduler of Dask answers at {address} ({reason}); start one with: dask scheduler "
-                f"(this is distributed {distributed.__version__}; all of a cluster must have the same)"
-            )
-            raise JobError(message) from error
+            version = distributed.__version__
+            raise JobError.because("run.no_dask", address=address, why=reason, version=version) from error
         try:
             yield Cluster(client, RemoteWorkers(client))
         finally:
@@ -137,15 +134,10 @@ def _try_certificates(host: str, port: int | None, address: str, context: ssl.SS
         with line, context.wrap_socket(line, server_hostname=host) as secured:
             secured.recv(1)
     except ssl.SSLCertVerificationError as error:
-        message = f"{address}: its certificate is not signed by the authority of --tls-ca ({error.verify_message})"
-        raise JobError(message) from error
+        raise JobError.because("run.tls_signed", address=address, why=error.verify_message) from error
     except OSError as error:
         reason = getattr(error, "reason", None) or type(error).__name__
-        message = (
-            f"{address}: does not take the certificate of --tls-cert, or does not speak TLS ({reason}); it must be "
-            "signed by the authority that the scheduler was started with"
-        )
-        raise JobError(message) from error
+        raise JobError.because("run.tls_refused", address=address, why=reason) from error
 
 
 class _Lines(logging.Handler):

@@ -151,5 +151,4 @@ def _column(record: Record) -> ColumnReport:
     try:
         return record.column()
     except ValueError as error:
-        message = f"{record.id}: its kept result cannot be used ({error}); check again without --resume"
-        raise AadmError(message) from error
+        raise AadmError.because("run.kept", id=record.id, why=error) from error

@@ -207,16 +207,15 @@ def _turned(points: Array, yaw: Array) -> Array:
 
 
 def _distinct(ordered: list[PlanarPlacement]) -> list[PlanarPlacement]:
-    kept: list[PlanarPlacement] = []
-    for found in ordered:
-        if not any(_same(found, other) for other in kept):
-            kept.append(found)
-    return kept
-
-
-def _same(a: PlanarPlacement, b: PlanarPlacement) -> bool:
-    apart = abs((a.yaw - b.yaw + np.pi) % (2.0 * np.pi) - np.pi)
-    return bool(apart < _SAME_TURN_RAD and np.hypot(*(a.shift - b.shift)) < _SAME_PLACE_MM)
+    """The first of those that differ in turn and place by less than is told apart."""
+    yaw = np.array([found.yaw for found in ordered])
+    shift = np.array([found.shift for found in ordered]).reshape(-1, 2)
+    kept: list[int] = []
+    for k in range(len(ordered)):
+        turned = np.abs((yaw[k] - yaw[kept] + np.pi) % (2.0 * np.pi) - np.pi) < _SAME_TURN_RAD
+        if not (turned & (np.hypot(*(shift[k] - shift[kept]).T) < _SAME_PLACE_MM)).any():
+            kept.append(k)
+    return [ordered[k] for k in kept]
 
 
 def _uncentred(found: PlanarPlacement, middle: Array, centre: Array) -> PlanarPlacement:

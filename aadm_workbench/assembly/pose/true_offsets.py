@@ -5,10 +5,12 @@ them, a column looks worse than it is. How bars and sleeves scatter as built is 
 are drawn together (Gibbs sampling of a hierarchical model; Gelman et al., Bayesian Data Analysis, 3rd ed., 11.1, 17.2):
 
     measured offset = pose + true scatter + error        error ~ N(0, its covariance)
-    true scatter ~ Student's law in the plane, of a width that all pairs share
+    true scatter ~ the normal law in the plane or Student's, of a width that all pairs share
 
-Few points far off are usual, so the law has heavy tails: what stands far off by more than its uncertainty is left where
-it was measured and not drawn to the others. The pose is free, as in the trial.
+Which of the two is told by the pairs as well, and before they say anything the odds are even. By Student's law few
+points far off are usual: what stands far off by more than its uncertainty is left where it was measured and not drawn
+to the others. By the normal law there are none, and what was hardly seen stands about like the rest. The pose is free,
+as in the trial.
 """
 
 from __future__ import annotations
@@ -74,8 +76,7 @@ def true_offsets(measured: Measured, generator: np.random.Generator) -> Iterator
         moved = (pose @ by_pose.reshape(-1, 3).T).reshape(len(pose), -1, 2)
         scatter = _drawn_scatter(measured, moved, own, inverse, generator)
         squares = (scatter**2).sum(axis=2)
-        freedom = _FREEDOM + squares / variance[:, None]
-        weight = 2.0 * generator.gamma((_FREEDOM + 2.0) / 2.0, size=squares.shape) / freedom
+        weight = _drawn_weights(squares / variance[:, None], generator)
         variance = _drawn_variance((weight * squares).sum(axis=1), squares.shape[1], generator)
         sweep += 1
         if sweep > _SETTLE:
@@ -123,6 +124,17 @@ def _coloured(covariances: Array, normal: Array) -> Array:
     second = np.sqrt(np.maximum(covariances[..., 1, 1] - mixed**2, 0.0))
     x, y = normal[..., 0], normal[..., 1]
     return np.stack([first * x, mixed * x + second * y], axis=-1)
+
+
+def _drawn_weights(squares: Array, generator: np.random.Generator) -> Array:
+    """Weights (k, n) of the pairs, one by the normal law; ``squares`` (k, n) of the scatter in units of its width.
+
+    The law of each draw is drawn first: by how likely either makes these squares, both being as likely before.
+    """
+    student = 2.0 * generator.gamma((_FREEDOM + 2.0) / 2.0, size=squares.shape) / (_FREEDOM + squares)
+    by_tails = squares / 2.0 - (_FREEDOM + 2.0) / 2.0 * np.log1p(squares / _FREEDOM)
+    has_tails = generator.logistic(size=len(squares)) < by_tails.sum(axis=1)
+    return np.where(has_tails[:, None], student, 1.0)
 
 
 def _drawn_variance(weighted_squares: Array, count: int, generator: np.random.Generator) -> Array:

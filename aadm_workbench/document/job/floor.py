@@ -157,7 +157,7 @@ def save_job(columns: Sequence[Any], job: Path) -> None:
             job.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(job, job_toml(table).encode())
     except OSError as error:
-        raise JobError(f"{job}: cannot be written ({error.strerror}); choose another place for the job file") from error
+        raise JobError.about(job, "document.job_unwritten", why=error.strerror) from error
 
 
 def camera_file_near(folder: Path) -> Path | None:

@@ -99,4 +99,8 @@ SENTENCES: dict[str, Sentence] = {
         "learn the camera again",
         "采集时相机档案已有 {days} 天，有效期为 {valid_days} 天：请重新核查或学习相机",
     ),
+    "calibration.no_log": Sentence(
+        "is no log of aadm camera verify; name another one with --log",
+        "不是 aadm camera verify 的记录；请用 --log 给出另一个",
+    ),
 }

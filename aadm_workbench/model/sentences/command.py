@@ -9,7 +9,7 @@ SENTENCES: dict[str, Sentence] = {
     "command.known": Sentence("known: {known}", "已知：{known}"),
     "command.asks_without_scan": Sentence(
         "column {column}: the job asks for {parts}, but names no scan for it",
-        "柱 {column}：作业要求{parts}，但未给出其扫描",
+        "柱 {column}：任务要求{parts}，但未给出其扫描",
     ),
     "command.cannot_write": Sentence(
         "{file}: cannot be written ({why}); check its folder", "{file}：无法写入（{why}）；请检查其文件夹"
@@ -74,11 +74,11 @@ SENTENCES: dict[str, Sentence] = {
         "在他人可达的地址上使用 --opcua 时必须给出 --certificates 文件夹：否则任何人都能读取",
     ),
     "command.plan_of_what": Sentence(
-        "name a job with --column, or a column with --size", "请给出作业和 --column，或用 --size 给出柱的尺寸"
+        "name a job with --column, or a column with --size", "请给出任务和 --column，或用 --size 给出柱的尺寸"
     ),
     "command.report_of_job": Sentence(
         "{file}: of a job only --scan-card can be made; check it first (aadm check {job}), then name its report.json",
-        "{file}：由作业只能生成 --scan-card；请先检查（aadm check {job}），再给出其 report.json",
+        "{file}：由任务只能生成 --scan-card；请先检查（aadm check {job}），再给出其 report.json",
     ),
     "command.seed_below_zero": Sentence(
         "--seed must not be below zero, it is {seed}", "--seed 不得小于零，当前为 {seed}"
@@ -100,7 +100,7 @@ SENTENCES: dict[str, Sentence] = {
         "--tls-ca、--tls-cert、--tls-key 与 --scheduler 一起使用；本机进程不需要",
     ),
     "command.which_column": Sentence(
-        "say with --column which column of the job is meant", "请用 --column 指明作业中的哪一根柱"
+        "say with --column which column of the job is meant", "请用 --column 指明任务中的哪一根柱"
     ),
     "command.write_into_other": Sentence(
         "{job}: --write-ifc writes into IFC models (.ifc), but [model] path is {model}",
@@ -113,5 +113,9 @@ SENTENCES: dict[str, Sentence] = {
     "command.writeback_of_what": Sentence(
         "{file}: name the report and the model: aadm writeback REPORT.json MODEL.ifc",
         "{file}：请给出报告与模型：aadm writeback REPORT.json MODEL.ifc",
+    ),
+    "command.no_bars": Sentence("the design of {column} has no bars", "{column} 的设计中没有钢筋"),
+    "command.no_sleeves": Sentence(
+        "{label} has no grouting sleeves in its foot face. {why}", "{label} 的柱底没有灌浆套筒。{why}"
     ),
 }

@@ -135,6 +135,13 @@ SENTENCES: dict[str, Sentence] = {
         "not scanned",
         "{group:word}的扫描（{source}）与 {others} 的是同一个文件：至少有一个没有扫描",
     ),
+    "finding.scale_differs.bores": Sentence(
+        "what was scanned of the {groups:word}, patterns and bores together, is {scale:.4f} times as large as designed "
+        "(±{U:.4f}): the intrinsics of the camera (focal length fx, fy in [camera]) or the unit are wrong; no position "
+        "in these scans is to be trusted before that is settled",
+        "{groups:word}的扫描（布置与套筒内径合计）为设计尺寸的 {scale:.4f} 倍（±{U:.4f}）：相机内参（[camera] 中的焦距 "
+        "fx、fy）或单位有误；查明之前，这些扫描的位置均不可信",
+    ),
     "finding.scale_differs.camera": Sentence(
         "the patterns of sleeves and rebars are both {scale:.4f} times as large as designed (±{U:.4f}): the "
         "intrinsics of the camera (focal length fx, fy in [camera]) or the unit are wrong; no position in these "

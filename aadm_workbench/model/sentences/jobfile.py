@@ -66,17 +66,17 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "jobfile.many_columns": Sentence(
         "the job has {count} columns, {most} are the most; split it",
-        "作业有 {count} 根柱，最多 {most} 根；请拆分",
+        "任务有 {count} 根柱，最多 {most} 根；请拆分",
     ),
     "jobfile.no_columns": Sentence(
         'the job has no columns; add [[columns]] with id = "..." and its scans',
-        '作业中没有柱；请加入 [[columns]]，写明 id = "..." 及其扫描',
+        '任务中没有柱；请加入 [[columns]]，写明 id = "..." 及其扫描',
     ),
     "jobfile.no_design": Sentence(
         "column {name} has no design: add [columns.design] to it, or [model] with a path to the job",
-        "柱 {name} 没有设计：请为其加上 [columns.design]，或在作业中加上带路径的 [model]",
+        "柱 {name} 没有设计：请为其加上 [columns.design]，或在任务中加上带路径的 [model]",
     ),
-    "jobfile.no_file": Sentence("{file}: there is no such job file", "{file}：没有这个作业文件"),
+    "jobfile.no_file": Sentence("{file}: there is no such job file", "{file}：没有这个任务文件"),
     "jobfile.no_toml": Sentence(
         "{file}, line {line}: this is no TOML: {what}", "{file} 第 {line} 行：不是 TOML：{what}"
     ),
@@ -87,7 +87,7 @@ SENTENCES: dict[str, Sentence] = {
     "jobfile.not_above_zero": Sentence("{key} must be above zero, it is {value:g}", "{key} 应大于零，现为 {value:g}"),
     "jobfile.not_boolean": Sentence(
         "{key} must be true or false, it is {shown}",
-        "{key} 应为true 或 false，现为 {shown}",
+        "{key} 应为 true 或 false，现为 {shown}",
     ),
     "jobfile.not_list": Sentence("{key} must be a list of texts, it is {shown}", "{key} 应为文本列表，现为 {shown}"),
     "jobfile.not_lists": Sentence(
@@ -112,7 +112,7 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "jobfile.not_utf8": Sentence(
         "{file}, line {line}: this is not UTF-8 text; save the job as UTF-8",
-        "{file} 第 {line} 行：不是 UTF-8 文本；请以 UTF-8 保存作业",
+        "{file} 第 {line} 行：不是 UTF-8 文本；请以 UTF-8 保存任务",
     ),
     "jobfile.not_whole": Sentence(
         "{key} must be a whole number above zero, it is {shown}",
@@ -142,15 +142,15 @@ SENTENCES: dict[str, Sentence] = {
         "set_pose 应在 ±{most:g} mm 与度以内：没有这么大的间隙",
     ),
     "jobfile.too_deep": Sentence(
-        "{file}: is nested deeper than any job; write it anew", "{file}：嵌套过深，不像任何作业；请重新编写"
+        "{file}: is nested deeper than any job; write it anew", "{file}：嵌套过深，不像任何任务；请重新编写"
     ),
     "jobfile.too_deep_line": Sentence(
         "{file}, line {line}: is nested deeper than any job; write it anew",
-        "{file} 第 {line} 行：嵌套过深，不像任何作业；请重新编写",
+        "{file} 第 {line} 行：嵌套过深，不像任何任务；请重新编写",
     ),
     "jobfile.too_large": Sentence(
         "{file}: has {size} bytes, {most} are the most; split the job",
-        "{file}：有 {size} 字节，最多 {most}；请拆分作业",
+        "{file}：有 {size} 字节，最多 {most}；请拆分任务",
     ),
     "jobfile.unknown_check": Sentence(
         'checks holds "{check}"; it may hold {listed}',
@@ -160,5 +160,5 @@ SENTENCES: dict[str, Sentence] = {
         'unknown key "{key}" in {table:word}; {meant}',
         "{table:word}中有未知的键“{key}”；{meant}",
     ),
-    "jobfile.unreadable": Sentence("the job file cannot be read: {error}", "作业文件无法读取：{error}"),
+    "jobfile.unreadable": Sentence("the job file cannot be read: {error}", "任务文件无法读取：{error}"),
 }

@@ -9,17 +9,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from aadm_workbench.report.drawing.sketch import Label, Point, Polyline, Shape
+from aadm_workbench.report.drawing.sketch import STYLES, Label, Point, Polyline, Shape, arrowhead
 
 _LATIN, _WIDE = 0.6, 1.05  # of the size: figures and letters of the widest usual fonts, Chinese signs with their gap
 _BOLD = 1.08  # bold letters are wider by that
 _HEIGHT = 0.82  # of the size: from the foot of a letter to its head
 _SMALLER = (1.0, 0.85, 0.7, 0.58)  # of the wanted size; four units at the least are still read on a screen
-_FURTHER = (0.0, 3.0, 7.0, 12.0, 18.0, 26.0)  # beyond the nearest place, units of the drawing
+_FURTHER = (0.0, 3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0)  # beyond the nearest place, units of the drawing
 _LED = 7.0  # from there on a line leads from the point to its name
-# from the wanted direction, alternately to either side: twelve ways round
+_SHORTEST_LINE = 3.0  # one that is seen to lead somewhere
+# from the wanted direction, alternately to either side: twelve ways round, twice as many where a line leads
 _TURNS_DEG = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)
+_FINE_TURNS_DEG = (*_TURNS_DEG, 15, -15, 45, -45, 75, -75, 105, -105, 135, -135, 165, -165)
+_CLEARLY = 1.0  # units: by so much nearer a name is to its point than to another, or a line leads to it
 _GAP = 0.8  # units: between any two things
+_BETWEEN = 2.6  # units: between two names on one line, as wide as a space of the usual size: R1 R12 is not R1R12
 
 Box = tuple[float, float, float, float]
 """Left, low, right, high."""
@@ -43,17 +47,28 @@ class Layout:
 
     def __init__(self, width: float, height: float) -> None:
         self.width, self.height = width, height
-        self._circles: list[tuple[float, float, float]] = []
+        self._circles: list[tuple[float, float, float, float]] = []
         self._boxes: list[Box] = []
-        self._lines: list[tuple[Point, Point]] = []
+        self._lines: list[tuple[Point, Point, float]] = []
 
-    def keep_circle(self, centre: Point, radius: float) -> None:
-        """Nothing may lie on a circle, or in it."""
-        self._circles.append((*centre, radius))
+    def keep_circle(self, centre: Point, radius: float, solid: float | None = None) -> None:
+        """Nothing may lie on a circle, or in it; lines that lead to names may cross what of it is but a thin ring.
 
-    def keep_line(self, start: Point, end: Point) -> None:
-        """Nothing may lie on a line."""
-        self._lines.append((start, end))
+        Parameters
+        ----------
+        solid
+            Radius of what no line may cross either; the whole circle where nothing is said.
+        """
+        self._circles.append((*centre, radius, radius if solid is None else solid))
+
+    def keep_path(self, path: Polyline) -> None:
+        """Nothing may lie on the lines of a path and on its arrowhead; what it encloses is free."""
+        half = STYLES[path.style].width / 2.0
+        ends = (*path.points[1:], path.points[0]) if path.closed else path.points[1:]
+        self._lines += [(start, end, half) for start, end in zip(path.points, ends, strict=False)]
+        if path.head > 0.0:
+            tip, left, right = arrowhead(path)
+            self._lines += [(tip, left, half), (left, right, half), (right, tip, half)]
 
     def keep_label(self, label: Label) -> None:
         """Nothing may lie on a text that stands where it has to."""
@@ -74,11 +89,13 @@ class Layout:
         angle = math.atan2(towards[1], towards[0])
         for smaller in _SMALLER:
             for further in _FURTHER[: 3 if smaller > _SMALLER[-1] else None]:
-                for turn_deg in _TURNS_DEG:
+                for turn_deg in _FINE_TURNS_DEG if further >= _LED else _TURNS_DEG:
                     way = angle + math.radians(turn_deg)
                     label = _at(at, way, radius + further, text, size * smaller, style, bold=bold)
-                    if self.is_free(box_of(label)):
-                        yield from self._put(label, at, way, radius, further)
+                    drawn = self._placed(label, at, way, radius, further)
+                    if drawn:
+                        self._boxes.append(box_of(label))
+                        yield from drawn
                         return
 
     def is_free(self, box: Box) -> bool:
@@ -86,21 +103,67 @@ class Layout:
         left, low, right, high = box[0] - _GAP, box[1] - _GAP, box[2] + _GAP, box[3] + _GAP
         if left < 0.0 or low < 0.0 or right > self.width or high > self.height:
             return False
-        for x, y, radius in self._circles:
-            dx, dy = x - min(max(x, left), right), y - min(max(y, low), high)
-            if dx * dx + dy * dy < radius * radius:
+        around = (left, low, right, high)
+        for x, y, radius, _ in self._circles:
+            if _distance((x, y), around) < radius:
                 return False
-        if any(left < b[2] and b[0] < right and low < b[3] and b[1] < high for b in self._boxes):
-            return False
-        return not any(_crosses(start, end, (left, low, right, high)) for start, end in self._lines)
+        wide = _BETWEEN - _GAP
+        for b in self._boxes:
+            if left - wide < b[2] and b[0] < right + wide and low < b[3] and b[1] < high:
+                return False
+        for start, end, half in self._lines:
+            if _crosses(start, end, (left - half, low - half, right + half, high + half)):
+                return False
+        return True
 
-    def _put(self, label: Label, at: Point, way: float, radius: float, further: float) -> Iterator[Shape]:
-        self._boxes.append(box_of(label))
-        if further >= _LED:
-            ends = [(at[0] + math.cos(way) * r, at[1] + math.sin(way) * r) for r in (radius, radius + further)]
-            self.keep_line(*ends)
-            yield Polyline(tuple(ends), "guide")
-        yield label
+    def _placed(self, label: Label, at: Point, way: float, radius: float, further: float) -> list[Shape]:
+        """A name, with a line to it where it could be taken for another one's; empty where it has no place."""
+        box = box_of(label)
+        if not self.is_free(box):
+            return []
+        if further < _LED and self._is_told_apart(at, radius, box):
+            return [label]
+        line = Polyline(_line_to_name(at, way, radius, further), "guide")
+        if further < _SHORTEST_LINE or not self._is_clear(line, at):
+            return []
+        self.keep_path(line)
+        return [line, label]
+
+    def _is_told_apart(self, at: Point, radius: float, box: Box) -> bool:
+        """Whether a text at a box is taken for the name of its point: every other circle is clearly further away."""
+        own = _distance(at, box) - radius + _CLEARLY
+        return all((x, y) == at or _distance((x, y), box) - other >= own for x, y, other, _ in self._circles)
+
+    def _is_clear(self, line: Polyline, at: Point) -> bool:
+        """Whether the line from a point to its name crosses no other point and no other name."""
+        start, end = line.points
+        if any(_crosses(start, end, box) for box in self._boxes):
+            return False
+        return all((x, y) == at or _to_line((x, y), start, end) > solid for x, y, _, solid in self._circles)
+
+
+def _line_to_name(at: Point, way: float, radius: float, further: float) -> tuple[Point, Point]:
+    """From the edge of a point to the box of its name."""
+    x, y = math.cos(way), math.sin(way)
+    return (at[0] + x * radius, at[1] + y * radius), (at[0] + x * (radius + further), at[1] + y * (radius + further))
+
+
+def _distance(at: Point, box: Box) -> float:
+    """From a place to a box; 0 within it."""
+    x, y = at
+    left, low, right, high = box
+    across = left - x if x < left else max(0.0, x - right)
+    up = low - y if y < low else max(0.0, y - high)
+    return math.hypot(across, up)
+
+
+def _to_line(at: Point, start: Point, end: Point) -> float:
+    """From a place to a line between two others."""
+    along = (end[0] - start[0], end[1] - start[1])
+    square = along[0] ** 2 + along[1] ** 2 or 1.0
+    share = ((at[0] - start[0]) * along[0] + (at[1] - start[1]) * along[1]) / square
+    share = min(max(share, 0.0), 1.0)
+    return math.dist(at, (start[0] + share * along[0], start[1] + share * along[1]))
 
 
 def _at(at: Point, way: float, apart: float, text: str, size: float, style: str, *, bold: bool) -> Label:
@@ -116,8 +179,11 @@ def _at(at: Point, way: float, apart: float, text: str, size: float, style: str,
 
 def _crosses(start: Point, end: Point, box: Box) -> bool:
     """Whether a line passes through a box (Liang and Barsky 1984)."""
+    (x0, y0), (x1, y1) = start, end
+    if max(x0, x1) < box[0] or min(x0, x1) > box[2] or max(y0, y1) < box[1] or min(y0, y1) > box[3]:
+        return False  # most of them
     first, last = 0.0, 1.0
-    for p0, p1, low, high in ((start[0], end[0], box[0], box[2]), (start[1], end[1], box[1], box[3])):
+    for p0, p1, low, high in ((x0, x1, box[0], box[2]), (y0, y1, box[1], box[3])):
         along = p1 - p0
         if abs(along) < 1e-9:
             if not low <= p0 <= high:

@@ -9,14 +9,15 @@ from aadm_workbench.assembly.following import blame_of
 from aadm_workbench.model import ColumnReport, Kind, PointResult
 from aadm_workbench.report.directions import SMALLEST_MM, Compass
 from aadm_workbench.report.drawing.layout import Layout
-from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow
+from aadm_workbench.report.drawing.sketch import STYLES, Circle, Label, Point, Polyline, Shape, Sketch, arrow
 from aadm_workbench.report.pages.crew import SMALLEST_TURN_DEG, CrewAdvice, Shift
 from aadm_workbench.report.words.labels import Language
 
 SIDE = 220.0
 """Of the drawing, in its own units; the page gives it its size."""
 _DOT, _RING = 5.5, 10.5  # radii of a point, and of the ring about one to look at
-_MARGIN = 36.0  # about the foot: labels and arrows of its outermost points
+_MARGIN = 36.0  # about the foot: names and arrows of its outermost points, and where its sides lead to
+_NARROW = 20.0  # the same where nobody knows where its sides lead to
 _ARROW = 26.0  # long enough to show a direction, whatever the distance
 _MOVE = 52.0  # the arrow of the whole column: twice those of bars
 _TURN_RADIUS = 30.0  # of the bow that shows a turn: within the innermost bars
@@ -29,10 +30,11 @@ def crew_sketch(column: ColumnReport, advice: CrewAdvice, language: Language) ->
     frames are known has its outline, and the arrow.
     """
     points = column.points(Kind.REBAR) or column.points(Kind.SLEEVE)
-    frame = _Frame(column, points, advice.compass.turn_deg)
+    margin = _MARGIN if advice.compass.placed else _NARROW
+    frame = _Frame(column, points, advice.compass.turn_deg, margin)
     shifts = {shift.label: shift for shift in advice.shifts}
     layout = Layout(SIDE, SIDE)
-    shapes = [*_outline(column, frame), *_edge_names(advice.compass, language, layout)]
+    shapes = [*_outline(column, frame, layout), *_edge_names(advice.compass, language, layout)]
     if "" in shifts:
         shapes += _move(shifts[""], frame, advice.turn_deg, layout)
     return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, shifts, {*blame_of(column).follows}, layout)))
@@ -43,9 +45,10 @@ def sleeves_from_below(column: ColumnReport) -> Sketch | None:
     points = column.points(Kind.SLEEVE)
     if all(point.verdict in ("pass", "not_assessed") for point in points):
         return None
-    frame = _Frame(column, points, 0.0, mirrored=True)
-    marked = _marked(points, frame, {}, {*blame_of(column).follows}, Layout(SIDE, SIDE))
-    return Sketch(SIDE, SIDE, (*_outline(column, frame), *marked))
+    frame = _Frame(column, points, 0.0, _NARROW, mirrored=True)
+    layout = Layout(SIDE, SIDE)
+    shapes = [*_outline(column, frame, layout)]
+    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, {}, {*blame_of(column).follows}, layout)))
 
 
 def _marked(
@@ -60,12 +63,12 @@ def _marked(
     dot = min(_DOT, 0.34 * _apart(points, frame))
     for point in points:
         at = frame.place(point.design_mm)
-        layout.keep_circle(at, _RING if point.label in alarming else dot)
+        layout.keep_circle(at, _RING + STYLES["ring-fail"].width / 2.0 if point.label in alarming else dot)
         yield from _dot(point, at, dot)
         if point.label in alarming:
             yield Circle(at, _RING, "ring-fail")
         if point.label in shifts:
-            layout.keep_line(at, _end(shifts[point.label], at, frame))
+            layout.keep_path(_arrow(shifts[point.label], at, frame))
     for point in points:
         if point.label in shifts:
             yield from _bend(shifts[point.label], frame.place(point.design_mm), frame, layout)
@@ -84,7 +87,13 @@ class _Frame:
     """From the column frame, mm, to the sketch: scaled, and turned so that the plan's top is at the top."""
 
     def __init__(
-        self, column: ColumnReport, points: Sequence[PointResult], turn_deg: float, *, mirrored: bool = False
+        self,
+        column: ColumnReport,
+        points: Sequence[PointResult],
+        turn_deg: float,
+        margin: float,
+        *,
+        mirrored: bool = False,
     ) -> None:
         ends = [abs(value) for point in points for value in point.design_mm[:2]]
         reach = max([*ends, *(side / 2.0 for side in column.size_mm or ()), 1.0])
@@ -93,7 +102,7 @@ class _Frame:
         self.mirror = -1.0 if mirrored else 1.0
         # Turned by 45 degrees the outline is wider by that factor.
         spread = abs(self.cosine) + abs(self.sine)
-        self.scale = (SIDE / 2.0 - _MARGIN) / (reach * spread)
+        self.scale = (SIDE / 2.0 - margin) / (reach * spread)
         x, y = column.size_mm or (0.0, 0.0)
         sine, cosine = abs(self.sine), abs(self.cosine)
         self.half = ((cosine * x + sine * y) / 2.0 * self.scale, (sine * x + cosine * y) / 2.0 * self.scale)
@@ -109,10 +118,13 @@ class _Frame:
         return self.mirror * across, self.sine * vector[0] + self.cosine * vector[1]
 
 
-def _outline(column: ColumnReport, frame: _Frame) -> Iterator[Shape]:
+def _outline(column: ColumnReport, frame: _Frame, layout: Layout) -> Iterator[Shape]:
     if column.size_mm is not None:
         x, y = (side / 2.0 for side in column.size_mm)
-        yield Polyline(tuple(frame.place(c) for c in ((-x, -y), (x, -y), (x, y), (-x, y))), "outline", closed=True)
+        corners = ((-x, -y), (x, -y), (x, y), (-x, y))
+        outline = Polyline(tuple(frame.place(corner) for corner in corners), "outline", closed=True)
+        layout.keep_path(outline)
+        yield outline
 
 
 def _dot(point: PointResult, at: Point, radius: float) -> Iterator[Shape]:
@@ -124,30 +136,29 @@ def _dot(point: PointResult, at: Point, radius: float) -> Iterator[Shape]:
 
 
 def _name(point: PointResult, frame: _Frame, layout: Layout, dot: float, *, alarming: bool) -> Iterator[Shape]:
-    """Outside of the pattern, where no arrow of the column stands; elsewhere where that is taken."""
+    """Straight towards the middle, where no edge is; elsewhere where that is taken."""
     at = frame.place(point.design_mm)
-    outwards = (at[0] - SIDE / 2.0, at[1] - SIDE / 2.0)
-    straight = (math.copysign(1.0, outwards[0]), 0.0)
-    if abs(outwards[1]) > abs(outwards[0]):
-        straight = (0.0, math.copysign(1.0, outwards[1]))
+    x, y = SIDE / 2.0 - at[0], SIDE / 2.0 - at[1]
+    straight = (0.0, math.copysign(1.0, y)) if abs(y) > abs(x) else (math.copysign(1.0, x), 0.0)
     radius, size = (_RING + 1.2, 11.0) if alarming else (dot, 9.0)
     style = "text-fail" if alarming else "text"
     sign = {"fail": " ✗", "inconclusive": " ?", "not_measured": " –"}.get(point.verdict, "") if alarming else ""
     yield from layout.beside(at, f"{point.label}{sign}", size, radius, straight, style=style, bold=alarming)
 
 
-def _end(shift: Shift, at: Point, frame: _Frame) -> Point:
-    """Where the arrow of a bar ends."""
+def _arrow(shift: Shift, at: Point, frame: _Frame) -> Polyline:
+    """Where to a bar is bent."""
     x, y = frame.turned(shift.vector_mm)
     length = math.hypot(x, y) or 1.0
-    return at[0] + x / length * _ARROW, at[1] + y / length * _ARROW
+    return arrow(at, (at[0] + x / length * _ARROW, at[1] + y / length * _ARROW), "move", 9.0)
 
 
 def _bend(shift: Shift, at: Point, frame: _Frame, layout: Layout) -> Iterator[Shape]:
     length = math.hypot(*shift.vector_mm)
     if length > 0.0:
-        end = _end(shift, at, frame)
-        yield arrow(at, end, "move", 9.0)
+        drawn = _arrow(shift, at, frame)
+        yield drawn
+        end = drawn.points[-1]
         ahead = (end[0] - at[0], end[1] - at[1])
         yield from layout.beside(end, f"{length:.1f} mm", 10.0, 2.0, ahead, style="text-move", bold=True)
 
@@ -158,8 +169,9 @@ def _move(shift: Shift, frame: _Frame, turn_deg: float, layout: Layout) -> Itera
     middle = (SIDE / 2.0, SIDE / 2.0)
     if length >= SMALLEST_MM:
         end = (middle[0] + x / length * _MOVE, middle[1] + y / length * _MOVE)
-        layout.keep_line(middle, end)
-        yield arrow(middle, end, "move", 16.0)
+        drawn = arrow(middle, end, "move", 16.0)
+        layout.keep_path(drawn)
+        yield drawn
         half = (middle[0] + 0.55 * x / length * _MOVE, middle[1] + 0.55 * y / length * _MOVE)
         across = (-y / length, x / length)
         yield from layout.beside(half, f"{length:.1f} mm", 13.0, 5.0, across, style="text-move", bold=True)

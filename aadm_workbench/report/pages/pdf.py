@@ -18,7 +18,7 @@ from aadm_workbench.report.drawing.plan import floor_plans
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.hoist import headline
 from aadm_workbench.report.pages.crew import crew_advice, in_steps
-from aadm_workbench.report.pages.pdf_canvas import A4, MM, pages, write
+from aadm_workbench.report.pages.pdf_canvas import A4, MM, end_page, pages, write
 from aadm_workbench.report.pages.pdf_column import column_parts
 from aadm_workbench.report.pages.pdf_flow import Block, Page, height_of, paginate
 from aadm_workbench.report.pages.pdf_parts import Drawing, fields, paragraph
@@ -78,7 +78,7 @@ class _Book:
                 placed.block.draw(self._canvas, _MARGIN, A4[1] - 14.0 * MM - placed.below)
             write(self._canvas, (_MARGIN, 9.0 * MM), self._title, 7.5, colour=FAINT)
             write(self._canvas, (A4[0] - _MARGIN, 9.0 * MM), str(self._number), 7.5, colour=FAINT, anchor="end")
-            self._canvas.showPage()
+            end_page(self._canvas)
 
 
 def _without_remnant(blocks_of: Callable[[float], list[Block]]) -> list[Page]:
