@@ -160,8 +160,8 @@ SENTENCES: dict[str, Sentence] = {
         "规范没有给出套筒位置的限值",
     ),
     "assembly.no_probability": Sentence(
-        "the probability that a pose exists is not stated, because it would be without what was not measured: {labels}",
-        "未给出可就位概率，因为未测得：{labels}",
+        "for lack of {labels} no probability that a pose exists is stated",
+        "因缺少 {labels}，未给出可就位概率",
     ),
     "assembly.no_trial": Sentence(
         "no trial with {count} pairs of sleeve and rebar: {why}",
