@@ -8,8 +8,8 @@ from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.model import Finding
 
 _OFF_PIXELS = 0.5
-"""Of the edges of mouths: on four ray-cast cameras -0.4 to 0.1 with their own profile, 0.6 to 1.3 where a ring of pixels
-was dropped that the profile did not know, or the reverse."""
+"""Of the edges of mouths: on four ray-cast cameras -0.4 to 0.1 with their own profile, 0.6 to 1.3 where a ring of
+pixels was dropped that the profile did not know, or the reverse."""
 
 
 def profile_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
