@@ -52,6 +52,7 @@ from aadm_workbench.model import (
     Reason,
     Scan,
 )
+from aadm_workbench.model.scatter import TO_SIGMA
 
 _SAMPLE = 90_000  # every fifth row and column of 1920 × 1200
 # points of a bore: fewer do not tell on which side its wall shows; a choice: ±30 % moves centres by up to 0.3 u
@@ -65,9 +66,10 @@ BORE_LEAN_U = 2e-3
 """Of a lean: light that bounces in a bore pushes its wall by less or more as it goes deeper."""
 
 _WHOLE_WITHIN_MM = 1.5  # between the innermost points of a rim and the disc that is seen: filters move it by less
-# beyond chamfers, within what a patch reaches; deeper than noise at 2 m, not as deep as a bore; of the ring's points,
-# in which flying pixels and dirt are one or two in a hundred
-_SPALL_RING_MM, _SPALL_DEPTH_MM, _SPALL_SHARE = (1.2, 3.5), (1.0, 6.0), 0.05
+# beyond chamfers and what cameras bend, within what a patch reaches; deeper than dirt, not as deep as a bore
+_SPALL_RING_MM, _SPALL_RING_PITCHES, _SPALL_DEPTH_MM = (1.2, 4.0), 1.5, (1.0, 6.0)
+# of noise, one in a thousand is beyond; of the ring's points, in which flying pixels and dirt are one in a hundred
+_SPALL_NOISES, _SPALL_SHARE = 3.0, 0.05
 _ERODED_RADIUS_MAX = 0.5  # rings: beyond, walls that light pushes know the radius better
 _BY_BORES = _ERODED_RADIUS_MAX  # rings at which the radius is that of the bores, whatever the rims show
 _BROKEN_U_MM = 0.3  # of a broken rim, seen by a camera that adds to its edges
@@ -231,7 +233,7 @@ def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm:
         return _fit_of_sharp(mouths, diameter_mm, pitch_mm)
     seen = _seen(lines, mouths.centre, diameter_mm, pitch_mm)
     whole = np.hypot(*(seen.centre - mouths.centre).T) < _WHOLE_WITHIN_MM
-    whole &= ~_are_spalled(lines, mouths.centre, diameter_mm / 2)
+    whole &= ~_are_spalled(lines, mouths.centre, diameter_mm / 2, pitch_mm)
     if not whole.any():
         fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
         return _shifted(fit, shift_of_rims(lines.slope, mouths.rims, fit.centre, diameter_mm / 2, pitch_mm))
@@ -247,12 +249,13 @@ def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm:
     return _shifted(fit, shift_of_mouths(lines.slope, fit.centre, seen, whole, diameter_mm / 2, bend))
 
 
-def _are_spalled(lines: SightLines, centre: Array, radius_mm: float) -> BoolArray:
+def _are_spalled(lines: SightLines, centre: Array, radius_mm: float, pitch_mm: float) -> BoolArray:
     """Where (k,) a piece of the face is broken out beside a mouth: no camera bends a face so far from its edge."""
     distance = np.hypot(lines.x - centre[:, :1], lines.y - centre[:, 1:])
-    low_mm, high_mm = (radius_mm + part for part in _SPALL_RING_MM)
-    ring = (distance > low_mm) & (distance < high_mm) & (lines.height > -_SPALL_DEPTH_MM[1])
-    broken = ring & (lines.height < -_SPALL_DEPTH_MM[0])
+    low_mm, high_mm = _SPALL_RING_MM[0] + _SPALL_RING_PITCHES * pitch_mm, _SPALL_RING_MM[1]
+    ring = (distance > radius_mm + low_mm) & (distance < radius_mm + high_mm) & (lines.height > -_SPALL_DEPTH_MM[1])
+    noise_mm = TO_SIGMA * float(np.median(np.abs(lines.height[ring]))) if ring.any() else 0.0
+    broken = ring & (lines.height < -max(_SPALL_DEPTH_MM[0], _SPALL_NOISES * noise_mm))
     return np.asarray(broken.sum(axis=1) > _SPALL_SHARE * ring.sum(axis=1))
 
 
