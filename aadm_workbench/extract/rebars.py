@@ -16,7 +16,8 @@ from aadm_workbench.extract.bars_in_scan import Standing, find_standing, standin
 from aadm_workbench.extract.burrs import burr_u_mm
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
-from aadm_workbench.extract.edges.edge_shift import Bend, bend_at_edges, eroded_rings, no_bend, shift_of_tops
+from aadm_workbench.extract.edges.bend import Bend, bend_at_edges, no_bend
+from aadm_workbench.extract.edges.edge_shift import eroded_rings, shift_of_tops
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import filter_signs
 from aadm_workbench.extract.found_points import found_points, seen_lengths

@@ -12,15 +12,18 @@ import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM
 from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
+from aadm_workbench.extract.edges.bend import bend_at_edges
 from aadm_workbench.extract.edges.edge_shift import (
     BentDiscs,
     Shift,
-    bend_at_edges,
     bent_discs,
+    eroded_discs,
     shift_of_mouths,
     shift_of_rims,
 )
-from aadm_workbench.extract.edges.seen_disc import SeenDiscs, SightLines, seen_discs, sight_lines_on_face
+from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
+from aadm_workbench.extract.edges.seen_disc import SeenDiscs, SightLines, points_alone, seen_discs, sight_lines_on_face
+from aadm_workbench.extract.edges.shallow_walls import view_by_walls
 from aadm_workbench.extract.filter_signs import filter_signs
 from aadm_workbench.extract.foot_face import FACE_BAND_MM, FootFace, face_with_holes, level_with_rings
 from aadm_workbench.extract.found_points import found_points, seen_lengths
@@ -43,6 +46,8 @@ _TAIL_PITCHES, _TAIL_TO_KEPT, _USUALLY_KEPT = 6.0, 1.5, 0.7
 _FIRST_SETTLED_MM = 0.03  # the first fit only tells which share of the pixels the camera keeps, and how bores scatter
 _BORE_LEAN_U = 2e-3  # light that bounces in a bore pushes its wall by less or more as it goes deeper
 _WHOLE_WITHIN_MM = 1.5  # between the innermost points of a rim and the disc that is seen: filters move it by less
+_WHOLE_PITCHES = 1.5  # more for each ring that filters drop: from one side of a rim, and not from the other
+_SURELY_ERODED_PITCHES = 1.2  # of the face at mouths, on cameras that drop one ring at most or none: up to 1.1
 _ERODED_RADIUS_MAX = 0.5  # rings: beyond, walls that light pushes know the radius better
 _BROKEN_U_MM = 0.3  # of a broken rim, seen by a camera that adds to its edges
 # 30 degrees of turn from the visible side each; of fewer rim points a share tells nothing
@@ -53,6 +58,9 @@ _RIM_TO_WALL_PITCHES = 0.05
 _BENT_PRIORS = Priors(radius=0.15, push=0.6, own_push=0.4)  # light that bounces pushes each bore's wall its own way
 _FIT_SHARE = 0.8  # the fit's own covariance has neighbours share more of their errors than they do
 _WEAR_PITCHES = 0.04  # how far rims may be worn away unnoticed; it shifts centres along the view
+# where no camera tells which lines of sight found nothing, faces that are flat to the edge, and those that bend there:
+# on path-traced clouds their rims were off by 0.2 mm at a pitch of 0.5 mm
+_UNSEEN_PITCHES = 0.08, 0.35
 _ROUGH_U_MM = 0.1  # grains at the rim of a roughened foot, each mouth by itself
 # all radii of a roughened foot, whose rims lie at many depths: 18 feet of the twin had 0.36 mm of diameter (rms)
 _ROUGH_RADIUS_U_MM = 0.2
@@ -137,7 +145,12 @@ def _measured(mouths: Mouths, patches: Patches, layer: FootFace, diameter_mm: fl
         return Extraction(Kind.SLEEVE, "refined", (), face, -face.normal, reason=reason)
     own = patches.of(mouths.kept)
     lines = sight_lines_on_face(own) if layer.flat else None  # on what is no plane nobody knows where they end
-    fit = _fit(mouths, lines, diameter_mm, pitch_mm)
+    gaps = gaps_at_steps(own, own.height, mouths.centre, diameter_mm / 2, pitch_mm)
+    fit = _fit(mouths, lines, diameter_mm, pitch_mm, rings_dropped(gaps))
+    if fit is not None and layer.flat and lines is None:
+        bend = bend_at_edges(points_alone(own), fit.centre, diameter_mm / 2, pitch_mm, 1.0)
+        unseen_mm = _UNSEEN_PITCHES[bend.bent] * pitch_mm
+        fit = replace(fit, covariance=fit.covariance + unseen_mm**2 * np.eye(2))
     if fit is not None and not layer.flat:
         fit = replace(fit, covariance=fit.covariance + _ROUGH_U_MM**2 * np.eye(2))
     if fit is not None and layer.rough:
@@ -164,8 +177,10 @@ def _measured(mouths: Mouths, patches: Patches, layer: FootFace, diameter_mm: fl
     )
 
 
-def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm: float) -> PooledFit | None:
+def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm: float, rings: int) -> PooledFit | None:
     """Fit all mouths together, by the witnesses that are right for what the camera does at edges.
+
+    ``rings`` are those that it drops at depth steps, as far as gaps tell.
 
     A mouth that is taped or broken is no disc: it is measured by what is sound of its rim, whatever the others are.
     None where the picture is out of focus.
@@ -173,7 +188,9 @@ def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm:
     if lines is None:
         return _fit_of_sharp(mouths, diameter_mm, pitch_mm)
     seen = _seen(lines, mouths.centre, diameter_mm, pitch_mm)
-    whole = np.hypot(*(seen.centre - mouths.centre).T) < _WHOLE_WITHIN_MM
+    if not rings and seen.radius - diameter_mm / 2 > _SURELY_ERODED_PITCHES * pitch_mm:
+        rings = 2
+    whole = np.hypot(*(seen.centre - mouths.centre).T) < _WHOLE_WITHIN_MM + _WHOLE_PITCHES * rings * pitch_mm
     if not whole.any():
         fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
         return _shifted(fit, shift_of_rims(lines.slope, mouths.rims, fit.centre, diameter_mm / 2, pitch_mm))
@@ -182,8 +199,13 @@ def _fit(mouths: Mouths, lines: SightLines | None, diameter_mm: float, pitch_mm:
     bend = bend_at_edges(lines.of(whole), seen.centre, seen.radius, pitch_mm, 1.0)
     if bend.blurred:
         return None
-    if bend.bent:
-        discs = bent_discs(lines.of(whole), seen.centre, diameter_mm / 2, bend)
+    bent = bend.bent_beside(seen.radius - diameter_mm / 2)
+    if bent or rings:
+        discs = (
+            bent_discs(lines.of(whole), seen.centre, diameter_mm / 2, bend)
+            if bent
+            else eroded_discs(lines.of(whole), seen.centre, diameter_mm / 2, bend, rings)
+        )
         return _fit_of_bent(mouths, discs, whole, diameter_mm, pitch_mm)
     fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
     return _shifted(fit, shift_of_mouths(lines.slope, fit.centre, seen, whole, diameter_mm / 2, bend))
@@ -209,6 +231,7 @@ def _fit_of_bent(mouths: Mouths, discs: BentDiscs, whole: BoolArray, diameter_mm
     none = Rims(rims.xy[:, :0], rims.seen[:, :0], 1.0, law)
     walls = Walls(mouths.wall_xy, mouths.wall_depth, mouths.wall_slope, mouths.wall_seen, _WALL_LAW, side=1.0)
     centre, information = mouths.centre.copy(), np.zeros((len(whole), 2, 2))
+    discs = discs.moved_by(view_by_walls(walls.of(whole), discs.centre, discs.slope, diameter_mm / 2))
     centre[whole], information[whole] = discs.centre, np.linalg.inv(discs.own)
     evidence = Evidence(none, rims, walls, diameter_mm / 2, _BENT_PRIORS, (centre, information))
     state = settled(evidence, State(centre, diameter_mm / 2), _FIRST_SETTLED_MM)
@@ -216,11 +239,13 @@ def _fit_of_bent(mouths: Mouths, discs: BentDiscs, whole: BoolArray, diameter_mm
     scattered = replace(walls, law=BracketLaw(max(_WALL_LAW.width_mm, spread_mm), _WALL_LAW.foreign))
     fit = fit_pooled(replace(evidence, walls=scattered), state)
     shared = np.tile(_BROKEN_U_MM**2 * np.eye(2), (len(whole), 1, 1))
-    shared[whole] = discs.shared
+    shared[whole] = discs.in_common
     radius = fit.radius
     if discs.eroded < _ERODED_RADIUS_MAX:  # what all share from the rims, what is each one's own from its bore
         radius = np.where(whole, discs.radius + radius - np.mean(radius[whole]), radius)
-    return replace(fit, covariance=fit.covariance + shared, radius=radius, radius_u_mm=discs.radius_u_mm)
+    outline = radius + discs.eroded * pitch_mm * whole
+    covariance = fit.covariance + shared
+    return replace(fit, covariance=covariance, radius=radius, outline_radius=outline, radius_u_mm=discs.radius_u_mm)
 
 
 def _fit_of_sharp(mouths: Mouths, diameter_mm: float, pitch_mm: float) -> PooledFit:
@@ -237,12 +262,13 @@ def _fit_of_sharp(mouths: Mouths, diameter_mm: float, pitch_mm: float) -> Pooled
     evidence = Evidence(beyond, rims, walls, diameter_mm / 2, Priors(rim_to_wall=_RIM_TO_WALL_PITCHES * pitch_mm))
     state = settled(evidence, State(mouths.centre, diameter_mm / 2), _FIRST_SETTLED_MM)
     kept = replace(rims, law=replace(law, tail_mm=_tails(mouths, state, pitch_mm)))
-    return fit_pooled(replace(evidence, rims=kept), state)
+    fit = fit_pooled(replace(evidence, rims=kept), state)
+    return replace(fit, outline_radius=fit.radius)
 
 
 def _are_round(mouths: Mouths, fit: PooledFit, pitch_mm: float) -> BoolArray:
     """Whether enough (k,) of what each outline shows lies on its circle: a gap between things is no mouth."""
-    behind = mouths.rims.distance(fit.centre) - fit.radius[:, None]
+    behind = mouths.rims.distance(fit.centre) - fit.outline_radius[:, None]
     # Rim points thin out over a few pixels behind the edge.
     on_circle = (behind > -AGREES_MM / 2) & (behind < max(AGREES_MM, 2.5 * pitch_mm)) & mouths.rims.seen
     runs_on = np.where(mouths.wall_count() >= _WALL_COUNT_MIN, (~mouths.rims.seen).mean(axis=1), 0.0)
