@@ -36,8 +36,7 @@ def write_atomically(path: Path, content: bytes | Iterable[bytes]) -> None:
             _write(name, folder, content)
     except OSError as error:
         reason = error.strerror or type(error).__name__
-        message = f"{path}: cannot be written ({reason}); check that its folder exists, is writable and has room"
-        raise AadmError(message) from error
+        raise AadmError.about(path, "bounded.unwritten", why=reason) from error
 
 
 def _write(name: str | Path, folder: int | None, content: bytes | Iterable[bytes]) -> None:

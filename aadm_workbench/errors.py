@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import Self
+from typing import NamedTuple, Self
 
 PRIVATE_ENVIRONMENT = "AADM_PRIVATE_ENVIRONMENT"
 """Variable that is set in a process of FreeCAD's private environment, for which pip on the PATH does nothing."""
@@ -29,6 +28,13 @@ class AadmError(Exception):
         from aadm_workbench.model.reason import Reason  # not before it is needed: it loads numpy
 
         return cls(Reason(code, **values))
+
+    @classmethod
+    def about(cls, file: object, code: str, /, **values: object) -> Self:
+        """The error whose reason is a sentence that is said of a file, or of whatever else stands before its colon."""
+        from aadm_workbench.model.reason import said_of  # as above
+
+        return cls(said_of(file, code, **values))
 
 
 class JobError(AadmError):
@@ -75,14 +81,13 @@ class MissingDependencyError(AadmError):
         from aadm_workbench.model import Reason
 
         is_private = os.environ.get(PRIVATE_ENVIRONMENT) and install.startswith("pip ")
-        code = "errors.missing.private" if is_private else "errors.missing"
+        code = "command.missing.private" if is_private else "command.missing"
         super().__init__(Reason(code, needed_for=needed_for, package=package, install=install))
         self.package = package
         self.install = install
 
 
-@dataclass(frozen=True)
-class Package:
+class Package(NamedTuple):
     """A package by the name it is imported by and by the one that pip knows; ``needed_for`` what.
 
     ``extra`` is the one of this project that brings it; without one the project itself does. ``others`` are names

@@ -91,7 +91,7 @@ def open_to_write(path: Path, flags: int = os.O_RDWR) -> int:
                 if _status(path, name, folder, replace=True) is None:
                     return os.open(name, flags | os.O_CREAT | os.O_EXCL | _ALWAYS, 0o666, dir_fd=folder)
                 return _with_one_name(_opened(path, name, folder, flags))
-    raise UnsafeFileError(0, "somebody else replaces it again and again", str(path))
+    raise _unsafe(path, "bounded.own_replaced_again")
 
 
 def open_to_read(path: Path) -> int:
@@ -173,7 +173,7 @@ def _opened(path: Path, name: str | Path, folder: int | None, flags: int) -> int
         opened, now = os.fstat(descriptor), os.stat(name, dir_fd=folder, follow_symlinks=False)
         _check(path, opened)
         if not os.path.samestat(opened, now):
-            raise UnsafeFileError(0, "it was replaced while it was opened", str(path))
+            raise _unsafe(path, "bounded.own_replaced")
     except BaseException:
         os.close(descriptor)
         raise
@@ -195,9 +195,15 @@ def _is_link(status: os.stat_result) -> bool:
 
 def _check(path: Path, status: os.stat_result) -> None:
     if _is_link(status):
-        raise UnsafeFileError(0, "it is a link, which is not followed; remove it, or put the file there", str(path))
+        raise _unsafe(path, "bounded.own_link")
     if not stat.S_ISREG(status.st_mode):
-        raise UnsafeFileError(0, f"it is {_named(status.st_mode)}, not a file; remove it", str(path))
+        raise _unsafe(path, "bounded.own_no_file", kind=_named(status.st_mode))
+
+
+def _unsafe(path: Path, code: str, **values: object) -> UnsafeFileError:
+    from aadm_workbench.model.reason import Reason  # not before it is needed: it loads numpy
+
+    return UnsafeFileError(0, Reason(code, **values), str(path))
 
 
 def _named(mode: int) -> str:

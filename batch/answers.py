@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.errors import DesignError
+from aadm_workbench.model import Reason, in_one
 from aadm_workbench.private.answers import FoundColumns, ReadCamera, ReadScan
 
 _SHOWN = 6  # reasons in a message; more say no more
@@ -34,10 +35,8 @@ def columns(question: Mapping[str, Any]) -> FoundColumns:
     model, designs = (_read(question["path"], bodies), None) if "path" in question else _sampled(question)
     found = model.columns if designs is None else designs
     if not found:
-        reasons = list(dict.fromkeys(f"{one.name}: {one.reason}" for one in model.not_taken))[:_SHOWN]
-        said = f" ({'; '.join(reasons)})" if reasons else ""
-        hint = f". {model.hint}" if model.hint else ""
-        raise DesignError(f"{model.source} has no column with grouting sleeves in its foot{said}{hint}")
+        said = in_one([*_reasons(model.not_taken), *filter(None, [model.hint])])
+        raise DesignError.because("design.no_sleeves", source=model.source, help=said)
     return {
         "source": model.source,
         "sha256": model.sha256,
@@ -85,12 +84,16 @@ def _sampled(question: Mapping[str, Any]) -> tuple[Any, Sequence[Any] | None]:
     return models[0], [model.columns[0] for model in models]
 
 
+def _reasons(not_taken: Sequence[Any]) -> list[Reason]:
+    """Why the first of some elements were left out."""
+    return list(dict.fromkeys(Reason("said.of", what=one.name, why=one.reason) for one in not_taken))[:_SHOWN]
+
+
 def _check_one(model: Any, label: str) -> None:
     """Refuse an object that is no column, or holds several."""
     if not model.columns:
-        reasons = [f"{left.name}: {left.reason}" for left in model.not_taken if left.what == "sleeve"]
-        said = "; ".join(dict.fromkeys(reasons[:_SHOWN]))
-        raise DesignError(f"{label} has no grouting sleeves in its foot face. {said}".strip())
+        reasons = _reasons([left for left in model.not_taken if left.what == "sleeve"])
+        raise DesignError.because("command.no_sleeves", label=label, why=in_one(reasons))
     if len(model.columns) > 1:
         called = ", ".join(column.id for column in model.columns[:_SHOWN])
         raise DesignError.because("command.several_columns", model=label, count=len(model.columns), called=called)

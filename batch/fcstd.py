@@ -12,6 +12,7 @@ from aadm_workbench.design.freecad_program import ask_freecad
 from aadm_workbench.design.model_file import sha256_of
 from aadm_workbench.errors import AadmError
 from aadm_workbench.model import JobReport
+from aadm_workbench.model.reason import renamed
 from aadm_workbench.own_files import ASIDE_FOLDER
 from aadm_workbench.report.json import encoded_report
 
@@ -45,7 +46,7 @@ def write_fcstd(report: JobReport, path: Path) -> None:
             }
             problem = ask_freecad(_MODULE, question, str(path))
             if problem:
-                raise AadmError(str(problem).replace(str(made), str(path)))
+                raise AadmError(renamed(str(problem), str(made), str(path)))
             write_atomically(path, made.read_bytes())
     except OSError as error:
         raise AadmError.because("command.cannot_write", file=path, why=error.strerror) from error

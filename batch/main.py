@@ -18,7 +18,6 @@ from aadm_workbench.errors import AadmError
 from .exit_codes import BAD_USAGE, INTERNAL, INTERRUPTED
 from .runner.machine import calculate_in_one_thread
 from .shown.printable import printable
-from .shown.told import told
 
 
 class Command(Protocol):
@@ -93,6 +92,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except AadmError as error:
         if options.debug and error.__cause__ is not None:
             _show_trace()
+        from .shown.told import told
+
         _say(told(error, options))
         return BAD_USAGE
     except KeyboardInterrupt:

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.model.made import changed
 
 if TYPE_CHECKING:
+    from aadm_workbench.design.floor import Floor
     from aadm_workbench.model import JobReport, Profile, StackSettings
     from aadm_workbench.report.ifc.addition import Property
     from aadm_workbench.report.tower import TowerShown
@@ -27,18 +31,29 @@ def planned(reports: Sequence[JobReport], settings: StackSettings, profile: Prof
     DesignError
         Where the model cannot be read.
     """
-    from aadm_workbench.inspection.as_designed import unforeseen_in
     from aadm_workbench.stack.measured import measured_floor
     from aadm_workbench.stack.plan import plan_stack
 
     floors = [measured_floor(report) for report in reports]
-    floor = None
-    if model is not None:
-        from aadm_workbench.design.ifc.floor import read_floor
+    return plan_stack(floors, settings, profile, None if model is None else _floor_of(model, _state_of(model)))
 
-        with unforeseen_in(str(model)):
-            floor = read_floor(model)
-    return plan_stack(floors, settings, profile, floor)
+
+@lru_cache(maxsize=1)
+def _floor_of(model: Path, state: tuple[int, ...]) -> Floor:
+    """The floor of a model, read once as long as the file is the same: table, pages and model tell of one tower."""
+    from aadm_workbench.design.ifc.floor import read_floor
+    from aadm_workbench.inspection.as_designed import unforeseen_in
+
+    with unforeseen_in(str(model)):
+        return read_floor(model)
+
+
+def _state_of(model: Path) -> tuple[int, ...]:
+    """What changes with a file; empty where there is none, which whoever opens it says better."""
+    with suppress(OSError):
+        status = model.stat()
+        return status.st_ino, status.st_size, status.st_mtime_ns
+    return ()
 
 
 def plan_of(report: JobReport, model: Path | None) -> StackPlan | None:
@@ -97,4 +112,5 @@ def with_setting(report: JobReport, model: Path | None) -> JobReport:
     from aadm_workbench.stack.setting import setting_report
 
     found = {one.measured.id: setting_report(one) for one in plan.columns}
-    return replace(report, columns=tuple(replace(one, setting=found[one.id]) for one in report.columns))
+    columns = changed(report.columns, lambda _, one: replace(one, setting=found[one.id]), keeps_facts=True)
+    return replace(report, columns=columns)

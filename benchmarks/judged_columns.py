@@ -42,7 +42,7 @@ class Judged:
     """Columns of one scene: shares of infeasible ones that pass, of feasible ones that fail, of undecided ones.
 
     ``undecided_far_off`` is of those whose margin is more than 3 u from zero. ``stated`` and ``true`` (k,) are the
-    probabilities and whether the pairs that were measured are feasible.
+    probabilities, where there are any, and whether the pairs that were measured are feasible.
     """
 
     scene: str
@@ -61,17 +61,19 @@ class Judged:
 def judged_columns(scene: Scene, cases: int, rng: np.random.Generator) -> Judged:
     """Trials of columns whose true margins are spread evenly over ±1.5 mm.
 
-    With pairs missing a trial may only fail; then its probability is that of the pairs that were measured.
+    With pairs missing a trial may only fail: then its probability is that of the pairs that were measured, else none.
     """
     margins, seen_margins, probabilities, verdicts = [], [], [], []
     for built in build_columns(scene, cases, rng):
         report = try_assembly(built.design, built.sleeves, built.rebars, _CN, rng)
         margins.append(built.margin_mm)
         seen_margins.append(built.seen_margin_mm)
-        probabilities.append(report.probability or 0.0)
+        probabilities.append(np.nan if report.probability is None else report.probability)
         verdicts.append(report.verdict)
     feasible = np.array(margins) >= 0.0
     passes, fails = (np.array([verdict is kind for verdict in verdicts]) for kind in (Verdict.PASS, Verdict.FAIL))
+    known = ~np.isnan(probabilities)
+    stated, true = np.array(probabilities)[known], np.array(seen_margins)[known] >= 0.0
     undecided, far = ~passes & ~fails, np.abs(margins) > 3.0 * scene.u_pair_mm
     return Judged(
         scene=scene.name,
@@ -82,9 +84,9 @@ def judged_columns(scene: Scene, cases: int, rng: np.random.Generator) -> Judged
         false_fails=_share(fails & feasible, feasible),
         undecided=float(undecided.mean()),
         undecided_far_off=_share(undecided & far, far),
-        bins=calibration(np.array(probabilities), np.array(seen_margins) >= 0.0),
-        stated=np.array(probabilities),
-        true=np.array(seen_margins) >= 0.0,
+        bins=calibration(stated, true),
+        stated=stated,
+        true=true,
     )
 
 

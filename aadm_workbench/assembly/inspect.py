@@ -25,7 +25,6 @@ from aadm_workbench.assembly.tolerances import (
     rules_for,
     spacing_result,
 )
-from aadm_workbench.extract.missing import NOT_FOUND
 from aadm_workbench.model import (
     AssemblyPoint,
     Candidate,
@@ -132,7 +131,7 @@ def _inspect(
     design_exposed_mm: float | None,
 ) -> _Inspected:
     kind = extraction.kind.value
-    missing = extraction.reason or NOT_FOUND
+    missing = extraction.reason or Reason("extract.not_found")
     position_rules, skipped = applicable_rules(profile, f"{kind}_position")
     spacing_rules, more_skipped = applicable_rules(profile, f"{kind}_spacing")
     by_position = [

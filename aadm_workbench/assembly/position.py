@@ -25,7 +25,6 @@ from aadm_workbench.assembly.decision import (
 from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
 from aadm_workbench.assembly.tolerances import describe_clause, describe_limit
 from aadm_workbench.design.recognise.pattern import adjacent
-from aadm_workbench.extract.missing import NOT_FOUND
 from aadm_workbench.model import (
     Array,
     AssemblyPoint,
@@ -45,8 +44,8 @@ def inspect_positions(
     rule: Rule | None,
     *,
     decision: DecisionRule,
+    missing: str,
     scale_error: float = 0.0,
-    missing: str = NOT_FOUND,
 ) -> tuple[PointResult, ...]:
     """Offset of every measured centre from its design point, and the verdict on it.
 

@@ -82,7 +82,9 @@ _TYPES: dict[str, tuple[type, ...]] = {
     "working_figure": (bool,),
     "note": (str,),
 }
-_TYPE_NAMES = {str: "text", float: "a number", bool: "true or false"}
+_NOT = {str: "jobfile.not_text", float: "jobfile.not_number", bool: "jobfile.not_boolean"}
+"""What is said of a value of another type."""
+
 _REQUIRED = ("name", "limits", "upper_mm", "clause", "severity", "source")
 
 _Table: TypeAlias = dict[str, Any]
@@ -114,13 +116,13 @@ def load_profile(name: str, beside: Path | None = None) -> Profile:
         path = _folder() / f"{name}.toml"
         if name not in profile_names():
             known = ", ".join(profile_names())
-            raise JobError(f"Unknown tolerance profile {name!r}. Built in: {known}; or give the path of a .toml file.")
+            raise JobError.because("jobfile.profile_unknown", name=repr(name), known=known)
     else:
         path = (beside or Path()) / name
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise JobError(f"Tolerance profile {path} cannot be read: {error}") from error
+        raise JobError.because("jobfile.profile_unread", path=path, why=error) from error
     return parse_profile(text, path.stem, str(path))
 
 
@@ -135,23 +137,25 @@ def parse_profile(text: str, name: str, source: str) -> Profile:
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise JobError(f"{source}: not TOML: {error}") from error
+        raise JobError.about(source, "jobfile.profile_no_toml", why=error) from error
     if table.get("schema") != 1:
-        raise JobError(f"{source}: schema must be 1, it is {table.get('schema')!r}")
+        raise JobError.about(source, "jobfile.profile_schema", found=repr(table.get("schema")))
     unknown = sorted(set(table) - {"schema", "name", "title", "rules"})
     if unknown:
-        raise JobError(f"{source}: unknown key {unknown[0]!r}; known are name, rules, schema, title")
+        raise JobError.about(
+            source, "jobfile.profile_unknown_key", key=repr(unknown[0]), known="name, rules, schema, title"
+        )
     for key in ("name", "title"):
         if not isinstance(table.get(key, ""), str):
-            raise JobError(f"{source}: {key} must be text")
+            raise JobError.about(source, "jobfile.not_text", key=key, shown=repr(table[key]))
     entries = table.get("rules", [])
     if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
-        raise JobError(f"{source}: rules: a profile needs at least one [[rules]] table")
+        raise JobError.about(source, "jobfile.profile_no_rules")
     rules = tuple(_rule(entry, f"{source}: rules[{number}]") for number, entry in enumerate(entries, start=1))
     names = [rule.name for rule in rules]
     for rule_name in names:
         if names.count(rule_name) > 1:
-            raise JobError(f"{source}: two rules have the name {rule_name!r}")
+            raise JobError.about(source, "jobfile.profile_same_name", name=repr(rule_name))
     adjustment = next((rule.upper for rule in rules if rule.limits == "rebar_adjustment"), None)
     return Profile(table.get("name", name), table.get("title", name), rules, adjustment)
 
@@ -182,20 +186,20 @@ def _rule(entry: _Table, where: str) -> Rule:
     where = f"{where} ({entry['name']})" if isinstance(entry.get("name"), str) else where
     for key, value in entry.items():
         if key not in _TYPES:
-            raise JobError(f"{where}: unknown key {key!r}; known are {', '.join(sorted(_TYPES))}")
+            raise JobError.about(where, "jobfile.profile_unknown_key", key=repr(key), known=sorted(_TYPES))
         if not isinstance(value, _TYPES[key]) or (isinstance(value, bool) and bool not in _TYPES[key]):
-            raise JobError(f"{where}: {key} must be {_TYPE_NAMES[_TYPES[key][-1]]}, it is {value!r}")
+            raise JobError.about(where, _NOT[_TYPES[key][-1]], key=key, shown=repr(value))
     for key in _REQUIRED:
         if key not in entry:
-            raise JobError(f"{where}: the key {key!r} is missing")
-    _one_of(entry["limits"], tuple(QUANTITIES), f"{where}: limits")
+            raise JobError.about(where, "jobfile.profile_missing", key=repr(key))
+    _one_of(entry["limits"], tuple(QUANTITIES), where, "limits")
     kind = entry.get("kind", QUANTITIES[entry["limits"]])
-    _one_of(kind, _KINDS, f"{where}: kind")
+    _one_of(kind, _KINDS, where, "kind")
     if (kind == "signed") != (QUANTITIES[entry["limits"]] == "signed"):
-        raise JobError(f"{where}: kind: {entry['limits']} cannot be {kind}")
-    _one_of(entry["severity"], _SEVERITIES, f"{where}: severity")
-    _one_of(entry["source"], _SOURCES, f"{where}: source")
-    _one_of(entry.get("level", "bar_in_group"), _LEVELS, f"{where}: level")
+        raise JobError.about(where, "jobfile.profile_kind", limits=entry["limits"], kind=kind)
+    _one_of(entry["severity"], _SEVERITIES, where, "severity")
+    _one_of(entry["source"], _SOURCES, where, "source")
+    _one_of(entry.get("level", "bar_in_group"), _LEVELS, where, "level")
     _check_limits(entry, kind, where)
     return Rule(
         name=entry["name"],
@@ -214,22 +218,22 @@ def _rule(entry: _Table, where: str) -> Rule:
     )
 
 
-def _one_of(value: str, known: tuple[str, ...], where: str) -> None:
+def _one_of(value: str, known: tuple[str, ...], where: str, key: str) -> None:
     if value not in known:
-        raise JobError(f"{where} must be one of {', '.join(known)}; it is {value!r}")
+        raise JobError.about(where, "jobfile.profile_one_of", key=key, known=known, found=repr(value))
 
 
 def _check_limits(entry: _Table, kind: str, where: str) -> None:
     upper, lower = float(entry["upper_mm"]), float(entry.get("lower_mm", -math.inf))
     if not math.isfinite(upper) or ("lower_mm" in entry and not math.isfinite(lower)):
-        raise JobError(f"{where}: upper_mm and lower_mm must be finite")
+        raise JobError.about(where, "jobfile.profile_finite")
     if kind == "signed":
         if lower >= upper:
-            raise JobError(f"{where}: lower_mm {lower} must be below upper_mm {upper}")
+            raise JobError.about(where, "jobfile.profile_order", lower=lower, upper=upper)
     elif "lower_mm" in entry:
-        raise JobError(f"{where}: lower_mm: a {kind} limit has no lower end")
+        raise JobError.about(where, "jobfile.profile_no_lower", kind=kind)
     elif upper <= 0.0:
-        raise JobError(f"{where}: upper_mm must be above zero, it is {upper}")
+        raise JobError.about(where, "jobfile.profile_positive", upper=upper)
 
 
 def applicable_rules(profile: Profile, quantity: str) -> tuple[tuple[Rule, ...], tuple[Rule, ...]]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 
 from aadm_workbench.errors import JobError
-
-UP_DEG = {"+x": 0.0, "+y": 90.0, "-x": 180.0, "-y": -90.0}
+from aadm_workbench.model import UP_DEG
 
 
 def up_deg(written: str, label: str) -> float | None:
@@ -30,6 +29,4 @@ def up_deg(written: str, label: str) -> float | None:
         value = math.nan
     if math.isfinite(value):
         return value
-    from aadm_workbench.model import Reason
-
-    raise JobError(Reason("design.up", label=label, written=repr(written)))
+    raise JobError.because("design.up", label=label, written=repr(written))

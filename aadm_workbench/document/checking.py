@@ -24,15 +24,18 @@ CHECKED = frozenset({0, 10, 11, 12})
 """Exit codes of a job whose columns were looked at: report.json is there."""
 
 
-def check_work(column: Any) -> Work:
+def check_work(column: Any, profile: str = "") -> Work:
     """What the private process is asked to do; its answer is a whole report.json with one column.
+
+    ``profile`` is the file of what was learned of the camera; empty without.
 
     Raises
     ------
     AadmError
         Where there is nothing to check, or a scan is no longer what was imported.
     """
-    files = {"job.toml": job_toml(job_table([column], DESIGN_FILE)), DESIGN_FILE: design_text([column])}
+    table = job_table([column], DESIGN_FILE, profile=profile)
+    files = {"job.toml": job_toml(table), DESIGN_FILE: design_text([column])}
     for cloud in column.Scans:
         check_unchanged(cloud)
     arguments = ("check", "job.toml", "--out", "out", "--method", column.Method, "--json")
@@ -80,13 +83,13 @@ def _model_of(column: Any) -> dict[str, str] | None:
 def check_unchanged(cloud: Any) -> None:
     """Raise ScanError where a scan is no longer what was imported."""
     if not cloud.File:
-        raise ScanError(f"{cloud.Label} names no file: import the scan again")
+        raise ScanError.because("document.scan_nameless", label=cloud.Label)
     file = Path(cloud.File)
     if not file.exists():
-        raise ScanError(f"{file}: is not there any more; bring it back, or import the scan again")
+        raise ScanError.about(file, "document.scan_gone")
     # The hash of a capture is that of its parts, which the process that reads it knows.
     if cloud.Sha256 and file.is_file():
         with file.open("rb") as stream:
             now = hashlib.file_digest(stream, "sha256").hexdigest()
         if now != cloud.Sha256:
-            raise ScanError(f"{file}: has changed since it was imported; import it again, and check what it shows")
+            raise ScanError.about(file, "document.scan_changed")

@@ -105,7 +105,7 @@ def newest_measurement(folder: Path, now_s: float | None = None) -> Measurement 
     try:
         files = sorted(((file.stat().st_mtime, file) for file in folder.glob("*.json")), reverse=True)
     except OSError as error:
-        raise ReportError(f"{folder}: cannot be read ({error.strerror}); choose another folder") from error
+        raise ReportError.about(folder, "document.folder", why=error.strerror) from error
     newest: Measurement | None = None
     for _, file in files[:_LOOKED_AT]:
         try:
@@ -130,7 +130,7 @@ def read_measurement(file: Path) -> Measurement | None:
     try:
         document = json.loads(file.read_text(encoding="utf-8-sig"))
     except (OSError, ValueError) as error:
-        raise ReportError(f"{file}: is no report and no hoisting state ({error})") from error
+        raise ReportError.about(file, "document.no_state", why=error) from error
     if not isinstance(document, dict):
         return None
     column, frame = _frame_of(document)

@@ -37,9 +37,9 @@ class AskedScan:
         """
         for word, known in ((self.kind, KINDS), (self.units, UNITS)):
             if word not in known:
-                raise ScanError(f"a scan shows {' or '.join(KINDS)}, in {' or '.join(UNITS)}, not {word!r}")
+                raise ScanError.because("document.scan_kind", kinds=KINDS, units=tuple(UNITS), word=repr(word))
         if not self.file.exists():
-            raise ScanError(f"{self.file}: there is no such file")
+            raise ScanError.about(self.file, "scan.no_file")
         question = {
             "about": "scan",
             "file": str(self.file.resolve()),

@@ -60,13 +60,14 @@ class FootFace:
 
 
 def face_with_holes(
-    scan: Scan, sample: Thinned, radius_mm: float, rng: np.random.Generator
+    scan: Scan, sample: Thinned, radius_mm: float, rng: np.random.Generator, *, may_be_rough: bool = True
 ) -> tuple[FootFace, Array, float] | None:
     """The face with most holes of a radius among the largest planes, their centres (k, 2) mm and the points' pitch."""
     best: tuple[FootFace, Array, float] | None = None
     noise_mm = _noise_mm(scan)
     for plane in find_planes(sample.points, rng, 3):
-        face = _layer(plane if scan.viewpoint is None else facing(plane, scan.viewpoint), sample, noise_mm)
+        plane = plane if scan.viewpoint is None else facing(plane, scan.viewpoint)
+        face = _layer(plane, sample, noise_mm) if may_be_rough else FootFace(plane)
         local = in_plane(sample.points[_on_face(sample, face)], face.plane)[:, :2]
         pitch_mm = point_pitch_mm(sample, local)
         spacing_mm = pitch_mm / np.sqrt(sample.share)

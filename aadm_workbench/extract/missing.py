@@ -8,9 +8,6 @@ from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm, thinned
 from aadm_workbench.model import Array, Extraction, Kind, Reason, Scan
 
-NOT_FOUND = Reason("extract.not_found")
-"""Where nothing more can be said."""
-
 _SAMPLE = 250_000  # every third row and column of 1920 × 1200
 _FACE_BAND_MM = 3.0  # twice that of what is measured: a plug may stand a little before the face or behind it
 _BAR_HEIGHT_MM = 10.0  # what stands higher than this below the level of the tops is no bar
@@ -24,7 +21,7 @@ def explain_missing(
     The extraction gives the plane that the other centres lie in; without it nothing can be said.
     """
     if extraction.plane is None:
-        return (extraction.reason or NOT_FOUND,) * len(places)
+        return (extraction.reason or Reason("extract.not_found"),) * len(places)
     sample = thinned(scan, _SAMPLE, rng)
     local = in_plane(sample.points, extraction.plane)
     expected = in_plane(np.atleast_2d(places), extraction.plane)[:, :2]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.extract.circle import (
+    AGREES_MM,
     Outlines,
     PlanPoints,
     agreeing_shares,
@@ -39,8 +40,15 @@ _SECTORS, _OPEN_SECTORS, _CLOSED_SHARE, _INSIDE = 12, 4, 0.15, (0.2, 0.75)
 # to 0.24 on path-traced scans, bars to 0.6 and more
 _BEFORE_MM, _HIDDEN_SHARE = 10.0, 0.5
 _FEWEST_BARS, _BARS_SHARE = 3, 0.4  # each bar hides one piece of a floor and throws a shadow on another
-_FLOOR_MM, _SPALL_MM, _PLUG_ROUND = 15.0, 5.0, 0.6  # plugs sit deeper than spalls, and their rims are round
+# plugs sit deeper than spalls, and their rims are round: within the pixels over which the points of a rim thin out
+_FLOOR_MM, _SPALL_MM, _PLUG_ROUND, _AGREES_PITCHES = 15.0, 5.0, 0.6, 1.5
+# a plug is flat within the noise at 2 m, and its edge mixes with the wall over as much; most of what is seen inside a
+# bore lies on it; fewer points are strays
+_FLOOR_BAND_MM, _FLOOR_SHARE, _FLOOR_POINTS = 2.0, 0.6, 20
 _OPPOSITE_COSINE = 0.3  # 73 degrees to either side of where the camera looks
+# of the radius, from where a hole was found to its centre: a mouth that is open by half has its open part's middle 0.42
+# of it beside; what moves farther is the edge of something else, seen in part
+_MOVED_SHARE = 0.45
 # of a circle: half a mouth may be taped, and a part of the rest lost; a choice: ±30 % moves nothing on sound scans
 _COVERAGE_MIN = 0.35
 
@@ -93,9 +101,11 @@ def mouths_in(
     inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(solid))
     kept = ~other & (shape.coverage >= _COVERAGE_MIN) & ~_closed(inside, centre, radius_mm, pitch_mm)
     kept &= ~_is_shallow(patches, solid, near & ~front, shape, centre, radius_mm, pitch_mm)
+    kept &= np.hypot(*centre.T) < _MOVED_SHARE * radius_mm
     hidden = _are_hidden(patches, high_mm, centre, radius_mm, pitch_mm)
     kept &= ~hidden & (not _is_floor(hidden, kept))
     bores = _bores(patches, centre, radius_mm, near)
+    bores = bores.where(bores.depth < _ends(patches, near & ~front, centre, radius_mm)[bores.points.owner])
     # Between the lands of a roughened foot its floor shows beside the bore, and is no wall.
     layer_mm = -low_mm if face is not None and face.rough else 0.0
     upper = (bores.depth > layer_mm + _UPPER_WALL_MM[0]) & (bores.depth < layer_mm + _UPPER_WALL_MM[1])
@@ -134,6 +144,21 @@ def _bores(patches: Patches, centre: Array, radius_mm: float, near: BoolArray) -
     on_wall = np.abs(points.distance(centre) - radius_mm) < _WALL_BAND_MM
     points, depth = points.where(on_wall), -patches.height.ravel()[at[on_wall]]
     return _Bores(points, depth, _slope(patches.eye, points, depth))
+
+
+def _ends(patches: Patches, behind: BoolArray, centre: Array, radius_mm: float) -> Array:
+    """How deep (k,) mm the walls of the bores go: to a plug, whose edge lies as near to the circle as they do."""
+    at = np.flatnonzero(behind & (patches.height > -WALL_DEPTH_MM[1]))
+    points = PlanPoints.of(patches.x, patches.y, at)
+    inner = points.distance(centre) < _INSIDE[1] * radius_mm
+    owner, depth = points.owner[inner], -patches.height.ravel()[at[inner]]
+    ends = np.full(len(centre), np.inf)
+    for k in np.flatnonzero(np.bincount(owner, minlength=len(centre)) >= _FLOOR_POINTS).tolist():
+        own = depth[owner == k]
+        end_mm = float(np.median(own))
+        if np.mean(np.abs(own - end_mm) < _FLOOR_BAND_MM) > _FLOOR_SHARE:
+            ends[k] = end_mm - _FLOOR_BAND_MM
+    return ends
 
 
 def _slope(eye: Array | None, points: PlanPoints, depth: FloatArray) -> FloatArray:
@@ -211,7 +236,8 @@ def _is_shallow(
     middle_mm = np.array(
         [np.median(depth[inner & (floor.owner == k)]) if floored[k] else 0.0 for k in range(len(centre))]
     )
-    unlike_plug = agreeing_shares(shape, centre, radius_mm) < _PLUG_ROUND
+    within_mm = max(AGREES_MM, _AGREES_PITCHES * pitch_mm)
+    unlike_plug = agreeing_shares(shape, centre, radius_mm, within_mm) < _PLUG_ROUND
     return np.asarray(floored & ((middle_mm < _SPALL_MM) | unlike_plug))
 
 

@@ -10,6 +10,7 @@ import FreeCADGui
 from aadm_workbench.document.display.messages import tell
 from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.label_keeper import KEEPER
+from aadm_workbench.model import Reason
 
 
 def save_picture(view: Any, file: Path, size: tuple[int, int] | None = None) -> None:
@@ -30,10 +31,10 @@ def save_picture(view: Any, file: Path, size: tuple[int, int] | None = None) -> 
     try:
         view.saveImage(str(file), int(width), int(height), "White")
     except (OSError, RuntimeError) as error:
-        raise AadmError(f"{file}: cannot be written ({error}); check that its folder exists and is writable") from error
+        raise AadmError.about(file, "bounded.unwritten", why=error) from error
     finally:
         KEEPER.arrange()
         FreeCADGui.updateGui()
     if not file.is_file():
-        raise AadmError(f"{file}: cannot be written; check that its folder exists and is writable")
+        raise AadmError.about(file, "bounded.unwritten", why=Reason("document.no_picture"))
     tell(str(file))

@@ -9,7 +9,7 @@ from typing import Any
 import FreeCAD
 import FreeCADGui
 
-from aadm_workbench.document.asking import JOB_PANELS, SCAN_PANELS
+from aadm_workbench.document.asking import JOB_PANELS, LANGUAGES, SCAN_PANELS
 from aadm_workbench.gui.resources import FORMS, ICONS, TRANSLATIONS, icon_path
 
 translate = FreeCAD.Qt.translate  # a module without a place on disk: it cannot be imported from
@@ -58,6 +58,13 @@ def set_up() -> None:
     FreeCADGui.addWorkbench(AADMWorkbench())
     SCAN_PANELS[:] = [_open_import_panel]
     JOB_PANELS[:] = [_open_job_panel]
+    LANGUAGES[:] = [_in_language]
+
+
+def _in_language(sentence: str) -> str:
+    from aadm_workbench.gui.language import in_language
+
+    return in_language(sentence)
 
 
 def _open_import_panel(document: Any, files: list[Path]) -> None:

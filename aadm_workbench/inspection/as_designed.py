@@ -52,8 +52,6 @@ def read_design(
         return read_cloud(Path(path), Rules(columns, sleeves, rebars), units=units)
     from aadm_workbench.design.read import read_model
 
-    if units == "mm":
-        return read_model(path, columns=columns, sleeves=sleeves, rebars=rebars)
     return read_model(path, columns=columns, sleeves=sleeves, rebars=rebars, units=units)
 
 

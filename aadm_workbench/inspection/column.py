@@ -19,7 +19,6 @@ from aadm_workbench.model import ColumnDesign, ColumnReport, Kind, Reason, Scan,
 from aadm_workbench.model.reason import reason_of, renamed
 from aadm_workbench.scan.plausible import check_plausible, extent_mm
 
-_NO_MEMORY = Reason("run.no_memory")
 _WITHOUT_MEMORY = ("Insufficient memory", "bad_alloc")  # as OpenCV and C++ say it
 
 
@@ -65,14 +64,14 @@ def attempt(task: ColumnTask) -> Iterator[tuple[ColumnOutcome, Stopwatch]]:
         with watch.stage("total"):
             yield outcome, watch
     except MemoryError:
-        outcome.report = lost(task, _NO_MEMORY).report
+        outcome.report = lost(task, Reason("run.no_memory")).report
     except (AadmError, OSError) as error:
         outcome.report = lost(task, _as_named(task, reason_of(error) or type(error).__name__)).report
     except Exception as error:  # noqa: BLE001 - a night's batch must not end at one column
         described = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
         reason = Reason("run.internal", error=_as_named(task, described))
         if any(words in str(error) for words in _WITHOUT_MEMORY):
-            reason = _NO_MEMORY
+            reason = Reason("run.no_memory")
         outcome.report, outcome.where = lost(task, reason).report, traceback.format_exc()
     outcome.seconds = watch.seconds()
 

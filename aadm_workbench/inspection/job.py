@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Literal
@@ -63,7 +64,7 @@ class Job:
     """A job, as its file says it; paths are relative to ``folder``.
 
     ``checks`` None: what each column's scans allow. ``sha256`` is of the file's bytes. ``stack`` None: the job does not
-    ask for the tower. ``lines`` says where columns stand in it, by id. ``camera_profile`` is what was learned of the
+    ask for the tower. ``line_of`` says on which line a column stands. ``camera_profile`` is what was learned of the
     camera on a plate.
     """
 
@@ -83,7 +84,7 @@ class Job:
     capture: dict[str, str] = field(default_factory=dict)
     stack: StackSettings | None = None
     camera_profile: CameraProfile | None = None
-    lines: dict[str, int] = field(default_factory=dict)
+    line_of: Callable[[str], int] = lambda _: 1
 
     @property
     def model_path(self) -> Path | None:

@@ -10,9 +10,9 @@ from aadm_workbench.model import Camera, CameraProfile, Reason
 _SAME_PIXELS = 0.5  # of intrinsics: what a file rounds to, and what temperature moves a lens by
 
 
-def named_profile(profile: CameraProfile | None) -> dict[str, str]:
-    """What the capture's entry in reports says of a profile; nothing without one."""
-    return {} if profile is None else {"camera_profile": f"{profile.source} sha256:{profile.sha256}"}
+def named_profile(profile: CameraProfile) -> dict[str, str]:
+    """What the capture's entry in reports says of a profile."""
+    return {"camera_profile": f"{profile.source} sha256:{profile.sha256}"}
 
 
 def notes_on_profile(profile: CameraProfile, camera: Camera | None, capture: Mapping[str, str]) -> tuple[str, ...]:

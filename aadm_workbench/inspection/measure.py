@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule
+from aadm_workbench.assembly.findings.finding import SeenGroup
+from aadm_workbench.assembly.findings.scale import doubted_scale_error
 from aadm_workbench.assembly.group_notes import (
     axes_not_told,
     in_coordinates_of_the_file,
@@ -25,7 +27,6 @@ from aadm_workbench.assembly.inspect import inspect_group
 from aadm_workbench.assembly.matching.match import Match, match_extraction
 from aadm_workbench.assembly.place import place_points
 from aadm_workbench.assembly.pose.eopa import NoFit
-from aadm_workbench.extract.edges.learned_edges import with_learned_edges
 from aadm_workbench.extract.method import Known, extract_sizes
 from aadm_workbench.model import (
     Array,
@@ -129,13 +130,15 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             from aadm_workbench.assembly.matching.views import merge_views
 
             extraction, notes = merge_views([one for one, _ in found], [one for _, one in found])
+            extraction = _with_reversal(extraction, points, found)
             match = match_extraction(points, extraction, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
             unseen: str = Reason("assembly.in_no_view", views=len(views))
             reasons = dict.fromkeys(missing_places(points, match), unseen)
         else:
             reasons = reasons_of_missing(scan, extraction, missing_places(points, match), diameter_mm, rng)
-    scale_error = scale_error_of(scan, kind)
+    seen_group = SeenGroup(kind, points, extraction, match, scale_error_of(scan, kind))
     with stage("assembly"):
+        scale_error = doubted_scale_error(seen_group)
         report = inspect_group(
             points,
             extraction,
@@ -159,6 +162,22 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
         return replace(measured, report=in_coordinates_of_the_file(measured.report, scan))
 
 
+def _with_reversal(
+    extraction: Extraction, points: tuple[AssemblyPoint, ...], found: list[tuple[Extraction, Match]]
+) -> Extraction:
+    """The merged points, with what their views tell of the camera: what went with it, and not with the part."""
+    from aadm_workbench.assembly.matching.reversal import reversal_of, view_of
+
+    seen = [view_of(points, *one) for one in found]
+    told = reversal_of([view for view in seen if view is not None])
+    if told is None:
+        return extraction
+    bend = {"camera_bend_mm": told.largest_mm, "camera_bend_u_mm": told.u_mm}
+    if told.contradicts:
+        bend["camera_bend_stated_u_mm"] = told.stated_u_mm
+    return replace(extraction, quality={**extraction.quality, **bend})
+
+
 def _extracted(
     scan: Scan,
     kind: Kind,
@@ -170,7 +189,11 @@ def _extracted(
 ) -> Extraction:
     """The points of a scan, set right by what was learned of its camera: with the method that it was learned with."""
     found = extract_sizes(scan, kind, _diameters_mm(points), settings.method, rng, places, known=known)
-    return with_learned_edges(found, scan.learned) if settings.method == "refined" else found
+    if scan.learned is None or settings.method != "refined":
+        return found
+    from aadm_workbench.extract.edges.learned_edges import with_learned_stretch
+
+    return with_learned_stretch(found, scan.learned)
 
 
 def scale_error_of(scan: Scan, kind: Kind) -> float:

@@ -17,7 +17,6 @@ from aadm_workbench import __version__
 from aadm_workbench.assembly.findings.finding import with_same_scans
 from aadm_workbench.errors import DesignError, JobError, did_you_mean
 from aadm_workbench.inspection.job import Job, JobColumn
-from aadm_workbench.inspection.learned import named_profile, notes_on_profile
 from aadm_workbench.inspection.measure import CheckSettings
 from aadm_workbench.model import (
     Array,
@@ -179,10 +178,10 @@ def _check_named_once(job: Job, model: ModelDesign) -> None:
             raise JobError.because(
                 "command.named_twice",
                 job=job.source,
-                line=job.lines.get(column.id, 1),
+                line=job.line_of(column.id),
                 id=column.id,
                 other=other,
-                other_line=job.lines.get(other, 1),
+                other_line=job.line_of(other),
                 model=model.source,
                 column=design.id,
             )
@@ -206,10 +205,26 @@ def _task(
     # Workers have another working folder.
     folder = job.folder.absolute()
     learned = job.camera_profile
-    notes = () if learned is None else notes_on_profile(learned, job.camera, job.capture)
+    notes = _notes_on_profile(job)
     camera = job.camera if learned is None or job.camera is not None else learned.camera
     task = ColumnTask(column, folder, design, settings, job.units, camera, job.depth_scale_mm, no_design)
     return replace(task, learned=learned, learned_notes=notes)
+
+
+def _notes_on_profile(job: Job) -> tuple[str, ...]:
+    if job.camera_profile is None:
+        return ()
+    from aadm_workbench.inspection.learned import notes_on_profile
+
+    return notes_on_profile(job.camera_profile, job.camera, job.capture)
+
+
+def _named_profile(job: Job) -> dict[str, str]:
+    if job.camera_profile is None:
+        return {}
+    from aadm_workbench.inspection.learned import named_profile
+
+    return named_profile(job.camera_profile)
 
 
 def _with_others(tasks: Sequence[ColumnTask]) -> Sequence[ColumnTask]:
@@ -249,7 +264,7 @@ def report_of(plan: JobPlan, columns: Sequence[ColumnReport]) -> JobReport:
     return JobReport(
         tool=tool_entry(),
         job=job_entry(plan),
-        capture=job.capture | named_profile(job.camera_profile),
+        capture=job.capture | _named_profile(job),
         model=None if model is None else model_entry(model),
         profile=job.profile,
         columns=columns,

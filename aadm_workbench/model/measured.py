@@ -112,6 +112,9 @@ class ColumnDesign:
         return self.sleeves if kind is Kind.SLEEVE else self.rebars
 
 
+UP_DEG = {"+x": 0.0, "+y": 90.0, "-x": 180.0, "-y": -90.0}
+"""Sides of a column as people write which one is at the top of a picture; degrees from +x."""
+
 CAMERA_AXES, OPENGL_AXES, AXES_UNKNOWN = "camera", "opengl", ""
 """x right, y down, z forward; x right, y up, z backward; nobody knows."""
 

@@ -79,7 +79,7 @@ class RepairReport:
     margin
         What that pose leaves of distances and rooms.
     probability
-        That a pose exists then, at the present uncertainty.
+        That a pose exists then, at the present uncertainty; None where a pair was not measured.
     still_fails
         Labels of the bars that a check would then still find beyond their own limit of position.
     adjustment_limit_mm, clause

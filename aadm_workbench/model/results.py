@@ -254,10 +254,11 @@ class TrialReport:
 
     It asks whether a pose exists in which every pair keeps its limit of the distance and its room over the ribs.
     ``best`` is the pose that leaves most of both, and ``margin`` what it leaves (negative: no pose meets them all);
-    ``probability`` that a pose exists, ``window`` the room about the best pose where there is any. ``collisions`` are
-    the sleeves whose bars have no room at the best pose, ``in_the_way`` the bars, or sleeves, that would have to be
-    put right, ``rescan`` the points whose uncertainty leaves the verdict open. ``target`` is where in the play
-    the job asks the column to be set.
+    ``probability`` that a pose exists; where a pair was not measured it is None, unless those that were have none: then
+    theirs, which is the most that it can be. ``window`` is the room about the best pose where there is any.
+    ``collisions`` are the sleeves whose bars have no room at the best pose, ``in_the_way`` the bars, or sleeves, that
+    would have to be put right, ``rescan`` the points whose uncertainty leaves the verdict open. ``target`` is where in
+    the play the job asks the column to be set.
     """
 
     verdict: Verdict

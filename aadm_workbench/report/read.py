@@ -47,13 +47,13 @@ def read_report(path: Path) -> JobReport:
         for _ in codecs.iterdecode((content[k : k + _PIECE] for k in range(0, len(content), _PIECE)), "utf-8"):
             pass
     except BoundsError as error:
-        raise ReportError(f"{path}: {error}; name the report.json of a check") from error
+        raise ReportError.about(path, "report.unusable", why=error) from error
     except OSError as error:
-        raise ReportError(f"{path}: cannot be read ({error.strerror}); name the report.json of a check") from error
+        raise ReportError.about(path, "report.unread", why=error.strerror) from error
     except UnicodeDecodeError as error:
-        raise ReportError(f"{path}: is no text, but report.json is; name the report.json of a check") from error
+        raise ReportError.about(path, "report.no_text") from error
     if sum(map(content.count, (b"[", b"{", b","))) > MOST_VALUES:
-        raise ReportError(f"{path}: holds more than {MOST_VALUES} values, which no check writes")
+        raise ReportError.about(path, "report.many", most=MOST_VALUES)
     return parsed_report(content, str(path))
 
 
@@ -77,14 +77,12 @@ def parsed_report(text: str | bytes, source: str) -> JobReport:
     except msgspec.ValidationError as error:
         raise _slip(source, str(error)) from error
     except json.JSONDecodeError as error:
-        place = f"line {error.lineno}, column {error.colno}"
-        if not error.doc[error.pos :].strip():
-            raise ReportError(f"{source}: breaks off at {place}; copy it again or repeat the check") from error
-        raise ReportError(f"{source}: is no JSON ({error.msg}, {place}); name the report.json of a check") from error
+        code = "report.no_json" if error.doc[error.pos :].strip() else "report.cut"
+        raise ReportError.about(source, code, line=error.lineno, column=error.colno, why=error.msg) from error
     except (ValueError, msgspec.DecodeError) as error:
-        raise ReportError(f"{source}: holds a number that is none ({error}); repeat the check") from error
+        raise ReportError.about(source, "report.no_number", why=error) from error
     except RecursionError as error:
-        raise ReportError(f"{source}: is nested too deeply to be a report.json") from error
+        raise ReportError.about(source, "report.deep") from error
 
 
 def parsed_column(text: str | bytes) -> ColumnReport:
@@ -104,15 +102,12 @@ def _report(text: str | bytes, source: str) -> JobReport:
     except msgspec.ValidationError:
         keys = {}
     if "schema" not in keys:
-        raise ReportError(f"{source}: is no report.json of a check: it has no key schema")
+        raise ReportError.about(source, "report.no_schema")
     found = msgspec.json.decode(keys["schema"])
     if found != SCHEMA:
-        raise ReportError(
-            f"{source}: has schema {str(found)[:_SHOWN_CHARACTERS]}, this version reads schema {SCHEMA}; "
-            "repeat the check, or use the version of aadm that wrote it"
-        )
+        raise ReportError.about(source, "report.schema", found=str(found)[:_SHOWN_CHARACTERS], schema=SCHEMA)
     if "columns" not in keys and "assignments" in keys:
-        raise ReportError(f"{source}: is a match.json; name the report.json of a check")
+        raise ReportError.about(source, "report.match")
     report = msgspec.json.decode(text, type=JobReport, dec_hook=_transform)
     for said in _contradictions(report):
         raise _slip(source, said)
@@ -132,7 +127,7 @@ def _slip(source: str, error: str) -> ReportError:
     said, _, place = error.partition(" - at `$")
     keys = re.sub(r"\[(\w+)\]", r".\1", place.rstrip("`").replace("[...]", "")).strip(".")
     said = said if len(said) <= _SHOWN_CHARACTERS else f"{said[:_SHOWN_CHARACTERS]}…"
-    return ReportError(f"{source}: {keys or 'the document'} is not what a report holds ({said}); repeat the check")
+    return ReportError.about(source, "report.slip", key=keys or "the document", why=said)
 
 
 def _contradictions(report: JobReport) -> Iterator[str]:

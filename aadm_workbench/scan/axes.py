@@ -20,9 +20,6 @@ _ALL = 0.999
 _WIDEST_TANGENT = 1.2
 """Of half the angle of view, to 50 degrees: cameras for measuring have 15 to 40."""
 
-TAKEN_FOR_OPENGL = Reason("scan.opengl_axes")
-"""Note of a cloud whose axes were found out."""
-
 
 def axes_of(file: ScanFile, points: FloatArray, viewpoint: Array | None, declared: str | None) -> str:
     """Return the axes of a cloud: those declared, else those that the sides tell on which its points lie.

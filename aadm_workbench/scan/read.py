@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from aadm_workbench.errors import CameraError, ScanError
 from aadm_workbench.model import CAMERA_AXES, OPENGL_AXES, Array, Camera, FloatArray, Reason, Scan
-from aadm_workbench.scan.axes import AXES, TAKEN_FOR_OPENGL, axes_of, turned
+from aadm_workbench.scan.axes import AXES, axes_of, turned
 from aadm_workbench.scan.file import DEPTH_MAPS, Cloud, Declared, ScanFile, load, to_millimetres, without_return
 from aadm_workbench.scan.pixels import is_picture, on_pixels
 
@@ -182,7 +182,8 @@ def _axes(file: ScanFile, cloud: Cloud, declared: Declared) -> str:
 
 
 def _axes_note(axes: str, declared: Declared) -> tuple[str, ...]:
-    return (TAKEN_FOR_OPENGL,) if axes == OPENGL_AXES and declared.axes is None else ()
+    # A note of a cloud whose axes were found out.
+    return (Reason("scan.opengl_axes"),) if axes == OPENGL_AXES and declared.axes is None else ()
 
 
 def _unit_note(cloud: Cloud, declared: Declared) -> tuple[str, ...]:

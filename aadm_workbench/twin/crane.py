@@ -102,10 +102,10 @@ class Crane:
     def wait_for_decision(self) -> None:
         """Wait until the controller has decided about the last picture."""
         if not self._decided.wait(_DECISION_WITHIN_S):
-            raise CaptureError(f"the controller decided nothing within {_DECISION_WITHIN_S:g} s")
+            raise CaptureError.because("command.twin_undecided", within_s=_DECISION_WITHIN_S)
         self._decided.clear()
         if self.landed:
-            raise EndOfFramesError("the column stands")
+            raise EndOfFramesError.because("command.twin_stands")
 
 
 class VirtualCamera(Closing):

@@ -60,7 +60,7 @@ def filters_of(words: Sequence[str]) -> Filters:
     for word in words:
         name, _, text = word.partition("=")
         if name not in NAMES:
-            raise AadmError(f"--filter {word}: there is no filter {name}; there are {', '.join(NAMES)}")
+            raise AadmError.because("command.twin_filter", word=word, name=name, known=tuple(NAMES))
         amount: Any = _amount(name.replace("-", "_"), word, text)
         chosen = replace(chosen, **{name.replace("-", "_"): amount})
     return chosen
@@ -72,10 +72,12 @@ def _amount(name: str, word: str, text: str) -> float:
         amount: float = int(text) if whole else float(text)
     except ValueError as error:
         kind = "a whole number" if whole else "a number"
-        raise AadmError(f"--filter {word}: {name.replace('_', '-')} wants {kind} after an equals sign") from error
+        raise AadmError.because(
+            "command.twin_filter_number", word=word, name=name.replace("_", "-"), kind=kind
+        ) from error
     most = 24.0 if name == "outliers" else _LARGEST.get(name, _LARGEST_PX)
     if not 0 <= amount <= most:
-        raise AadmError(f"--filter {word}: {name.replace('_', '-')} goes from 0 to {most:g}")
+        raise AadmError.because("command.twin_filter_range", word=word, name=name.replace("_", "-"), most=most)
     return amount
 
 
@@ -94,7 +96,7 @@ def filtered(depth: Depth, filters: Filters, brightness: Depth | None = None) ->
     """
     if filters.edge_mask:
         if brightness is None:
-            raise AadmError("--filter edge-mask: this camera has no brightness to judge edges by; use --camera fringe")
+            raise AadmError.because("command.edge_mask_camera")
         depth = _masked(depth, brightness, filters.edge_mask)
     step = filters.step_mm
     steps: tuple[tuple[int, Callable[[Depth], Depth]], ...] = (

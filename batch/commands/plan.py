@@ -100,6 +100,7 @@ def run(options: argparse.Namespace) -> int:
 def _subject(options: argparse.Namespace) -> tuple[ColumnDesign, Camera]:
     """The column and the camera that are planned for."""
     from aadm_workbench.errors import JobError
+    from aadm_workbench.model import Reason
     from aadm_workbench.scan.camera import read_camera
     from aadm_workbench.twin.camera import PRO_M
 
@@ -117,7 +118,7 @@ def _subject(options: argparse.Namespace) -> tuple[ColumnDesign, Camera]:
     job = read_job(options.job)
     (task,) = plan_job(job, only=(options.column,)).tasks
     if task.design is None or not task.design.rebars:
-        raise JobError(task.no_design or f"the design of {options.column} has no bars")
+        raise JobError(task.no_design or Reason("command.no_bars", column=options.column))
     return task.design, camera or job.camera or PRO_M
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import DesignError
 from aadm_workbench.inspection.job import JobColumn
-from aadm_workbench.model import ColumnDesign, ControlPoint
+from aadm_workbench.model import ColumnDesign, ControlPoint, Vector3
 from aadm_workbench.model.reports import LONGEST_ID
 from aadm_workbench.scan.axes import AXES
 
 from .direction import near_corner, read_frames, up_deg
-from .stack import read_set_pose
 from .table import JobTable
 
 _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
@@ -43,8 +42,7 @@ def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColu
         column = _column(table, units=units, has_model=has_model)
         earlier = known.setdefault(column.id, table)
         if earlier is not table:
-            line = earlier.lines.get((*earlier.at, "id"), 1)
-            raise table.wrong("id", "jobfile.same_id", id=column.id, line=line)
+            raise table.wrong("id", "jobfile.same_id", id=column.id, line=earlier.line("id"))
         columns.append(column)
     return tuple(columns)
 
@@ -74,9 +72,17 @@ def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
         axes=table.one_of("axes", AXES, "") or None,
         near=near_corner(table),
         design=design,
-        set_pose=read_set_pose(table),
+        set_pose=_set_pose(table),
         control_points=_control_points(table, units=units, has_own_design=design is not None),
     )
+
+
+def _set_pose(table: JobTable) -> Vector3 | None:
+    if "set_pose" not in table.values:
+        return None
+    from .stack import read_set_pose
+
+    return read_set_pose(table)
 
 
 def _control_points(table: JobTable, *, units: str, has_own_design: bool) -> tuple[ControlPoint, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from aadm_workbench.design.directions import UP_DEG
+from aadm_workbench.model import UP_DEG
 
 from .table import JobTable, is_finite_number
 

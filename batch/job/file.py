@@ -14,14 +14,12 @@ from typing import Literal, cast
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.errors import CameraError, JobError, ScanError
 from aadm_workbench.inspection.job import Job, JobModel
-from aadm_workbench.model import Camera, CameraProfile, Profile
+from aadm_workbench.model import Camera, CameraProfile, Profile, StackSettings
 from aadm_workbench.scan.file import load
 
 from ..shown.printable import steering_character
 from .columns import read_columns
-from .lines import lines_of
-from .stack import read_stack
-from .table import JobTable
+from .table import JobTable, Lines
 
 LARGEST_JOB_BYTES = 16 * 2**20
 """A job of a thousand columns with designs of their own takes a megabyte."""
@@ -80,9 +78,9 @@ def read_job(path: Path) -> Job:
         depth_scale_mm=depth_scale_mm,
         columns=(columns := read_columns(top, units=units, has_model=model is not None)),
         capture=_capture(top),
-        stack=read_stack(top),
+        stack=_stack(top),
         camera_profile=learned,
-        lines={column.id: top.line("columns", place, "id") for place, column in enumerate(columns)},
+        line_of=lambda name: top.line("columns", [column.id for column in columns].index(name), "id"),
     )
 
 
@@ -117,11 +115,7 @@ def _parsed(content: bytes, source: str) -> JobTable:
         escaped = "\\" in text.split("\n")[line - 1]  # a path of Windows, in which TOML takes backslashes for its own
         code = "jobfile.no_toml.backslashes" if escaped else "jobfile.no_toml"
         raise JobError.because(code, file=source, line=line, what=what) from error
-    try:
-        lines = lines_of(text)
-    except RecursionError as error:
-        raise JobError.because("jobfile.too_deep", file=source) from error
-    return JobTable(values, (), "the job", source, lines)
+    return JobTable(values, (), "the job", source, Lines(text))
 
 
 def _check_keys(text: str, source: str) -> None:
@@ -209,6 +203,14 @@ def _camera_profile(top: JobTable, folder: Path) -> CameraProfile | None:
         return read_profile(folder / name, name)
     except (CameraError, ScanError) as error:
         raise table.wrong("profile", "said.sentences", parts=(error.reason,)) from error
+
+
+def _stack(top: JobTable) -> StackSettings | None:
+    if "stack" not in top.values:
+        return None
+    from .stack import read_stack
+
+    return read_stack(top)
 
 
 def _capture(top: JobTable) -> dict[str, str]:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from aadm_workbench.errors import JobError
 from aadm_workbench.model import StackSettings, Vector3
 
-from .table import JobTable
+from .table import JobTable, Lines
 
 _LENGTHS = ("plumb_u_mm", "fit_u_mm", "bars_u_mm", "level_u_mm")
 LARGEST_SET_POSE = 20.0
@@ -64,4 +64,4 @@ def carried_settings(job: Mapping[str, str]) -> StackSettings | None:
         values = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise JobError.because("jobfile.report_no_toml", file=source, error=error) from error
-    return read_stack(JobTable({"stack": values}, (), "the job", source, {}))
+    return read_stack(JobTable({"stack": values}, (), "the job", source, Lines("")))

@@ -6,13 +6,16 @@ import math
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from aadm_workbench.errors import JobError, did_you_mean
 
 from ..shown.printable import steering_character
-from .lines import KeyPath
+
+if TYPE_CHECKING:
+    from .lines import KeyPath
 
 LONGEST_TEXT = 4096
 """Longest path that Linux takes."""
@@ -33,6 +36,28 @@ def local_path(name: str, folder: Path) -> str:
     if os.sep == "\\" or "\\" not in name or os.path.exists(folder / name):  # noqa: PTH110 - names may be too long
         return name
     return name.replace("\\", "/")
+
+
+class Lines:
+    """On which line of a text its keys stand; the text is looked through when somebody asks: most jobs are right."""
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def of(self, path: KeyPath) -> int:
+        """The line of a key, or of what it would stand in."""
+        while path and path not in self._known:
+            path = path[:-1]
+        return self._known.get(path, 1)
+
+    @cached_property
+    def _known(self) -> dict[KeyPath, int]:
+        from .lines import lines_of
+
+        try:
+            return lines_of(self._text)
+        except RecursionError:  # arrays within arrays that the parser, which goes less deep into itself, has taken
+            return {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,17 +82,15 @@ class JobTable:
     at: KeyPath
     called: str
     source: str
-    lines: Mapping[KeyPath, int]
+    lines: Lines
 
     def wrong(self, key: str | None, code: str, *index: int, **values: object) -> JobError:
         """The error about a key, about an element of its array, or about the table itself; ``code`` of its sentence."""
-        path: KeyPath = self.at if key is None else (*self.at, key, *index)
-        while path and path not in self.lines:
-            path = path[:-1]
+        path: KeyPath = () if key is None else (key, *index)
         from aadm_workbench.model.reason import Reason  # not before it is needed: it loads numpy
 
         what = Reason(code, **{"key": key, **values})
-        return JobError.because("jobfile.at_line", file=self.source, line=self.lines.get(path, 1), what=what)
+        return JobError.because("jobfile.at_line", file=self.source, line=self.line(*path), what=what)
 
     def paths(self, key: str) -> tuple[str, ...]:
         """One path or a list of paths, as this system writes them; empty where the key is absent."""
@@ -80,7 +103,7 @@ class JobTable:
 
     def line(self, *path: str | int) -> int:
         """The line that a key inside this table stands in."""
-        return self.lines.get((*self.at, *path), 1)
+        return self.lines.of((*self.at, *path))
 
     def allow(self, known: Iterable[str]) -> None:
         """Refuse keys that are not known."""

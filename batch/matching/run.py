@@ -16,16 +16,8 @@ from aadm_workbench.inspection.job import Job
 from aadm_workbench.inspection.measure import CheckSettings, Measured, measure_column
 from aadm_workbench.inspection.stopwatch import Stopwatch
 from aadm_workbench.inspection.tasks import ColumnTask, job_entry, plan_job, tool_entry
-from aadm_workbench.model import (
-    Assignment,
-    ColumnDesign,
-    FitCell,
-    Kind,
-    ShipmentGroup,
-    ShipmentProblem,
-    ShipmentReport,
-    Verdict,
-)
+from aadm_workbench.model import ColumnDesign, Kind, Verdict
+from aadm_workbench.model.shipment import Assignment, FitCell, ShipmentGroup, ShipmentProblem, ShipmentReport
 
 from ..job.inputs import read_for_shipping
 from ..runner.engine import Unwatched, work_through
@@ -77,7 +69,7 @@ def run_match(job: Job, options: RunOptions, started: Callable[[int], Callable[[
             raise JobError.because("command.nothing_to_match", job=job.source)
         finished = started(len(tasks))
         found: dict[int, MeasuredColumn] = {}
-        with opened_pool(options.pool, tasks, None, read_for_shipping, lambda text: None) as pool:
+        with opened_pool(options.pool, len(tasks), job, None, read_for_shipping, lambda text: None) as pool:
             for place, outcome in work_through(tasks, pool, measure_task, lost_measurement, Unwatched()):
                 found[place] = outcome
                 finished(outcome.id)

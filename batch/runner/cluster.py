@@ -78,18 +78,17 @@ def remote_cluster(
     distributed = load_distributed()
     dask = import_module("dask")
     security = None if certificates is None else _security(distributed, address, certificates)
-    if security is None and address.startswith("tls://") and not dask.config.get("distributed.comm.tls.ca-file", None):
-        raise JobError.because("run.tls_asked", address=address)
+    if security is None and address.startswith("tls://"):
+        if not dask.config.get("distributed.comm.tls.ca-file", None):
+            raise JobError.because("run.tls_asked", address=address)
+        _try(distributed.Security(), address, "those of Dask's configuration")
     with _messages_to(log), dask.config.set({"distributed.comm.retry.count": 2}):
         try:
             client = distributed.Client(address, timeout=_CONNECT_S, set_as_default=False, security=security)
         except (OSError, TimeoutError, ValueError, TypeError, ImportError, AttributeError, RuntimeError) as error:
             reason = str(error).splitlines()[0] if str(error) else type(error).__name__
-            message = (
-                f"no scheduler of Dask answers at {address} ({reason}); start one with: dask scheduler "
-                f"(this is distributed {distributed.__version__}; all of a cluster must have the same)"
-            )
-            raise JobError(message) from error
+            version = distributed.__version__
+            raise JobError.because("run.no_dask", address=address, why=reason, version=version) from error
         try:
             yield Cluster(client, RemoteWorkers(client))
         finally:
@@ -99,8 +98,8 @@ def remote_cluster(
 
 def _security(distributed: Any, address: str, certificates: Certificates) -> Any:
     """What Dask needs to know of certificates, once they were tried on the scheduler."""
-    parts = urlsplit(address if "://" in address else f"tls://{address}")
-    if parts.scheme != "tls":
+    address = address if "://" in address else f"tls://{address}"
+    if not address.startswith("tls://"):
         raise JobError.because("run.tls_address", address=address)
     for file in (certificates.authority, certificates.certificate, certificates.key):
         if file is not None and not file.is_file():
@@ -111,14 +110,20 @@ def _security(distributed: Any, address: str, certificates: Certificates) -> Any
         tls_client_cert=str(certificates.certificate),
         tls_client_key=None if certificates.key is None else str(certificates.key),
     )
+    names = ", ".join(str(file) for file in vars(certificates).values() if file is not None)
+    _try(security, address, names)
+    return security
+
+
+def _try(security: Any, address: str, files: str) -> None:
+    """Try the certificates of ``files`` on a scheduler, before Dask does so again and again."""
     try:
         context = security.get_connection_args("client")["ssl_context"]
     except (OSError, ValueError) as error:
-        names = ", ".join(str(file) for file in vars(certificates).values() if file is not None)
         reason = getattr(error, "reason", None) or error
-        raise JobError.because("run.tls_unusable", files=names, why=reason) from error
+        raise JobError.because("run.tls_unusable", files=files, why=reason) from error
+    parts = urlsplit(address)
     _try_certificates(parts.hostname or "", parts.port, address, context)
-    return security
 
 
 def _try_certificates(host: str, port: int | None, address: str, context: ssl.SSLContext) -> None:
@@ -137,15 +142,10 @@ def _try_certificates(host: str, port: int | None, address: str, context: ssl.SS
         with line, context.wrap_socket(line, server_hostname=host) as secured:
             secured.recv(1)
     except ssl.SSLCertVerificationError as error:
-        message = f"{address}: its certificate is not signed by the authority of --tls-ca ({error.verify_message})"
-        raise JobError(message) from error
+        raise JobError.because("run.tls_signed", address=address, why=error.verify_message) from error
     except OSError as error:
         reason = getattr(error, "reason", None) or type(error).__name__
-        message = (
-            f"{address}: does not take the certificate of --tls-cert, or does not speak TLS ({reason}); it must be "
-            "signed by the authority that the scheduler was started with"
-        )
-        raise JobError(message) from error
+        raise JobError.because("run.tls_refused", address=address, why=reason) from error
 
 
 class _Lines(logging.Handler):

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.errors import AadmError, JobError
+from aadm_workbench.model import Reason
 from aadm_workbench.own_files import UnsafeFileError, clear_asides, held, open_to_write
 
 _NAME = ".aadm-lock"
@@ -32,22 +33,18 @@ def locked(folder: Path) -> Iterator[None]:
             stack.enter_context(held(folder))
             descriptor = open_to_write(folder / _NAME)
         except UnsafeFileError as error:
-            message = f"{folder / _NAME}: {error.strerror}, or name another folder with --out"
-            raise AadmError(message) from error
+            raise AadmError.because("run.folder_link", file=folder / _NAME, why=error.strerror) from error
         except OSError as error:
             reason = error.strerror or type(error).__name__
-            message = f"{folder}: nothing can be written there ({reason}); name another folder with --out"
-            raise AadmError(message) from error
+            raise AadmError.because("run.folder_shut", folder=folder, why=reason) from error
         stack.callback(os.close, descriptor)
         if not _lock(descriptor) or not _is_in_place(folder / _NAME, descriptor):
-            holder = _read(descriptor) or "another process"
-            message = f"{folder}: {holder} is writing its results there; wait for it, or name another folder with --out"
-            raise JobError(message)
+            raise JobError.because("run.folder_held", folder=folder, holder=_holder(descriptor))
         # A full disk must not keep anybody from being told what is in the folder.
         with contextlib.suppress(OSError):
             os.ftruncate(descriptor, 0)
             os.lseek(descriptor, 0, os.SEEK_SET)
-            os.write(descriptor, f"process {os.getpid()} on {socket.gethostname()}".encode())
+            os.write(descriptor, f"{os.getpid()} {socket.gethostname()}".encode())
         clear_asides(folder)
         # The file stays: a lock that is removed can be held twice.
         yield
@@ -61,11 +58,12 @@ def _is_in_place(path: Path, descriptor: int) -> bool:
         return False
 
 
-def _read(descriptor: int) -> str:
-    with contextlib.suppress(OSError):
+def _holder(descriptor: int) -> str:
+    with contextlib.suppress(OSError, ValueError):
         os.lseek(descriptor, 0, os.SEEK_SET)
-        return os.read(descriptor, 200).decode(errors="replace")
-    return ""
+        number, _, machine = os.read(descriptor, 200).decode(errors="replace").partition(" ")
+        return Reason("run.holder", number=int(number), machine=machine)
+    return "another process"
 
 
 def _lock(descriptor: int) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,9 +11,7 @@ from rich.text import Text
 
 from aadm_workbench.model import WORST_FIRST, ColumnReport, JobReport, SpacingResult, Verdict
 from aadm_workbench.model.reason import Language
-from aadm_workbench.report.sheets.numbers import signed
-from aadm_workbench.report.words.labels import Phrase, phrase
-from aadm_workbench.report.words.reasons import in_both_languages
+from aadm_workbench.report.words.labels import phrase
 
 from .terminal import in_words, new_table, show, verdict_text
 
@@ -45,7 +43,7 @@ def verdict_table(report: JobReport, language: Language = "en") -> Table:
     return table
 
 
-def worst_first(columns: tuple[ColumnReport, ...]) -> list[ColumnReport]:
+def worst_first(columns: Sequence[ColumnReport]) -> list[ColumnReport]:
     """Columns by verdict, the worst first; those of one verdict in the order of the job."""
     return sorted(columns, key=lambda column: WORST_FIRST.index(column.verdict))
 
@@ -66,17 +64,23 @@ def advice_lines(report: JobReport, language: Language = "en") -> Iterator[str]:
     """One line for each column that has advice on its repair, and for each mould that displaces sleeves."""
     for column in worst_first(report.columns):
         if column.repair is not None:
-            advice = in_both_languages(column.repair.advice)
-            yield _filled("shown.repair", column.id, advice).in_language(language)
+            yield _filled("shown.repair", column.id, column.repair.advice, language)
     for mould in report.mould_drift:
         if mould.drifting or any(sleeve.scatters_more for sleeve in mould.sleeves):
             name = mould.piece_mark or mould.columns[0]
-            yield _filled("shown.mould", name, in_both_languages(mould.conclusion)).in_language(language)
+            yield _filled("shown.mould", name, mould.conclusion, language)
 
 
-def _filled(word: str, name: str, said: Phrase) -> Phrase:
-    text = phrase(word)
-    return Phrase(text.en.format(name=name, said=said.en), text.zh.format(name=name, said=said.zh))
+def _filled(word: str, name: str, said: str, language: Language) -> str:
+    return phrase(word).in_language(language).format(name=name, said=_said(said, language))
+
+
+def _said(sentence: str, language: Language) -> str:
+    if language == "en":
+        return sentence
+    from aadm_workbench.report.words.reasons import in_both_languages
+
+    return in_both_languages(sentence).in_language(language)
 
 
 def _reason(column: ColumnReport, comparison: Comparison | None, language: Language) -> str:
@@ -96,8 +100,7 @@ def _reason(column: ColumnReport, comparison: Comparison | None, language: Langu
     ):
         reason = comparison.reason
     more = len(column.reasons) - 1
-    said = in_both_languages(reason).in_language(language)
-    return said + (phrase("shown.more", number=more).in_language(language) if more else "")
+    return _said(reason, language) + (phrase("shown.more", number=more).in_language(language) if more else "")
 
 
 @dataclass(frozen=True)
@@ -124,8 +127,11 @@ class Comparison:
             return ""
         none = phrase("shown.no_limit").in_language(language)
         limit = none if self.limit_mm is None else f"{self.limit_mm:g} mm"
-        value = signed(self.value_mm) if self.is_signed else f"{self.value_mm:.2f}"
-        return f"{value} / {limit}"
+        if not self.is_signed:
+            return f"{self.value_mm:.2f} / {limit}"
+        from aadm_workbench.report.sheets.numbers import signed
+
+        return f"{signed(self.value_mm)} / {limit}"
 
 
 def worst_comparison(column: ColumnReport) -> Comparison | None:

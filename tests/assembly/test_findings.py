@@ -14,7 +14,8 @@ import pytest
 
 from aadm_workbench.assembly.findings.diameters import sizes_in_words
 from aadm_workbench.assembly.findings.finding import SeenGroup, held_back, make_finding, with_same_scans
-from aadm_workbench.assembly.findings.rules import findings_of, student_quantile
+from aadm_workbench.assembly.findings.rules import findings_of
+from aadm_workbench.assembly.findings.scale import student_quantile
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.inspection.tasks import design_shape
 from aadm_workbench.model import (

@@ -7,6 +7,7 @@ measured diameter contradicts the design, and the room in the sleeves is not wha
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
@@ -16,7 +17,7 @@ from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
 from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
 from aadm_workbench.extract.method import distinct_sizes
 from aadm_workbench.extract.own_diameters import OwnDiameters, own_diameters
-from aadm_workbench.model import Array, AssemblyPoint, Finding, Kind, Scan
+from aadm_workbench.model import Array, AssemblyPoint, Finding, Kind, Measure, Scan
 
 CORE_BELOW = 0.06
 """Cores are thinner than nominal by up to this part: 19.3 mm ± 0.5 mm of 20 mm (GB/T 1499.2-2018, Table 3, d1)."""
@@ -33,6 +34,7 @@ EDGE_U_PITCHES = 0.25
 COVERAGE = 2.0
 """The factor of an expanded uncertainty, 95 % (GUM)."""
 
+_EVENLY = math.sqrt(3.0)  # half of a range over its standard deviation, of the rectangular law (GUM 4.3.7)
 _SAME_SIZE = 0.04  # relative: design diameters this near to each other are one size
 
 
@@ -44,11 +46,7 @@ def diameter_findings(group: SeenGroup) -> Iterator[Finding]:
     ):
         return  # it is open which size was meant where
     measured = [(target, point) for target, point in group.placed() if _is_known(point)]
-    pitch_mm, diameter_u_mm = (
-        float(value) if isinstance(value := group.extraction.quality.get(name), int | float) else 0.0
-        for name in ("point_pitch_mm", "diameter_u_mm")
-    )
-    shared_u_mm = max(EDGE_U_PITCHES * pitch_mm, diameter_u_mm)
+    shared_u_mm = _shared_u_mm(group)
     for of_size in _by_size(measured):
         design_mm = float(np.median([target.diameter_mm for target, _ in of_size]))
         low_mm, high_mm = allowed_mm(group.kind, design_mm)
@@ -60,6 +58,33 @@ def diameter_findings(group: SeenGroup) -> Iterator[Finding]:
         if off:
             about = [group.kind.plural] if len(off) == len(measured) else [target.label for target, _ in off]
             yield _said(group.kind, about, [point for _, point in off], design_mm, shared_u_mm)
+
+
+def bore_against_design(group: SeenGroup) -> Measure | None:
+    """Measured over designed diameter of all sleeves together; None where that is not known.
+
+    Its standard uncertainty is that of the edges of the scan, and the play of bores, spread evenly.
+    """
+    measured = [(target, point) for target, point in group.placed() if _is_known(point)]
+    if not measured:
+        return None
+    design_mm = np.array([target.diameter_mm for target, _ in measured])
+    if distinct_sizes(design_mm.tolist())[1:] and group.match.orientation == "ambiguous":
+        return None  # it is open which size was meant where
+    ratio = np.array([point.point.diameter_mm for _, point in measured]) / design_mm
+    own_mm = float(np.median([_u_mm(point, 0.0) for _, point in measured])) / math.sqrt(len(measured))
+    middle_mm = float(np.median(design_mm))
+    u_mm = math.hypot(_shared_u_mm(group), own_mm, sleeve_play_mm(middle_mm) / _EVENLY)
+    return Measure(float(np.median(ratio)), u_mm / middle_mm)
+
+
+def _shared_u_mm(group: SeenGroup) -> float:
+    """Standard uncertainty, mm, that all diameters of a scan share."""
+    pitch_mm, diameter_u_mm = (
+        float(value) if isinstance(value := group.extraction.quality.get(name), int | float) else 0.0
+        for name in ("point_pitch_mm", "diameter_u_mm")
+    )
+    return max(EDGE_U_PITCHES * pitch_mm, diameter_u_mm)
 
 
 def allowed_mm(kind: Kind, design_mm: float) -> tuple[float, float]:

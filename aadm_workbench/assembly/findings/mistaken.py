@@ -43,7 +43,10 @@ _USUAL_DISTANCE_MM = (250.0, 4000.0)  # of cameras that see a sleeve by the tent
 FITS_SHARE = 0.75
 """Of the points of a design: with so many on their places a scan shows it. Half may lie on some pattern by chance."""
 
-FEWEST = 4  # three points lie on some pattern by chance
+FEWEST = 4
+"""Three points of many lie on some pattern by chance; all three of a design do not, where they are on their places."""
+
+_OF_THREE_MM = 1.5  # root mean square: twice the usual scatter, over as much as three points may be moved for a fit
 
 Look = Callable[[Kind, Sequence[float]], Extraction]
 """Looks for points of a kind, of some diameters, mm, in one scan."""
@@ -137,7 +140,7 @@ def _of_another_column(group: SeenGroup, scan: NamedScan, others: Sequence[Colum
     for other in sorted(others, key=lambda design: _sizes(design.points(group.kind)) not in seen):
         points = other.points(group.kind)
         sizes = _sizes(points)
-        if len(points) < FEWEST or (sizes not in seen and len(seen) > _LOOKS):
+        if len(points) < FEWEST - 1 or (sizes not in seen and len(seen) > _LOOKS):
             continue
         if sizes not in seen:
             seen[sizes] = scan.look(group.kind, sizes)
@@ -228,9 +231,16 @@ class NamedScan:
 
 
 def fits(points: Sequence[AssemblyPoint], extraction: Extraction, within_mm: float = math.inf) -> bool:
-    """Whether an extraction lies on a design, mirrored or not, and scatters about it by less than so much, rms."""
+    """Whether an extraction lies on a design, mirrored or not, and scatters about it by less than so much, rms.
+
+    Of designs of three points nothing may be missing, nor left over, and no mirror.
+    """
+    of_three = len(points) < FEWEST
+    if of_three and len(extraction.points) != len(points):
+        return False
     match = match_extraction(points, extraction)
-    needed = max(FEWEST, FITS_SHARE * len(points))
+    needed = len(points) if of_three else max(FEWEST, FITS_SHARE * len(points))
     if match.contradiction == "mirrored":
-        return math.isinf(within_mm)
+        return math.isinf(within_mm) and not of_three
+    within_mm = min(within_mm, _OF_THREE_MM) if of_three else within_mm
     return bool(match) and match.placements[0].found >= needed and match.placements[0].rms_mm < within_mm

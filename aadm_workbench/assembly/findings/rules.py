@@ -8,11 +8,6 @@ A lean that all sleeves, or all bars, share: theirs, or that of a principal poin
 point that is off by p pixels shears all that is measured: whatever is farther away moves sideways by p/f of its depth.
 Sleeves and bars then lean by that angle, towards the same side of the image, and places within a plane across the view
 stay as they are.
-
-A pattern that is larger or smaller as a whole than designed: a wrong camera, a wrong unit or a wrong template. Single
-sleeves stand off their places at random; that also changes the scale of a fit, by their scatter over the root of the
-sum of their squared distances from the middle. What is beyond that and a play of concrete and templates is no chance.
-The scale is a diagnostic and never applied.
 """
 
 from __future__ import annotations
@@ -25,11 +20,15 @@ import numpy as np
 
 from aadm_workbench.assembly.findings.diameters import diameter_findings
 from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
+from aadm_workbench.assembly.findings.scale import scale_findings
+from aadm_workbench.assembly.findings.views import bend_findings, profile_findings
 from aadm_workbench.assembly.matching.match import FAR_FROM_DECLARED
-from aadm_workbench.assembly.matching.pattern_search import USUAL_SCATTER_MM
 from aadm_workbench.assembly.pose.eopa import wrap
 from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
+from aadm_workbench.extract.pooled.leans import USUAL_LEAN
+from aadm_workbench.extract.pooled.system import Priors
+from aadm_workbench.extract.sleeves import BORE_LEAN_U
 from aadm_workbench.model import Array, ColumnDesign, Finding, Kind, codes_of
 from aadm_workbench.model.scatter import OF_MEDIAN, TO_SIGMA
 
@@ -50,18 +49,10 @@ LEAST_DEG = 0.8
 _FEWEST_OF_BOTH = 3  # where sleeves and bars say the same, three of each are one of six
 _LEAN_SIGMAS = 6.0  # beyond what noise, tried twelve times, ever does
 # two scans that err alike by chance are rarer than one that errs
-_LEAN_SIGMAS_OF_BOTH, _LEAN_SIGMAS_OF_EACH, _LEAN_SIGMAS_APART = 5.0, 1.5, 3.0
+_LEAN_SIGMAS_OF_BOTH, _LEAN_SIGMAS_OF_EACH, _LEAN_SIGMAS_APART = 4.0, 1.5, 3.0
+_LEAST_INFORMATION = 1.0  # of a lean of which nothing is seen: it may be anything
 _SHARED_DEG = {Kind.SLEEVE: 0.15, Kind.REBAR: 0.3}  # what all leans of one scan may be off together
 _ALIKE = 0.35  # of the larger: so much two scans of one camera may differ in
-
-PLAY = 5e-4
-"""Relative: shrinkage of concrete, 0.3 mm/m, and 20 K of temperature at 10⁻⁵ a kelvin (EN 1992-1-1, 3.1)."""
-
-NORMAL_QUANTILE = 3.89
-"""Two-sided 0.01 %: of sound scans not one in ten thousand is beyond it, play aside."""
-
-_PRIOR_WEIGHT = 4.0  # the usual scatter counts as so many coordinates do
-_FEWEST_PAIRS = 3  # two points have one distance, and nothing to hold it against
 
 
 def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Finding, ...]:
@@ -70,6 +61,8 @@ def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Find
     found += scale_findings(groups)
     found += lean_findings(groups)
     found += filter_findings(groups)
+    found += bend_findings(groups)
+    found += profile_findings(groups)
     for group in groups:
         found += diameter_findings(group)
         found += exposed_length_findings(group, design.exposed_length_mm)
@@ -153,10 +146,10 @@ def exposed_length_findings(group: SeenGroup, design_exposed_mm: float | None) -
 
 @dataclass(frozen=True, eq=False)
 class _Shear:
-    """How far everything moves sideways per depth, (2,) in the axes of the image, and its standard uncertainty."""
+    """How far everything moves sideways per depth, (2,) in the axes of the image, and its covariance (2, 2)."""
 
     value: Array
-    u: float
+    covariance: Array
     points: int
 
     @property
@@ -165,12 +158,17 @@ class _Shear:
         return float(np.hypot(*self.value))
 
     @property
+    def sigmas(self) -> float:
+        """How far from none it is, in standard deviations."""
+        return math.sqrt(float(self.value @ np.linalg.solve(self.covariance, self.value)))
+
+    @property
     def degrees(self) -> float:
         return math.degrees(math.atan(self.length))
 
     @property
     def counts(self) -> bool:
-        return self.points >= _FEWEST_KNOWN and self.degrees > LEAST_DEG and self.length > _LEAN_SIGMAS * self.u
+        return self.points >= _FEWEST_KNOWN and self.degrees > LEAST_DEG and self.sigmas > _LEAN_SIGMAS
 
 
 def lean_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
@@ -189,19 +187,25 @@ def lean_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
 
 def _are_one(one: _Shear, other: _Shear) -> bool:
     """Whether two scans are sheared alike, and by more than chance: few points of each tell it together."""
-    apart, u_apart = float(np.hypot(*(one.value - other.value))), math.hypot(one.u, other.u)
-    if apart > max(_ALIKE * max(one.length, other.length), _LEAN_SIGMAS_APART * u_apart):
+    apart = _Shear(one.value - other.value, one.covariance + other.covariance, 0)
+    if apart.length > _ALIKE * max(one.length, other.length) and apart.sigmas > _LEAN_SIGMAS_APART:
         return False
     if one.counts and other.counts:
         return True
-    weight = np.array([one.u, other.u]) ** -2
-    both = _Shear(weight @ [one.value, other.value] / weight.sum(), float(weight.sum() ** -0.5), 0)
-    each = min(one.length / one.u, other.length / other.u)
-    return both.degrees > LEAST_DEG and both.length > _LEAN_SIGMAS_OF_BOTH * both.u and each > _LEAN_SIGMAS_OF_EACH
+    both = _weighted([one.value, other.value], [one.covariance, other.covariance])
+    each = min(one.sigmas, other.sigmas)
+    return both.degrees > LEAST_DEG and both.sigmas > _LEAN_SIGMAS_OF_BOTH and each > _LEAN_SIGMAS_OF_EACH
+
+
+def _weighted(values: Sequence[Array] | Array, covariances: Sequence[Array] | Array) -> _Shear:
+    information = np.linalg.inv(np.array(covariances))
+    covariance = np.linalg.inv(information.sum(axis=0))
+    value = covariance @ np.einsum("kij,kj->i", information, np.array(values))
+    return _Shear(value, covariance, len(information))
 
 
 def _shear(group: SeenGroup) -> _Shear | None:
-    """The median lean of a group against the vertical of its scan; None where that comes from the leans themselves."""
+    """The lean that a group shares against the vertical of its scan; None where that comes from leans itself."""
     extraction = group.extraction
     vertical = extraction.vertical
     known = [point for point in extraction.points if point.axis_covariance is not None and point.seen_length_mm]
@@ -214,94 +218,31 @@ def _shear(group: SeenGroup) -> _Shear | None:
         return None
     axes = np.array([point.axis * np.sign(point.axis @ vertical) for point in known])
     leans = (axes / (axes @ vertical)[:, None] - vertical)[:, :2]
-    own = np.array([np.trace(point.axis_covariance) / 2.0 for point in known])  # type: ignore[arg-type]
+    own = np.array([point.axis_covariance for point in known])[:, :2, :2]
+    shared = (math.radians(_SHARED_DEG[group.kind]) / 2.0) ** 2 * np.eye(2)
+    if group.kind is Kind.SLEEVE and extraction.method == "refined":
+        found = _of_bores(leans, own)
+        return _Shear(found.value / vertical[2], found.covariance + shared, len(known))
     middle = np.median(leans, axis=0)
     scatter = TO_SIGMA * float(np.median(np.abs(leans - middle)))
-    u = OF_MEDIAN * math.hypot(scatter, math.sqrt(float(np.median(own)))) / math.sqrt(len(known))
-    return _Shear(middle / vertical[2], math.hypot(u, math.radians(_SHARED_DEG[group.kind]) / 2.0), len(known))
+    u = OF_MEDIAN * math.hypot(scatter, math.sqrt(float(np.median(np.trace(own, axis1=1, axis2=2) / 2.0))))
+    return _Shear(middle / vertical[2], u**2 / len(known) * np.eye(2) + shared, len(known))
 
 
-@dataclass(frozen=True)
-class Scale:
-    """Measured over designed size of a pattern, its standard uncertainty, and the degrees of freedom of that."""
+def _of_bores(leans: Array, covariances: Array) -> _Shear:
+    """What leans (k, 2) of bores share, without what each was drawn to an upright one for want of points.
 
-    value: float
-    u: float
-    freedom: float
-
-    @property
-    def expanded(self) -> float:
-        """Half-width of the range that holds the true scale in all but one of ten thousand cases."""
-        return student_quantile(self.freedom) * self.u
-
-    @property
-    def differs(self) -> bool:
-        """Whether it is another than designed, beyond chance and play."""
-        return abs(self.value - 1.0) > PLAY + self.expanded
-
-
-def scale_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
-    """Findings on the scale of each group by itself, and of the two against each other."""
-    scales = [(group, found) for group in groups if (found := pattern_scale(group)) is not None]
-    differing = [(group, scale) for group, scale in scales if scale.differs]
-    for group, scale in differing:
-        name = group.kind.plural
-        yield make_finding("scale_differs.group", [name], group=name, scale=scale.value, U=scale.expanded)
-    if len(scales) == 2:
-        both = _pooled([scale for _, scale in scales])
-        if not differing and both.differs:
-            yield make_finding("scale_differs.camera", ["sleeves", "rebars"], scale=both.value, U=both.expanded)
-        (_, first), (_, second) = scales
-        u = math.hypot(first.u, second.u)
-        expanded = student_quantile(first.freedom + second.freedom) * u
-        difference = abs(first.value - second.value)
-        if difference > PLAY + expanded:
-            yield make_finding("scale_differs.column", ["sleeves", "rebars"], difference=difference, U=expanded)
-
-
-def _pooled(scales: Sequence[Scale]) -> Scale:
-    """The scale of one camera, that all of the patterns were scanned with: small ones tell it together."""
-    weight = np.array([scale.u**-2 for scale in scales])
-    value = float(weight @ [scale.value for scale in scales] / weight.sum())
-    return Scale(value, float(weight.sum() ** -0.5), sum(scale.freedom for scale in scales))
-
-
-def pattern_scale(group: SeenGroup) -> Scale | None:
-    """Scale of the measured pattern against the design, by least squares; None for too few points.
-
-    Its uncertainty holds the scatter of the points about the scaled pattern, pooled with the usual one, their own
-    uncertainties, and that of the camera's lengths.
+    Sleeves lean by little; that was taken in where each was measured. All of them lean where the camera is wrong.
     """
-    if group.match and group.match.orientation == "ambiguous":
-        return None
-    pairs = group.placed()
-    if len(pairs) < _FEWEST_PAIRS:
-        return None
-    design = np.array([target.centre[:2] for target, _ in pairs])
-    measured = np.array([point.point.centre[:2] for _, point in pairs])
-    about, seen = design - design.mean(axis=0), measured - measured.mean(axis=0)
-    spread = float((about**2).sum())
-    # A similarity as a complex factor: measured = factor · design.
-    factor = complex(float((seen * about).sum()), float((_cross(about, seen)).sum())) / spread
-    left = seen - np.column_stack(
-        [factor.real * about[:, 0] - factor.imag * about[:, 1], factor.imag * about[:, 0] + factor.real * about[:, 1]]
-    )
-    freedom = 2 * len(pairs) - 4 + _PRIOR_WEIGHT
-    variance = (float((left**2).sum()) + _PRIOR_WEIGHT * USUAL_SCATTER_MM**2) / freedom
-    return Scale(abs(factor), math.hypot(math.sqrt(variance / spread), group.scale_error), freedom)
-
-
-def student_quantile(freedom: float) -> float:
-    """Two-sided 0.01 % of Student's law: within 4 % from eight degrees on.
-
-    The expansion of Cornish and Fisher, its first three terms as Abramowitz and Stegun give them (26.7.5).
-    """
-    z = NORMAL_QUANTILE
-    first = (z**3 + z) / 4.0
-    second = (5.0 * z**5 + 16.0 * z**3 + 3.0 * z) / 96.0  # (26.7.5)
-    third = (3.0 * z**7 + 19.0 * z**5 + 17.0 * z**3 - 15.0 * z) / 384.0  # (26.7.5)
-    return z + first / freedom + second / freedom**2 + third / freedom**3
-
-
-def _cross(a: Array, b: Array) -> Array:
-    return np.asarray(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    own = np.linalg.inv(covariances - BORE_LEAN_U**2 * np.eye(2))
+    seen = own - np.eye(2) / Priors().lean ** 2
+    values, vectors = np.linalg.eigh(seen)
+    seen = np.einsum("kij,kj,klj->kil", vectors, np.maximum(values, _LEAST_INFORMATION), vectors)
+    alone = np.linalg.inv(seen)
+    lean = np.einsum("kij,kjl,kl->ki", alone, own, leans)
+    apart = alone + (USUAL_LEAN**2 + BORE_LEAN_U**2) * np.eye(2)
+    middle = _weighted(lean, apart)
+    off = lean - middle.value
+    # What scatters by more than it should is less sure, by as much.
+    misfit = float(np.einsum("ki,kij,kj->", off, np.linalg.inv(apart), off)) / (2.0 * len(lean) - 2.0)
+    return _Shear(middle.value, middle.covariance * max(1.0, misfit), len(lean))

@@ -130,7 +130,7 @@ def fit_eopa_planar(X: Array, Y: Array, weights: Array | None = None, huber_mm: 
 
 def _check_shapes(X: Array, Y: Array, width: int) -> None:
     if X.shape != Y.shape or X.ndim != 2 or X.shape[1] != width:
-        raise AadmError(f"EOPA needs two arrays of shape (n, {width}), row for row; got {X.shape} and {Y.shape}")
+        raise AadmError.because("assembly.eopa_shapes", width=width, first=str(X.shape), second=str(Y.shape))
 
 
 def _fit(X: Array, Y: Array, weights: Array | None, huber_mm: float | None, rank: int) -> EopaFit | NoFit:

@@ -94,7 +94,7 @@ def fit_minimax(source: Array, target: Array, limits_mm: Array) -> MinimaxPose |
     MinimaxPose, or NoFit for fewer than two distinct points.
     """
     if limits_mm.shape != (len(source),) or not (limits_mm > 0).all():
-        raise AadmError(f"minimax needs one limit above zero for each of the {len(source)} points")
+        raise AadmError.because("assembly.minimax_limits", count=len(source))
     fit = fit_eopa_planar(source, target)
     if isinstance(fit, NoFit):
         return fit

@@ -5,10 +5,12 @@ them, a column looks worse than it is. How bars and sleeves scatter as built is 
 are drawn together (Gibbs sampling of a hierarchical model; Gelman et al., Bayesian Data Analysis, 3rd ed., 11.1, 17.2):
 
     measured offset = pose + true scatter + error        error ~ N(0, its covariance)
-    true scatter ~ Student's law in the plane, of a width that all pairs share
+    true scatter ~ the normal law in the plane or Student's, of a width that all pairs share
 
-Few points far off are usual, so the law has heavy tails: what stands far off by more than its uncertainty is left where
-it was measured and not drawn to the others. The pose is free, as in the trial.
+Which of the two is told by the pairs as well, and before they say anything the odds are even. By Student's law few
+points far off are usual: what stands far off by more than its uncertainty is left where it was measured and not drawn
+to the others. By the normal law there are none, and what was hardly seen stands about like the rest. The pose is free,
+as in the trial.
 """
 
 from __future__ import annotations
@@ -20,7 +22,7 @@ import numpy as np
 from scipy.special import gammainc, gammaincinv
 
 from aadm_workbench.assembly.matching.pattern_search import USUAL_SCATTER_MM
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, BoolArray
 
 CHAINS = 300
 """So many draws are made at once, each from the one before it."""
@@ -37,6 +39,7 @@ _PRIOR_POINTS = 1.0
 _USUAL_VARIANCE = 2.0 * USUAL_SCATTER_MM**2  # mm²: of a bar and its sleeve together, per axis
 
 _SMALLEST_VARIANCE = 0.05**2  # mm²: no pattern is cast to less than a twentieth
+_ANYTHING = 1e6  # mm²: a metre, of a pair that need not stand like the others
 _TINY = 1e-18  # keeps quotients finite
 
 _LEAST_LEAN = 0.1
@@ -48,11 +51,15 @@ _OF_A_MEDIAN = np.pi / 2.0
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """n offsets (n, 2) mm, how they change with a turn of the bars, (n, 2), and their covariances (n, 2, 2) mm²."""
+    """n offsets (n, 2) mm, how they change with a turn of the bars, (n, 2), and their covariances (n, 2, 2) mm².
+
+    ``apart`` (n,): pairs of which nothing is believed but their own measurement; they may stand off by anything.
+    """
 
     offsets: Array
     turning: Array
     covariances: Array
+    apart: BoolArray
 
     @property
     def by_pose(self) -> Array:
@@ -64,19 +71,18 @@ class Measured:
 
 def true_offsets(measured: Measured, generator: np.random.Generator) -> Iterator[Array]:
     """Draws of the true offsets, (k, n, 2) mm with k = :data:`CHAINS`, again and again."""
-    by_pose = measured.by_pose
+    by_pose, alike = measured.by_pose, ~measured.apart
     variance, weight = np.full(CHAINS, _first_variance(measured)), np.ones((CHAINS, len(measured.offsets)))
     sweep = 0
     while True:
-        own = variance[:, None] / weight
+        own = np.where(alike, variance[:, None] / weight, _ANYTHING)
         inverse = _inverse(own[..., None, None] * np.eye(2) + measured.covariances)
         pose = _drawn_pose(measured, by_pose, inverse, generator)
         moved = (pose @ by_pose.reshape(-1, 3).T).reshape(len(pose), -1, 2)
         scatter = _drawn_scatter(measured, moved, own, inverse, generator)
-        squares = (scatter**2).sum(axis=2)
-        freedom = _FREEDOM + squares / variance[:, None]
-        weight = 2.0 * generator.gamma((_FREEDOM + 2.0) / 2.0, size=squares.shape) / freedom
-        variance = _drawn_variance((weight * squares).sum(axis=1), squares.shape[1], generator)
+        squares = np.where(alike, (scatter**2).sum(axis=2), 0.0)
+        weight = _drawn_weights(squares / variance[:, None], generator)
+        variance = _drawn_variance((weight * squares).sum(axis=1), int(alike.sum()), generator)
         sweep += 1
         if sweep > _SETTLE:
             yield scatter - moved
@@ -123,6 +129,17 @@ def _coloured(covariances: Array, normal: Array) -> Array:
     second = np.sqrt(np.maximum(covariances[..., 1, 1] - mixed**2, 0.0))
     x, y = normal[..., 0], normal[..., 1]
     return np.stack([first * x, mixed * x + second * y], axis=-1)
+
+
+def _drawn_weights(squares: Array, generator: np.random.Generator) -> Array:
+    """Weights (k, n) of the pairs, one by the normal law; ``squares`` (k, n) of the scatter in units of its width.
+
+    The law of each draw is drawn first: by how likely either makes these squares, both being as likely before.
+    """
+    student = 2.0 * generator.gamma((_FREEDOM + 2.0) / 2.0, size=squares.shape) / (_FREEDOM + squares)
+    by_tails = squares / 2.0 - (_FREEDOM + 2.0) / 2.0 * np.log1p(squares / _FREEDOM)
+    has_tails = generator.logistic(size=len(squares)) < by_tails.sum(axis=1)
+    return np.where(has_tails[:, None], student, 1.0)
 
 
 def _drawn_variance(weighted_squares: Array, count: int, generator: np.random.Generator) -> Array:

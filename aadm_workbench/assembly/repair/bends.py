@@ -86,8 +86,10 @@ def advise_repair(
         plan, exact = found
     report = _tried_again(_report(case, plan, exact), case, plan, decision, generator)
     advice = advice_on_steps(report, trial) if plan.bends else ADVICE_TO_RESCAN
-    notes = (Reason("repair.not_in_advice", labels=trial.missing),) if trial.missing else ()
-    return replace(report, advice=advice, notes=(*report.notes, *notes))
+    if trial.missing:
+        notes = (*report.notes, Reason("repair.not_in_advice", labels=trial.missing))
+        return replace(report, advice=advice, notes=notes, probability=None)
+    return replace(report, advice=advice)
 
 
 def _best_plan(case: RepairCase) -> tuple[RepairPlan, bool] | None:

@@ -36,7 +36,9 @@ def judge_trial(
 
     The probability that a pose exists decides, or, where there is none, whether one does by value alone; a trial fails
     only where the measured values themselves say that none does, and passes only where every pair was seen well enough
-    to hold its limit. What does not fail but lacks a pair is not measured.
+    to hold its limit. What does not fail but lacks a pair is not measured, and no probability is stated of it: that of
+    the other pairs says nothing of the one that nobody saw. Where these alone have no pose, all have none, and theirs
+    is the most that it can be.
 
     Parameters
     ----------
@@ -64,10 +66,10 @@ def judge_trial(
         verdict=verdict,
         reasons=_reasons(report, verdict, by_measure, existence, rescan),
         rules=_rules(profile, report, by_measure),
-        probability=None if existence is None else existence.probability,
+        probability=None if existence is None or verdict is Verdict.NOT_MEASURED else existence.probability,
         margin=fit.margin,
         window=_window(fit) if fit.exists else None,
-        notes=_notes(pairs),
+        notes=_notes(pairs, report.missing if verdict is Verdict.NOT_MEASURED and existence is not None else ()),
         rescan=tuple(label for label, _ in rescan),
     )
 
@@ -122,7 +124,8 @@ def _reasons(
         reasons += [pair.reason for pair in pairs if pair.reason and (pair.verdict is Verdict.FAIL or _collides(pair))]
         reasons = reasons or [NO_POSE]
     if existence is not None and by_measure is not Verdict.PASS:
-        text = Reason("assembly.probability", percent=100.0 * existence.probability)
+        of = "assembly.probability.of_measured" if report.missing else "assembly.probability"
+        text = Reason(of, percent=100.0 * existence.probability)
         if by_measure is Verdict.INCONCLUSIVE:
             likely = existence.probability >= PASS_PROBABILITY
             code = "assembly.hardly_seen" if likely else "assembly.undecided"
@@ -156,8 +159,11 @@ def _window(fit: BestFit) -> PoseWindow | None:
     return find_window(fit.gaps.target, bars, fit.gaps.limits_mm)
 
 
-def _notes(pairs: Sequence[Pair]) -> tuple[str, ...]:
+def _notes(pairs: Sequence[Pair], without: Sequence[str]) -> tuple[str, ...]:
+    """What bears on the trial; ``without`` are the labels for lack of which no probability is stated."""
     notes = []
+    if without:
+        notes.append(Reason("assembly.no_probability", labels=without))
     if any(pair.room_mm is None for pair in pairs):
         notes.append(Reason("assembly.room_not_checked"))
     seen = [pair.seen_length_mm for pair in pairs if pair.seen_length_mm is not None]

@@ -173,7 +173,8 @@ def _try_both_ways(
         depends = Reason(
             "assembly.depends_on_lean", said=said, as_measured=measured.verdict.value, without=other.verdict.value
         )
-        report = replace(report, verdict=verdict, reasons=(depends, *report.reasons))
+        stated = None if missing else report.probability
+        report = replace(report, verdict=verdict, probability=stated, reasons=(depends, *report.reasons))
     return report
 
 

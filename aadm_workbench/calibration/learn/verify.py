@@ -61,7 +61,7 @@ def append_log(log: Path, date: str, capture: str, checks: Sequence[Checked]) ->
     """Add the figures of a capture to a log, which is made where it is not there."""
     before = load(log, str(log)).content.decode("utf-8-sig") if log.exists() else ",".join(_HEAD) + "\n"
     if not before.startswith(",".join(_HEAD)):
-        raise ReportError(f"{log}: is no log of aadm camera verify; name another one with --log")
+        raise ReportError.about(log, "calibration.no_log")
     rows = io.StringIO()
     writer = csv.writer(rows, lineterminator="\n")
     for one in checks:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import FreeCAD
 
+from aadm_workbench.document.asking import LANGUAGES
+
 
 def tell(text: str) -> None:
     """Something that was done."""
@@ -12,4 +14,6 @@ def tell(text: str) -> None:
 
 def complain(text: str) -> None:
     """Something that could not be done, and what to do about it."""
+    for in_language in LANGUAGES:
+        text = in_language(text)
     FreeCAD.Console.PrintError(f"AADM: {text}\n")

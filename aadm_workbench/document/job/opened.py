@@ -10,36 +10,24 @@ import FreeCAD
 
 from aadm_workbench.document.asking import JOB_PANELS
 from aadm_workbench.document.column import make_column
+from aadm_workbench.document.display.import_hook import import_hook
 from aadm_workbench.document.display.messages import complain
 from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.job.toml import read_job_table
-from aadm_workbench.errors import AadmError
 
 translate = FreeCAD.Qt.translate
 
 
-def open(file: str) -> Any:  # noqa: A001 - the name that FreeCAD calls
-    """Open a job in a new document."""
-    return insert(file, FreeCAD.newDocument(Path(file).stem).Name)
-
-
-def insert(file: str, docname: str) -> Any:
-    """Show a job on the columns of a document; what is wrong with it is said in the report view."""
-    try:
-        document = FreeCAD.getDocument(docname)
-    except NameError:
-        document = FreeCAD.newDocument(docname)
-    try:
-        table = read_job_table(Path(file))
-        describe_columns(document, table)
-    except AadmError as error:
-        complain(str(error))
-        return document
+def _show(document: Any, file: Path) -> None:
+    """A job on the columns of a document."""
+    describe_columns(document, read_job_table(file))
     if JOB_PANELS:
-        JOB_PANELS[0](document, Path(file))
+        JOB_PANELS[0](document, file)
     else:
         complain(translate("AADM", "{file}: a job is checked in the window, or by: aadm check").format(file=file))
-    return document
+
+
+open, insert = import_hook(_show)  # noqa: A001 - the names that FreeCAD calls
 
 
 def describe_columns(document: Any, table: Mapping[str, Any]) -> None:

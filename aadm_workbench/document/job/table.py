@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Any
 
 from aadm_workbench.design.design_text import write_model
-from aadm_workbench.design.directions import UP_DEG, up_deg
+from aadm_workbench.design.directions import up_deg
 from aadm_workbench.document.column import column_design
 from aadm_workbench.document.display.reported_design import FROM_REPORT
 from aadm_workbench.document.job.toml import Table
 from aadm_workbench.document.scan_cloud import kind_of
 from aadm_workbench.errors import DesignError, ScanError
-from aadm_workbench.model import Camera, Kind
+from aadm_workbench.model import UP_DEG, Camera, Kind
 
 _DEFAULTS = {"units": "mm", "tolerances": "cn", "decision": "guarded", "turns": False}
 """What holds where a job says nothing, as the command reads it."""
@@ -28,7 +28,11 @@ _UPS = ("up", "sleeves_up", "rebars_up")
 
 
 def job_table(
-    columns: Sequence[Any], model: str, folder: Path | None = None, earlier: Mapping[str, Any] | None = None
+    columns: Sequence[Any],
+    model: str,
+    folder: Path | None = None,
+    earlier: Mapping[str, Any] | None = None,
+    profile: str = "",
 ) -> Table:
     """The values of a job that checks columns of one document.
 
@@ -40,6 +44,8 @@ def job_table(
         Where the job will lie: paths below it are written as seen from there, others whole; None: all whole.
     earlier
         A job that this one takes the place of; what the document knows nothing of is kept.
+    profile
+        File of what was learned of the camera, for scans with intrinsics; empty: what ``earlier`` says, else none.
 
     Raises
     ------
@@ -56,7 +62,8 @@ def job_table(
     table["model"] = {**{key: one for key, one in _dict(kept.get("model")).items() if key != "path"}, "path": model}
     camera = _camera(scans, first)
     if camera:
-        table["camera"] = {**_dict(kept.get("camera")), **camera}
+        learned = {"profile": seen_from(profile, folder)} if profile else {}
+        table["camera"] = {**_dict(kept.get("camera")), **camera, **learned}
     known = {str(one["id"]): one for one in kept.get("columns", ())}
     entries = [_entry(column, folder, known.get(column.ColumnId, {})) for column in columns]
     if earlier is not None:
@@ -103,10 +110,7 @@ def design_text(columns: Sequence[Any]) -> str:
     for column in columns:
         design = column_design(column)
         if any(point.why == FROM_REPORT for point in (*design.sleeves, *design.rebars)):
-            raise DesignError(
-                f"{column.Label} was made from a report, which holds no diameters of the design: "
-                "sample its design first"
-            )
+            raise DesignError.because("document.from_report", label=column.Label)
         designs[column.ColumnId] = design
     first = columns[0]
     origin = {"source": Path(first.ModelFile).name or first.Document.Label, "sha256": first.ModelSha256}
@@ -134,7 +138,7 @@ def sha256_of(text: str) -> str:
 
 def _scans_of(column: Any) -> list[Any]:
     if not column.Scans:
-        raise ScanError(f"{column.Label} has no scans yet: import one of its sleeves, its rebars or both")
+        raise ScanError.because("document.no_scans", label=column.Label)
     return list(column.Scans)
 
 
@@ -158,7 +162,7 @@ def _camera(scans: list[Any], column: Any) -> Table:
     entries = {key: camera[key] for key in _INTRINSICS if camera.get(key) is not None}
     step_mm = {cloud.DepthScale for cloud in with_camera if cloud.DepthScale}
     if len(step_mm) > 1:
-        raise ScanError(_unlike(column, "DepthScale"))
+        raise ScanError.because("document.scans_differ", label=column.Label, name="DepthScale")
     return entries | ({"depth_scale_mm": step_mm.pop()} if step_mm else {})
 
 
@@ -166,7 +170,7 @@ def _of_all(scans: list[Any], name: str, column: Any) -> str:
     """A property that all scans have alike."""
     found = {str(getattr(cloud, name)) for cloud in scans}
     if len(found) > 1:
-        raise ScanError(_unlike(column, name))
+        raise ScanError.because("document.scans_differ", label=column.Label, name=name)
     return found.pop()
 
 
@@ -174,13 +178,8 @@ def _alike(columns: Sequence[Any], value_of: Any, name: str) -> Any:
     """A setting that all columns have alike."""
     found = {value_of(column) for column in columns}
     if len(found) > 1:
-        said = ", ".join(sorted(map(str, found)))
-        raise DesignError(f"the columns differ in {name} ({said}), and a job has one for all: set it alike")
+        raise DesignError.because("document.columns_differ", name=name, values=sorted(map(str, found)))
     return found.pop()
-
-
-def _unlike(column: Any, name: str) -> str:
-    return f"the scans of {column.Label} differ in {name}, and a check has one for all: import them again alike"
 
 
 def _dict(value: Any) -> Table:

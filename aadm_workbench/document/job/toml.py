@@ -35,14 +35,14 @@ def read_job_table(path: Path) -> Table:
         text = read_bounded(path, LARGEST_JOB_BYTES).decode("utf-8-sig").replace("\r\n", "\n")
         table = tomllib.loads(text)
     except BoundsError as error:
-        raise JobError(f"{path}: {error}; name a job file") from error
+        raise JobError.about(path, "document.job_unusable", why=error) from error
     except OSError as error:
-        raise JobError(f"{path}: cannot be read ({error.strerror}); name a job file") from error
+        raise JobError.about(path, "document.job_unread", why=error.strerror) from error
     except (ValueError, RecursionError) as error:
-        raise JobError(f"{path}: is no job file ({error}); it is TOML, saved as UTF-8") from error
+        raise JobError.about(path, "document.no_job", why=error) from error
     columns = table.get("columns")
     if not isinstance(columns, list) or not all(isinstance(one, dict) and "id" in one for one in columns):
-        raise JobError(f"{path}: is no job file: it has no [[columns]] with an id each")
+        raise JobError.about(path, "document.no_columns")
     return table
 
 

@@ -63,11 +63,10 @@ def show_report(document: Any, report: Mapping[str, Any], checked_at: str = "") 
             make_result(column, report, found, checked_at)
         except (AttributeError, KeyError, TypeError, ValueError, IndexError) as error:
             reason = f"{type(error).__name__}: {error}"
-            message = f"column {number} of the report is not what a report holds ({reason}); repeat the check"
-            raise ReportError(message) from error
+            raise ReportError.because("document.column_slip", number=number, why=reason) from error
         shown.append(column)
     if not shown:
-        raise ReportError("the report holds no columns: name the report.json of a check")
+        raise ReportError.because("document.empty_report")
     return shown
 
 
@@ -98,8 +97,7 @@ def write_fcstd(report: Mapping[str, Any], out: Path, model: Path | None = None)
             gui_document.complete(aside, model, document)
             aside.replace(out)
         except (OSError, RuntimeError, FreeCAD.Base.FreeCADError) as error:
-            message = f"{out}: cannot be written ({error}); check that its folder exists, is writable and has room"
-            raise AadmError(message) from error
+            raise AadmError.about(out, "bounded.unwritten", why=error) from error
     finally:
         FreeCAD.closeDocument(document.Name)
         aside.unlink(missing_ok=True)
@@ -123,11 +121,11 @@ def answer(question: Mapping[str, Any]) -> str:
 
 def _opened(path: Path) -> Any:
     if not path.is_file():
-        raise AadmError(f"{path}: there is no such FreeCAD document")
+        raise AadmError.about(path, "document.no_document")
     try:
         return FreeCAD.openDocument(str(path), True)
     except (OSError, RuntimeError, ValueError, FreeCAD.Base.FreeCADError) as error:
-        raise AadmError(f"{path}: FreeCAD cannot open it ({error}); save it again, or name a .FCStd file") from error
+        raise AadmError.about(path, "document.unopened", why=error) from error
 
 
 def objects_by_global_id(document: Any) -> dict[str, Any]:

@@ -29,18 +29,16 @@ def load_report(path: Path) -> dict[str, Any]:
     try:
         document = json.loads(read_bounded(path, LARGEST_REPORT_BYTES).decode("utf-8-sig"))
     except BoundsError as error:
-        raise ReportError(f"{path}: {error}; name the report.json of a check") from error
+        raise ReportError.about(path, "report.unusable", why=error) from error
     except OSError as error:
-        raise ReportError(f"{path}: cannot be read ({error.strerror}); name the report.json of a check") from error
+        raise ReportError.about(path, "report.unread", why=error.strerror) from error
     except (ValueError, RecursionError) as error:
-        raise ReportError(f"{path}: is no report.json, or breaks off ({error}); repeat the check") from error
+        raise ReportError.about(path, "report.broken", why=error) from error
     columns = document.get("columns") if isinstance(document, dict) else None
     if not isinstance(columns, list) or not all(isinstance(one, dict) and "id" in one for one in columns):
-        raise ReportError(f"{path}: is no report.json of a check: it has no columns")
+        raise ReportError.about(path, "report.no_columns")
     if document.get("schema") != SCHEMA:
-        raise ReportError(
-            f"{path}: has schema {document.get('schema')}, this version reads schema {SCHEMA}; repeat the check"
-        )
+        raise ReportError.about(path, "report.schema", found=document.get("schema"), schema=SCHEMA)
     return document
 
 

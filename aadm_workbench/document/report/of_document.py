@@ -23,14 +23,11 @@ def report_of(document: Any) -> dict[str, Any]:
     """
     results = [column.Result for column in columns_in(document) if column.Result is not None]
     if not results:
-        raise ReportError("no column of this document has a result yet: check a column or run a job")
+        raise ReportError.because("document.no_result")
     jobs = [job_of(result) for result in results]
     profiles = sorted({(job.get("profile") or {}).get("name", "") for job in jobs})
     if len(profiles) > 1:
-        raise ReportError(
-            f"the columns were judged by different tolerance profiles ({', '.join(profiles)}): "
-            "check them again by one, or delete the results of the others"
-        )
+        raise ReportError.because("document.profiles", profiles=profiles)
     entries = [found_of(result) for result in results]
     counted = Counter(entry["verdict"] for entry in entries)
     return {

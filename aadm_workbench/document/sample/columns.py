@@ -57,5 +57,5 @@ def _held_by(obj: Any, elements: Sequence[Element]) -> list[str]:
     """Elements that an object is, or that stand in it."""
     held = [element.GlobalId for element in elements if obj.Name in element.GlobalId.split(".")]
     if not held:
-        raise DesignError(f"{obj.Label} has no body of its own: select the column, or the group that holds it.")
+        raise DesignError.because("document.no_body", label=obj.Label)
     return held

@@ -40,7 +40,7 @@ def _opened(path: Path) -> Any:
     except (OSError, RuntimeError, ValueError) as error:
         raise DesignError(str(error)) from error
     if document is None:
-        raise DesignError("it holds no document")
+        raise DesignError.because("document.not_held")
     return document
 
 
@@ -79,7 +79,7 @@ def _shape(path: Path) -> Any:
     try:
         shape.read(str(path))
     except (OSError, RuntimeError, ValueError) as error:
-        raise DesignError(f"its geometry cannot be read ({error})") from error
+        raise DesignError.because("document.bad_geometry", why=error) from error
     if shape.isNull():
-        raise DesignError("it holds no geometry")
+        raise DesignError.because("document.no_geometry")
     return shape

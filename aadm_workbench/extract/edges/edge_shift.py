@@ -47,6 +47,11 @@ _SHARP_TOP_VIEW, _BENT_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33)  # docs/method.md
 # of the first ring that is lost, with what bent in it, and of further ones: the side below the edge is lost with those;
 # spread of each: docs/method.md, 2.4
 _ERODED_TOP_VIEW_MM, _ERODED_BENT_TOP_VIEW_MM, _FURTHER_TOP_VIEW_MM, _ERODED_TOP_SPREAD_MM = -0.45, -0.15, -1.05, 0.30
+PARTS_VIEW_MM = {1.0: _SHARP_MOUTH_VIEW[1], -1.0: _SHARP_TOP_VIEW[1]}
+"""What chamfers, bores and ribs do along the view, mm per unit of slope: no plate tells, whatever is known of edges.
+
+By the side on which the surface lies, as for :func:`~aadm_workbench.extract.edges.seen_disc.seen_discs`."""
+
 _ERODED_MOUTH_BASE_PITCHES = 0.45  # a ring: taken where the projector lights the wall, and not in its shadow
 _ERODED_MOUTH_OWN_PITCHES = 0.22  # half rims stand on fewer points, and on fewer points of the bore
 _RADIUS_U_PITCHES = 0.15  # of a radius where no ring is lost
@@ -87,7 +92,7 @@ class BentDiscs:
 
         A witness that contradicts what is known moves nothing; it is then less well known.
         """
-        if told is None:
+        if told is None or self.view_mm2 == 0.0:
             return self
         lacking, variance = told
         if lacking**2 > _CONTRADICTS**2 * (self.view_mm2 + variance):

@@ -9,7 +9,6 @@ from typing import Any
 import FreeCAD
 from PySide import QtGui
 
-from aadm_workbench.design.directions import UP_DEG
 from aadm_workbench.document.checking import CHECKED, check_unchanged
 from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.groups import columns_in
@@ -38,6 +37,7 @@ from aadm_workbench.gui.panels.assigned_table import AssignedTable
 from aadm_workbench.gui.panels.file_line import FileLine
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, is_there, show_panel
 from aadm_workbench.gui.sentences import sentences
+from aadm_workbench.model import UP_DEG
 from aadm_workbench.private.answers import ReadCamera
 from aadm_workbench.scan.file import DEPTH_MAPS
 
@@ -186,7 +186,7 @@ class CheckAllPanel(WorkingPanel):
         for column in columns:
             for cloud in column.Scans:
                 check_unchanged(cloud)
-        save_job(columns, job)
+        save_job(columns, job, settings.camera_profile())
         out = job.with_name(f"{job.stem}-report")
         method = columns[0].Method
         arguments = ["check", str(job), "--out", str(out), "--json", "--method", method, "--language", language()]

@@ -8,7 +8,7 @@ from typing import Any
 import FreeCAD
 from PySide import QtCore, QtGui
 
-from aadm_workbench.design.directions import UP_DEG, up_deg
+from aadm_workbench.design.directions import up_deg
 from aadm_workbench.document.column import column_design, set_design
 from aadm_workbench.document.undo_step import undo_step
 from aadm_workbench.document.words import length_text
@@ -16,7 +16,7 @@ from aadm_workbench.errors import DesignError
 from aadm_workbench.gui.language import in_language
 from aadm_workbench.gui.panels.task_panel import TaskPanel, show_panel
 from aadm_workbench.gui.sentences import sentences
-from aadm_workbench.model import AssemblyPoint
+from aadm_workbench.model import UP_DEG, AssemblyPoint
 
 translate = FreeCAD.Qt.translate
 REBAR_PLACE = 1

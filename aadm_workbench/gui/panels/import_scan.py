@@ -10,7 +10,6 @@ import FreeCAD
 import FreeCADGui
 from PySide import QtGui
 
-from aadm_workbench.design.directions import UP_DEG
 from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.groups import columns_in
 from aadm_workbench.document.job.floor import owner_by_name
@@ -25,6 +24,7 @@ from aadm_workbench.gui.panels.file_line import FileLine
 from aadm_workbench.gui.panels.sampling import of_ifc_file
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, close_panel, is_there, show_panel
 from aadm_workbench.gui.sentences import sentences, show_error
+from aadm_workbench.model import UP_DEG
 from aadm_workbench.private.answers import ReadScan
 from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, TABLES
 

@@ -159,6 +159,10 @@ SENTENCES: dict[str, Sentence] = {
         "the profile has no limit for the position of sleeves",
         "规范没有给出套筒位置的限值",
     ),
+    "assembly.no_probability": Sentence(
+        "for lack of {labels} no probability that a pose exists is stated",
+        "因缺少 {labels}，未给出可就位概率",
+    ),
     "assembly.no_trial": Sentence(
         "no trial with {count} pairs of sleeve and rebar: {why}",
         "{count} 对套筒与钢筋无法试拼：{why}",
@@ -191,6 +195,10 @@ SENTENCES: dict[str, Sentence] = {
     "assembly.probability": Sentence(
         "the probability that a pose exists is {percent:.1f} %",
         "可就位概率 {percent:.1f} %",
+    ),
+    "assembly.probability.of_measured": Sentence(
+        "the probability that a pose exists for the pairs that were measured is {percent:.1f} %",
+        "已测各对的可就位概率 {percent:.1f} %",
     ),
     "assembly.rebar_of": Sentence("the rebar of {sleeve}", "{sleeve} 的钢筋"),
     "assembly.ribs_after": Sentence("diameter over the ribs after {source}", "肋外径取自 {source}"),
@@ -295,4 +303,12 @@ SENTENCES: dict[str, Sentence] = {
         "套筒组在截面内偏离 {dx_mm:+.1f}、{dy_mm:+.1f} mm",
     ),
     "assembly.section_rough": Sentence("a face that is roughened has no flatness", "粗糙面不评定平整度"),
+    "assembly.eopa_shapes": Sentence(
+        "EOPA needs two arrays of shape (n, {width}), row for row; got {first} and {second}",
+        "EOPA 需要两个形状为 (n, {width}) 且逐行对应的数组；现为 {first} 与 {second}",
+    ),
+    "assembly.minimax_limits": Sentence(
+        "minimax needs one limit above zero for each of the {count:d} points",
+        "minimax 需要为 {count:d} 个点各给出一个大于零的限值",
+    ),
 }

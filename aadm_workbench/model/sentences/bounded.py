@@ -52,4 +52,15 @@ SENTENCES: dict[str, Sentence] = {
         "is XML of more than {deepest} levels or {most} elements",
         "XML 超过 {deepest} 层或 {most} 个元素",
     ),
+    "bounded.unwritten": Sentence(
+        "cannot be written ({why}); check that its folder exists, is writable and has room",
+        "无法写入（{why}）；请检查其文件夹是否存在、可写且有空间",
+    ),
+    "bounded.own_link": Sentence(
+        "it is a link, which is not followed; remove it, or put the file there",
+        "是链接，不予跟随；请移除，或把文件放到该处",
+    ),
+    "bounded.own_no_file": Sentence("it is {kind:word}, not a file; remove it", "是{kind:word}，不是文件；请移除"),
+    "bounded.own_replaced": Sentence("it was replaced while it was opened", "打开时被替换"),
+    "bounded.own_replaced_again": Sentence("somebody else replaces it again and again", "被他人反复替换"),
 }

@@ -5,6 +5,13 @@ from __future__ import annotations
 from aadm_workbench.model.sentences import Sentence
 
 SENTENCES: dict[str, Sentence] = {
+    "finding.camera_bends": Sentence(
+        "views of the {group:word} differ by what turns with the camera: it bends its picture by up to {bend_mm:.2f} "
+        "mm (u {u_mm:.2f} mm), more than the stated uncertainty of {stated_u_mm:.2f} mm leaves open. Take the "
+        "intrinsics and the lens correction that belong to this camera, have it calibrated, or learn a profile of it",
+        "{group:word}的各视图之间存在随相机转动的差异：相机使图像畸变达 {bend_mm:.2f} mm（u {u_mm:.2f} mm），"
+        "超出所给不确定度 {stated_u_mm:.2f} mm 的范围。请采用该相机自己的内参和镜头校正，送检标定，或学习其相机档案",
+    ),
     "finding.common_lean.camera": Sentence(
         "all sleeves lean by {sleeves_deg:.1f}° and all bars by {rebars_deg:.1f}° towards the same side of their "
         "images: the principal point of the camera (cx, cy in [camera]) is not that of these scans, or the image "
@@ -126,6 +133,13 @@ SENTENCES: dict[str, Sentence] = {
         "整组套筒在截面内偏离设计位置 {dx_mm:+.1f}、{dy_mm:+.1f} mm（±{U_mm:.1f} mm），转角 {turn_deg:+.2f}°："
         "按钢筋就位后，柱侧面将反向偏移同样的量（限值 {limit_mm:g} mm，未核实）",
     ),
+    "finding.profile_differs": Sentence(
+        "at the edges of the {group:word} this camera does not do what the profile of [camera] says: they are seen "
+        "{off_pixels:+.1f} pixels off. Another camera, other settings or filters than it was learned with: name the "
+        "right profile, or learn it anew",
+        "在{group:word}边缘，该相机的表现与 [camera] 中的相机档案不符：边缘偏离 {off_pixels:+.1f} 像素。"
+        "可能是另一台相机，或设置、滤波与学习时不同：请指定正确的档案，或重新学习",
+    ),
     "finding.same_scan_twice.column": Sentence(
         "one file is named twice for this column ({source}): one of its scans is missing",
         "本柱有一个文件被指定了两次（{source}）：缺少一个扫描",
@@ -134,6 +148,13 @@ SENTENCES: dict[str, Sentence] = {
         "the scan of the {group:word} ({source}) is the same file as that of {others}: at least one of them was "
         "not scanned",
         "{group:word}的扫描（{source}）与 {others} 的是同一个文件：至少有一个没有扫描",
+    ),
+    "finding.scale_differs.bores": Sentence(
+        "what was scanned of the {groups:word}, patterns and bores together, is {scale:.4f} times as large as designed "
+        "(±{U:.4f}): the intrinsics of the camera (focal length fx, fy in [camera]) or the unit are wrong; no position "
+        "in these scans is to be trusted before that is settled",
+        "{groups:word}的扫描（布置与套筒内径合计）为设计尺寸的 {scale:.4f} 倍（±{U:.4f}）：相机内参（[camera] 中的焦距 "
+        "fx、fy）或单位有误；查明之前，这些扫描的位置均不可信",
     ),
     "finding.scale_differs.camera": Sentence(
         "the patterns of sleeves and rebars are both {scale:.4f} times as large as designed (±{U:.4f}): the "

@@ -1,4 +1,4 @@
-"""What is said of a job file that cannot be used."""
+"""What is said of job files and tolerance profiles that cannot be used."""
 
 from __future__ import annotations
 
@@ -66,17 +66,17 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "jobfile.many_columns": Sentence(
         "the job has {count} columns, {most} are the most; split it",
-        "作业有 {count} 根柱，最多 {most} 根；请拆分",
+        "任务有 {count} 根柱，最多 {most} 根；请拆分",
     ),
     "jobfile.no_columns": Sentence(
         'the job has no columns; add [[columns]] with id = "..." and its scans',
-        '作业中没有柱；请加入 [[columns]]，写明 id = "..." 及其扫描',
+        '任务中没有柱；请加入 [[columns]]，写明 id = "..." 及其扫描',
     ),
     "jobfile.no_design": Sentence(
         "column {name} has no design: add [columns.design] to it, or [model] with a path to the job",
-        "柱 {name} 没有设计：请为其加上 [columns.design]，或在作业中加上带路径的 [model]",
+        "柱 {name} 没有设计：请为其加上 [columns.design]，或在任务中加上带路径的 [model]",
     ),
-    "jobfile.no_file": Sentence("{file}: there is no such job file", "{file}：没有这个作业文件"),
+    "jobfile.no_file": Sentence("{file}: there is no such job file", "{file}：没有这个任务文件"),
     "jobfile.no_toml": Sentence(
         "{file}, line {line}: this is no TOML: {what}", "{file} 第 {line} 行：不是 TOML：{what}"
     ),
@@ -87,7 +87,7 @@ SENTENCES: dict[str, Sentence] = {
     "jobfile.not_above_zero": Sentence("{key} must be above zero, it is {value:g}", "{key} 应大于零，现为 {value:g}"),
     "jobfile.not_boolean": Sentence(
         "{key} must be true or false, it is {shown}",
-        "{key} 应为true 或 false，现为 {shown}",
+        "{key} 应为 true 或 false，现为 {shown}",
     ),
     "jobfile.not_list": Sentence("{key} must be a list of texts, it is {shown}", "{key} 应为文本列表，现为 {shown}"),
     "jobfile.not_lists": Sentence(
@@ -112,7 +112,7 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "jobfile.not_utf8": Sentence(
         "{file}, line {line}: this is not UTF-8 text; save the job as UTF-8",
-        "{file} 第 {line} 行：不是 UTF-8 文本；请以 UTF-8 保存作业",
+        "{file} 第 {line} 行：不是 UTF-8 文本；请以 UTF-8 保存任务",
     ),
     "jobfile.not_whole": Sentence(
         "{key} must be a whole number above zero, it is {shown}",
@@ -142,15 +142,15 @@ SENTENCES: dict[str, Sentence] = {
         "set_pose 应在 ±{most:g} mm 与度以内：没有这么大的间隙",
     ),
     "jobfile.too_deep": Sentence(
-        "{file}: is nested deeper than any job; write it anew", "{file}：嵌套过深，不像任何作业；请重新编写"
+        "{file}: is nested deeper than any job; write it anew", "{file}：嵌套过深，不像任何任务；请重新编写"
     ),
     "jobfile.too_deep_line": Sentence(
         "{file}, line {line}: is nested deeper than any job; write it anew",
-        "{file} 第 {line} 行：嵌套过深，不像任何作业；请重新编写",
+        "{file} 第 {line} 行：嵌套过深，不像任何任务；请重新编写",
     ),
     "jobfile.too_large": Sentence(
         "{file}: has {size} bytes, {most} are the most; split the job",
-        "{file}：有 {size} 字节，最多 {most}；请拆分作业",
+        "{file}：有 {size} 字节，最多 {most}；请拆分任务",
     ),
     "jobfile.unknown_check": Sentence(
         'checks holds "{check}"; it may hold {listed}',
@@ -160,5 +160,36 @@ SENTENCES: dict[str, Sentence] = {
         'unknown key "{key}" in {table:word}; {meant}',
         "{table:word}中有未知的键“{key}”；{meant}",
     ),
-    "jobfile.unreadable": Sentence("the job file cannot be read: {error}", "作业文件无法读取：{error}"),
+    "jobfile.unreadable": Sentence("the job file cannot be read: {error}", "任务文件无法读取：{error}"),
+    "jobfile.profile_finite": Sentence("upper_mm and lower_mm must be finite", "upper_mm 和 lower_mm 必须是有限的数"),
+    "jobfile.profile_kind": Sentence("kind: {limits} cannot be {kind}", "kind：{limits} 不能取 {kind}"),
+    "jobfile.profile_missing": Sentence("the key {key} is missing", "缺少键 {key}"),
+    "jobfile.profile_no_lower": Sentence(
+        "lower_mm: a {kind} limit has no lower end", "lower_mm：{kind} 类限值没有下限"
+    ),
+    "jobfile.profile_no_rules": Sentence(
+        "rules: a profile needs at least one [[rules]] table", "rules：允许偏差依据至少要有一个 [[rules]] 表"
+    ),
+    "jobfile.profile_no_toml": Sentence("not TOML: {why}", "不是 TOML：{why}"),
+    "jobfile.profile_one_of": Sentence(
+        "{key} must be one of {known}; it is {found}", "{key} 必须是 {known} 之一；现为 {found}"
+    ),
+    "jobfile.profile_order": Sentence(
+        "lower_mm {lower} must be below upper_mm {upper}", "lower_mm {lower} 必须小于 upper_mm {upper}"
+    ),
+    "jobfile.profile_positive": Sentence(
+        "upper_mm must be above zero, it is {upper}", "upper_mm 必须大于零，现为 {upper}"
+    ),
+    "jobfile.profile_same_name": Sentence("two rules have the name {name}", "有两条规则同名 {name}"),
+    "jobfile.profile_schema": Sentence("schema must be 1, it is {found}", "schema 必须为 1，现为 {found}"),
+    "jobfile.profile_unknown": Sentence(
+        "Unknown tolerance profile {name}. Built in: {known}; or give the path of a .toml file.",
+        "没有名为 {name} 的允许偏差依据。内置的有：{known}；也可给出 .toml 文件的路径。",
+    ),
+    "jobfile.profile_unknown_key": Sentence(
+        "unknown key {key}; known are {known}", "未知的键 {key}；已知的键为 {known}"
+    ),
+    "jobfile.profile_unread": Sentence(
+        "Tolerance profile {path} cannot be read: {why}", "允许偏差依据 {path} 无法读取：{why}"
+    ),
 }

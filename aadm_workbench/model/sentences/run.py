@@ -104,4 +104,35 @@ SENTENCES: dict[str, Sentence] = {
     "run.worker_refused": Sentence(
         "no worker can be used: {name} gets no work: {why}", "没有可用的工作进程：{name} 不被分配工作：{why}"
     ),
+    "run.folder_held": Sentence(
+        "{folder}: {holder:word} is writing its results there; wait for it, or name another folder with --out",
+        "{folder}：{holder:word}正在那里写入结果；请等待，或用 --out 给出另一个文件夹",
+    ),
+    "run.folder_link": Sentence(
+        "{file}: {why}, or name another folder with --out", "{file}：{why}，或用 --out 给出另一个文件夹"
+    ),
+    "run.folder_shut": Sentence(
+        "{folder}: nothing can be written there ({why}); name another folder with --out",
+        "{folder}：无法写入（{why}）；请用 --out 给出另一个文件夹",
+    ),
+    "run.holder": Sentence("process {number:d} on {machine}", "{machine} 上的进程 {number:d}"),
+    "run.kept": Sentence(
+        "{id}: its kept result cannot be used ({why}); check again without --resume",
+        "{id}：保存的结果无法使用（{why}）；请不带 --resume 重新检查",
+    ),
+    "run.no_dask": Sentence(
+        "no scheduler of Dask answers at {address} ({why}); start one with: dask scheduler (this is "
+        "distributed {version}; all of a cluster must have the same)",
+        "{address} 处没有 Dask 调度器应答（{why}）；启动命令：dask scheduler（本机为 distributed {version}，集"
+        "群各处须相同）",
+    ),
+    "run.tls_refused": Sentence(
+        "{address}: does not take the certificate of --tls-cert, or does not speak TLS ({why}); it must be "
+        "signed by the authority that the scheduler was started with",
+        "{address}：不接受 --tls-cert 的证书，或不支持 TLS（{why}）；证书须由启动调度器所用的根证书签发",
+    ),
+    "run.tls_signed": Sentence(
+        "{address}: its certificate is not signed by the authority of --tls-ca ({why})",
+        "{address}：其证书不是由 --tls-ca 的根证书签发（{why}）",
+    ),
 }

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from aadm_workbench.bounded import ArchiveBounds, BoundsError, check_xml, entry_bytes, opened_archive
 from aadm_workbench.errors import ReportError
-from aadm_workbench.model import JobReport
+from aadm_workbench.model import JobReport, Reason
 from aadm_workbench.report.bcf.forms import VERSIONS, Form, Version, put, xml_bytes, xml_text
 from aadm_workbench.report.bcf.markup import AUTHOR, PRIORITIES, TYPES
 
@@ -140,19 +140,13 @@ def read_files(path: Path) -> tuple[dict[str, bytes], Form]:
         with opened_archive(path, BCF_BOUNDS) as archive:
             files = {entry.filename: entry_bytes(archive, entry) for entry in archive.infolist() if not entry.is_dir()}
     except (OSError, BoundsError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise ReportError(
-            f"{path}: cannot be read as a BCF file ({reason}); name another, or start without it"
-        ) from error
+        raise ReportError.about(path, "report.bcf_unread", why=getattr(error, "strerror", None) or error) from error
     root = parsed(files["bcf.version"], f"{path}: bcf.version") if "bcf.version" in files else None
     found = root.get("VersionId", "") if root is not None else "no"
     for version in VERSIONS:
         if found == version:
             return files, Form(version)
-    raise ReportError(
-        f"{path}: is of BCF version {found[:_SHOWN]}, but topics are written as {' and '.join(VERSIONS)}, and no file "
-        "holds two versions; save it as one of these in the program that it comes from, or start a new file"
-    )
+    raise ReportError.about(path, "report.bcf_version", found=found[:_SHOWN], known=VERSIONS)
 
 
 def read_markup(content: bytes, place: str) -> ElementTree.Element:
@@ -165,9 +159,9 @@ def read_markup(content: bytes, place: str) -> ElementTree.Element:
     """
     root = parsed(content, place)
     if root.tag != "Markup":
-        raise ReportError(f"{place} is no markup of a topic, but <{root.tag[:_SHOWN]}>; start a new BCF file")
+        raise ReportError.because("report.bcf_no_markup", place=place, tag=root.tag[:_SHOWN])
     if root.find("Topic") is None:
-        raise ReportError(f"{place} has no topic in it; start a new BCF file")
+        raise ReportError.because("report.bcf_no_topic", place=place)
     return root
 
 
@@ -183,8 +177,8 @@ def parsed(content: bytes, place: str) -> ElementTree.Element:
         check_xml(content, deepest=_DEEPEST_XML, most_elements=_MOST_ELEMENTS)
         return ElementTree.fromstring(content)
     except (BoundsError, ElementTree.ParseError) as error:
-        reason = str(error) if isinstance(error, BoundsError) else f"is no XML ({error})"
-        raise ReportError(f"{place} {reason}; start a new BCF file") from error
+        reason = error if isinstance(error, BoundsError) else Reason("bounded.no_xml", why=error)
+        raise ReportError.because("report.bcf_xml", place=place, why=reason) from error
 
 
 def packed(files: Mapping[str, bytes]) -> bytes:

@@ -85,7 +85,7 @@ def write_bcf(
         Where the file cannot be written.
     """
     if per not in ("column", "pair"):
-        raise ReportError(f"topics can be made per column or per pair, not per {per}")
+        raise ReportError.because("report.bcf_per", per=per)
     date = (written or _capture_date(report)).astimezone(UTC).isoformat(timespec="seconds")
     files, form = _begun(report, existing, version)
     writer = _Writer(report, files, form, language, date)
@@ -105,10 +105,7 @@ def _begun(report: JobReport, existing: Path | None, version: Version | None) ->
         return new_files(report, version or "2.1"), Form(version or "2.1")
     files, form = read_files(existing)
     if version is not None and version != form.version:
-        raise ReportError(
-            f"{existing}: is of BCF version {form.version}, and {version} was asked for, but no file holds two; leave "
-            " the version out to go on with it, or write into another folder"
-        )
+        raise ReportError.about(existing, "report.bcf_two", found=form.version, asked=version)
     return files, form
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import NamedTuple
 
 from aadm_workbench.assembly.following import name_of
 from aadm_workbench.model import ColumnReport, GroupReport, Kind
@@ -18,6 +20,7 @@ _LIMIT_RADIUS = 15.0  # of the ring that stands for the limit: seen, and clear o
 _LIMIT_OF_PITCH = 0.42  # of the distance of neighbours: rings do not touch
 _ALARM_RING = 3.0  # about a point that fails, with half of its line
 _LONGEST_ARROW = 38.0  # two and a half rings: what is far beyond its limit still ends on the sketch
+_KEPT = 256  # arrangements of names: a job has few designs, and few columns of each that fail
 _FACTORS = (200, 100, 50, 40, 25, 20, 15, 10, 8, 5, 4, 3, 2, 1)  # magnifications that a person can divide by
 
 
@@ -104,45 +107,85 @@ def foot_sketch(
     limit_mm = next((mark.limit_mm for mark in marks if mark.limit_mm), None)
     ring = min(_LIMIT_RADIUS, _LIMIT_OF_PITCH * _pitch_mm(marks) * scale)
     factor = _factor(marks, limit_mm, scale, ring)
-    shapes: list[Shape] = []
+    below: list[Shape] = []
     if size_mm is not None:
         x, y = size_mm[0] / 2.0 * scale, size_mm[1] / 2.0 * scale
-        shapes.append(rectangle((SIDE / 2 - x, SIDE / 2 - y), (SIDE / 2 + x, SIDE / 2 + y), "outline"))
-    shapes += _axes(from_below=from_below)
+        below.append(rectangle((SIDE / 2 - x, SIDE / 2 - y), (SIDE / 2 + x, SIDE / 2 + y), "outline"))
+    below += _axes(from_below=from_below)
+    shapes = [*below]
     radius = max(2.2, diameter_mm / 2.0 * scale)
     places = {
         mark.label: (SIDE / 2 + mark.design_mm[0] * scale, SIDE / 2 + mark.design_mm[1] * scale) for mark in marks
     }
-    layout = _taken(marks, places, scale, factor, (radius, ring), shapes)
+    reach = max(radius, ring)
+    arrows = []
     for mark in marks:
         at = places[mark.label]
         shapes += _mark(mark, at, scale, factor, radius, ring)
         if mark.label in marked:
-            shapes.append(Circle(at, max(radius, ring) + 4.5, "ring-named"))
-    # What fails has the first choice of a place.
-    for mark in sorted(marks, key=lambda mark: not mark.is_alarming):
-        shapes += _name(layout, mark, places[mark.label], max(radius, ring), marked=mark.label in marked)
+            shapes.append(Circle(at, reach + 4.5, "ring-named"))
+        if mark.offset_mm is not None and _length(mark.offset_mm) * scale * factor > reach:
+            arrows.append(_arrow(mark, at, scale, factor))
+    names = tuple(_to_name(mark, places[mark.label], reach, marked=mark.label in marked) for mark in marks)
+    shapes += _names(names, radius, tuple(below), tuple(arrows))
     shapes.sort(key=_layer)
     return FootSketch(Sketch(SIDE, SIDE, tuple(shapes)), factor, limit_mm)
 
 
-def _taken(
-    marks: Sequence[Mark], places: dict[str, Point], scale: float, factor: int, radii: Point, below: Sequence[Shape]
-) -> Layout:
-    """Where no name may stand: points with their rings, arrows that leave these, the outline, the axes in the corner."""
+class _ToName(NamedTuple):
+    """A name that is to be placed: with its sign, and without; ``keep`` is the radius about it that stays free."""
+
+    texts: tuple[str, str]
+    at: Point
+    keep: float
+    apart: float
+    alarming: bool
+    failed: bool
+
+
+def _to_name(mark: Mark, at: Point, reach: float, *, marked: bool) -> _ToName:
+    sign = {"fail": " ✗", "inconclusive": " ?", "not_measured": " –"}.get(mark.verdict, "")
+    sign = f" ({sign.strip()})" if mark.follows and sign else sign
+    keep = reach + (_ALARM_RING if mark.is_alarming else 0.0)
+    apart = keep + (_ALARM_RING if marked else 0.0)
+    failed = mark.verdict == "fail" and not mark.follows
+    return _ToName((f"{mark.label}{sign}", mark.label), at, keep, apart, mark.is_alarming, failed)
+
+
+@lru_cache(_KEPT)
+def _names(
+    names: tuple[_ToName, ...], solid: float, below: tuple[Shape, ...], arrows: tuple[Polyline, ...]
+) -> tuple[Shape, ...]:
+    """Names on nothing: not on points with their rings, arrows that leave these, the outline, the axes in the corner.
+
+    Columns of one design whose points are all well have their names in the same places. What fails chooses first.
+    """
     layout = Layout(SIDE, SIDE)
-    reach = max(radii)
-    for shape in below:
+    for shape in (*below, *arrows):
         if isinstance(shape, Label):
             layout.keep_label(shape)
         elif isinstance(shape, Polyline):
             layout.keep_path(shape)
-    for mark in marks:
-        at = places[mark.label]
-        layout.keep_circle(at, reach + (_ALARM_RING if mark.is_alarming else 0.0), radii[0])
-        if mark.offset_mm is not None and _length(mark.offset_mm) * scale * factor > reach:
-            layout.keep_path(_arrow(mark, at, scale, factor))
-    return layout
+    for name in names:
+        layout.keep_circle(name.at, name.keep, solid)
+    shapes: list[Shape] = []
+    for name in sorted(names, key=lambda name: not name.alarming):
+        shapes += _name(layout, name)
+    return tuple(shapes)
+
+
+def _name(layout: Layout, name: _ToName) -> list[Shape]:
+    """Towards the middle of the foot, where no arrow of another point and no edge is; elsewhere where that is taken.
+
+    Without its sign where there is no room for both: arrows and rings say the same.
+    """
+    inwards = (SIDE / 2 - name.at[0], SIDE / 2 - name.at[1])
+    style = "text-fail" if name.failed else "text"
+    for text in name.texts:
+        shapes = list(layout.beside(name.at, text, 7.5, name.apart, inwards, style=style, bold=name.failed))
+        if shapes:
+            return shapes
+    return []
 
 
 def _arrow(mark: Mark, at: Point, scale: float, factor: int) -> Polyline:
@@ -150,24 +193,6 @@ def _arrow(mark: Mark, at: Point, scale: float, factor: int) -> Polyline:
     x, y = mark.offset_mm or (0.0, 0.0)
     style = "follows" if mark.follows else mark.verdict
     return arrow(at, (at[0] + x * scale * factor, at[1] + y * scale * factor), style, 3.6)
-
-
-def _name(layout: Layout, mark: Mark, at: Point, reach: float, *, marked: bool) -> Iterator[Shape]:
-    """Towards the middle of the foot, where no arrow of another point and no edge is; elsewhere where that is taken.
-
-    Without its sign where there is no room for both: arrows and rings say the same.
-    """
-    sign = {"fail": " ✗", "inconclusive": " ?", "not_measured": " –"}.get(mark.verdict, "")
-    sign = f" ({sign.strip()})" if mark.follows and sign else sign
-    failed = mark.verdict == "fail" and not mark.follows
-    inwards = (SIDE / 2 - at[0], SIDE / 2 - at[1])
-    radius = reach + (_ALARM_RING if mark.is_alarming else 0.0) + (_ALARM_RING if marked else 0.0)
-    style = "text-fail" if failed else "text"
-    for text in (f"{mark.label}{sign}", mark.label):
-        shapes = list(layout.beside(at, text, 7.5, radius, inwards, style=style, bold=failed))
-        if shapes:
-            yield from shapes
-            return
 
 
 def _layer(shape: Shape) -> tuple[int, str]:

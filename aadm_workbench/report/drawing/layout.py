@@ -103,18 +103,21 @@ class Layout:
         left, low, right, high = box[0] - _GAP, box[1] - _GAP, box[2] + _GAP, box[3] + _GAP
         if left < 0.0 or low < 0.0 or right > self.width or high > self.height:
             return False
-        if any(_distance((x, y), (left, low, right, high)) < radius for x, y, radius, _ in self._circles):
-            return False
+        around = (left, low, right, high)
+        for x, y, radius, _ in self._circles:
+            if _distance((x, y), around) < radius:
+                return False
         wide = _BETWEEN - _GAP
-        if any(left - wide < b[2] and b[0] < right + wide and low < b[3] and b[1] < high for b in self._boxes):
-            return False
-        return not any(
-            _crosses(start, end, (left - half, low - half, right + half, high + half))
-            for start, end, half in self._lines
-        )
+        for b in self._boxes:
+            if left - wide < b[2] and b[0] < right + wide and low < b[3] and b[1] < high:
+                return False
+        for start, end, half in self._lines:
+            if _crosses(start, end, (left - half, low - half, right + half, high + half)):
+                return False
+        return True
 
     def _placed(self, label: Label, at: Point, way: float, radius: float, further: float) -> list[Shape]:
-        """A name, with a line that leads to it where it could be taken for another one's; empty where it has no place."""
+        """A name, with a line to it where it could be taken for another one's; empty where it has no place."""
         box = box_of(label)
         if not self.is_free(box):
             return []
@@ -148,7 +151,10 @@ def _line_to_name(at: Point, way: float, radius: float, further: float) -> tuple
 def _distance(at: Point, box: Box) -> float:
     """From a place to a box; 0 within it."""
     x, y = at
-    return math.hypot(x - min(max(x, box[0]), box[2]), y - min(max(y, box[1]), box[3]))
+    left, low, right, high = box
+    across = left - x if x < left else max(0.0, x - right)
+    up = low - y if y < low else max(0.0, y - high)
+    return math.hypot(across, up)
 
 
 def _to_line(at: Point, start: Point, end: Point) -> float:
@@ -173,8 +179,11 @@ def _at(at: Point, way: float, apart: float, text: str, size: float, style: str,
 
 def _crosses(start: Point, end: Point, box: Box) -> bool:
     """Whether a line passes through a box (Liang and Barsky 1984)."""
+    (x0, y0), (x1, y1) = start, end
+    if max(x0, x1) < box[0] or min(x0, x1) > box[2] or max(y0, y1) < box[1] or min(y0, y1) > box[3]:
+        return False  # most of them
     first, last = 0.0, 1.0
-    for p0, p1, low, high in ((start[0], end[0], box[0], box[2]), (start[1], end[1], box[1], box[3])):
+    for p0, p1, low, high in ((x0, x1, box[0], box[2]), (y0, y1, box[1], box[3])):
         along = p1 - p0
         if abs(along) < 1e-9:
             if not low <= p0 <= high:

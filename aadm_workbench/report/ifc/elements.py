@@ -68,7 +68,4 @@ def check_named_once(of_column: Mapping[str, Any]) -> None:
     for name, element in of_column.items():
         other = first.setdefault(element.id(), name)
         if other != name:
-            raise ReportError(
-                f"columns {other} and {name} of the report are one element of the model ({element.GlobalId}): name it "
-                "once in the job, and repeat the check"
-            )
+            raise ReportError.because("report.one_element", first=other, second=name, global_id=element.GlobalId)

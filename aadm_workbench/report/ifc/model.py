@@ -9,11 +9,11 @@ from __future__ import annotations
 import hashlib
 import stat
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 
@@ -22,7 +22,8 @@ from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc.text.step import step_text
 from aadm_workbench.errors import ReportError
-from aadm_workbench.model import Array, ColumnReport, JobReport, PointResult
+from aadm_workbench.model import Array, ColumnReport, JobReport, PointResult, Reason
+from aadm_workbench.model.reason import listed, said_of
 from aadm_workbench.own_files import is_there
 from aadm_workbench.report.ifc import sets as ifc_sets
 from aadm_workbench.report.ifc.addition import Addition, Property
@@ -35,6 +36,7 @@ from aadm_workbench.report.ifc.removal import Stripped, keep_book, without_resul
 from aadm_workbench.report.ifc.section_set import SECTION_SET, section_properties
 
 _WRITABLE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
+_PART = 1 << 20  # bytes at once: more is no faster
 _SHORT_HASH = 12  # 48 bits: no two states of a model share them
 
 
@@ -132,9 +134,9 @@ def write_ifc(
     checked_sha256 = (report.model or {}).get("sha256", "")
     keep_book(addition, text, checked_sha256, ifc_sets.write_back_properties(report))
     replaced = {number: _line(opened.file, number) for number in addition.altered}
-    content = text.edited(replaced=replaced, appended=addition.lines())
+    parts = text.edited(replaced=replaced, appended=addition.lines())
     # A backup for each state of the model without results, not for each night.
-    changed, backup = _put(content, out, model, _sha256(stripped.content))
+    changed, backup = _put(parts, out, model, _sha256(stripped.content))
     return WriteBack(
         out=out,
         changed=changed,
@@ -164,9 +166,9 @@ def remove_ifc(model: Path, out: Path) -> WriteBack:
     opened = open_ifc(model)
     stripped = without_results(opened.file, step_text(model.read_bytes()))
     if not stripped.found:
-        raise ReportError(f"{model} holds no results of a check: there is nothing to take out")
+        raise ReportError.because("report.no_results", model=model)
     # What can be written again from the report needs no backup.
-    changed, backup = _put(stripped.content, out, model, "" if stripped.exact else opened.sha256)
+    changed, backup = _put([stripped.content], out, model, "" if stripped.exact else opened.sha256)
     how = (
         "the model equals the one that the results were written into, byte for byte"
         if stripped.exact
@@ -191,12 +193,10 @@ def _original(model: Path) -> tuple[Stripped, OpenedIfc]:
 def _check_writable(model: Path) -> None:
     """Refuse forms of IFC in which no line can be put behind the others."""
     if model.suffix.lower() == ".ifczip":
-        raise ReportError(
-            f"{model}: results are written into .ifc files; unpack it and name the .ifc, and check with it"
-        )
+        raise ReportError.about(model, "report.ifczip")
     with suppress(OSError), model.open("rb") as stream:  # whoever opens it says what is wrong
         if stream.read(2) in (b"\xff\xfe", b"\xfe\xff"):
-            raise ReportError(f"{model}: is written in UTF-16, into which no line of STEP fits; export it again")
+            raise ReportError.about(model, "report.utf16")
 
 
 def _is_same_model(report: JobReport, model: Path, stripped: Stripped) -> bool:
@@ -210,16 +210,9 @@ def _is_same_model(report: JobReport, model: Path, stripped: Stripped) -> bool:
 
 def _not_the_same(report: JobReport, model: Path, stripped: Stripped) -> str:
     if report.model is None:
-        return (
-            f"{model}: the columns of this report were checked against designs in the job, not against a model, so no "
-            "element is theirs. Check them with [model] in the job"
-        )
-    now, checked = _sha256(stripped.content), report.model["sha256"]
-    return (
-        f"{model} is not the model that was checked ({report.model['source']}), or has changed since: its sha256 "
-        f"begins with {now[:_SHORT_HASH]}, that of the report with {checked[:_SHORT_HASH]}. Repeat the check; or write "
-        "into it as it is, columns found by GlobalId (--force)"
-    )
+        return said_of(model, "report.no_model")
+    now, checked = (text[:_SHORT_HASH] for text in (_sha256(stripped.content), report.model["sha256"]))
+    return Reason("report.other_model", model=model, source=report.model["source"], now=now, checked=checked)
 
 
 def _frames(report: JobReport, of_column: Mapping[str, Any]) -> dict[int, Array]:
@@ -260,10 +253,8 @@ def _line(file: Any, number: int) -> bytes:
 
 def _no_column(report: JobReport, model: Path, elements: Elements) -> str:
     if notes := list(elements.notes(report.columns)):
-        return f"{model}: {notes[0]}"
-    ids = [str(column.id) for column in report.columns]
-    shown = ", ".join(ids[:5]) + (", …" if len(ids) > 5 else "")
-    return f"{model} holds none of the report's columns ({shown}): no element has their GlobalIds. Name another model"
+        return Reason("said.of_file", file=model, why=notes[0])
+    return Reason("report.no_element", model=model, shown=listed([column.id for column in report.columns], 5))
 
 
 def _sha256(content: bytes) -> str:
@@ -277,26 +268,44 @@ def _notes(assigner: Assigner) -> Iterator[str]:
         yield f"{assigner.unshared} elements got property sets of their own where they had shared one"
 
 
-def _put(content: bytes, out: Path, model: Path, keep_as: str) -> tuple[bool, Path | None]:
+def _put(parts: Iterable[bytes], out: Path, model: Path, keep_as: str) -> tuple[bool, Path | None]:
     """Write the file unless it is there already; a model that is replaced is kept, once for each ``keep_as``."""
     in_place = out.exists() and out.samefile(model)
     # The model may be named by a link, and that stays one: what it leads to is replaced. Any other link is replaced.
     place = out.resolve() if in_place else out
-    if is_there(place) and place.read_bytes() == content:
-        return False, None
-    backup = None
-    mode = place.stat().st_mode if in_place else None
-    if mode is not None and not mode & _WRITABLE:
-        raise ReportError(
-            f"{model} may only be read, so that nobody changes it: allow writing it, or write another file (--out)"
-        )
-    if keep_as and in_place:
-        kept = model.with_name(f"{model.name}.{keep_as[:_SHORT_HASH]}.bak")
-        if not is_there(kept):
-            write_atomically(kept, model.read_bytes())
-            backup = kept
-    write_atomically(place, content)
+    with tempfile.TemporaryFile() as made:  # a floor's results are too many to hold them twice
+        made.writelines(parts)
+        if _holds(place, made):
+            return False, None
+        mode = place.stat().st_mode if in_place else None
+        if mode is not None and not mode & _WRITABLE:
+            raise ReportError.because("report.read_only", model=model)
+        backup = _backup(model, keep_as) if keep_as and in_place else None
+        write_atomically(place, _from_start(made))
     if mode is not None:
         # The new file is one in the place of the old; whoever could read that can read this.
         place.chmod(stat.S_IMODE(mode))
     return True, backup
+
+
+def _backup(model: Path, keep_as: str) -> Path | None:
+    """Keep a copy of a model beside it; None where that is there already."""
+    kept = model.with_name(f"{model.name}.{keep_as[:_SHORT_HASH]}.bak")
+    if is_there(kept):
+        return None
+    write_atomically(kept, model.read_bytes())
+    return kept
+
+
+def _holds(place: Path, made: IO[bytes]) -> bool:
+    """Whether a file holds the same bytes as another one that is open."""
+    if not is_there(place) or place.stat().st_size != made.tell():
+        return False
+    with place.open("rb") as there:
+        return all(part == there.read(len(part)) for part in _from_start(made))
+
+
+def _from_start(made: IO[bytes]) -> Iterator[bytes]:
+    made.seek(0)
+    while part := made.read(_PART):
+        yield part

@@ -117,7 +117,7 @@ def _by_numbers(file: Any, text: StepText, book: Mapping[str, Any]) -> Stripped 
     users = {user.id() for number in ours for user in file.get_inverse(file.by_id(number))}
     if not users - ours <= before.keys():
         return None
-    content = text.edited(replaced=before, removed=ours)
+    content = b"".join(text.edited(replaced=before, removed=ours))
     exact = hashlib.sha256(content).hexdigest() == book.get("OriginalSha256")
     return Stripped(content, found=True, exact=exact, checked_sha256=str(book.get("CheckedModelSha256")))
 
@@ -133,7 +133,8 @@ def _by_kinship(file: Any, text: StepText, book: Mapping[str, Any]) -> Stripped:
         doomed -= foreign
     doomed |= _release(file, ours, doomed, replaced)
     lines = {number: line_of(entity) for number, entity in replaced.items() if number not in doomed} | restored
-    return Stripped(text.edited(replaced=lines, removed=doomed), found=True, exact=False, notes=tuple(notes))
+    content = b"".join(text.edited(replaced=lines, removed=doomed))
+    return Stripped(content, found=True, exact=False, notes=tuple(notes))
 
 
 def _own_roots(file: Any, replaced: dict[int, Any]) -> set[int]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 from aadm_workbench.model import (
@@ -45,10 +45,11 @@ class Shift:
 
 @dataclass(frozen=True)
 class Step:
-    """One thing to do; ``release`` where only the engineer may set it going."""
+    """One thing to do; ``release`` where only the engineer may set it going, ``left`` what holds once it is done."""
 
     text: Phrase
     release: bool = False
+    left: Phrase | None = None
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,7 @@ def crew_advice(report: JobReport, column: ColumnReport) -> CrewAdvice:
             return _hanging(column, frame, frame.correction, hoist, compass)
     repair = column.repair
     if hoist.state == "yes":
-        steps = [*_turned(column), Step(phrase("crew.nothing_to_do")), *_room(column)]
+        steps = [*_turned(column), Step(phrase("crew.nothing_to_do"), left=_room(column))]
         return CrewAdvice("green", phrase("crew.go"), tuple(steps), (), 0.0, hoist, compass)
     failed = column.verdict == "fail"
     light: Light = "red" if failed else "amber"
@@ -87,16 +88,22 @@ def crew_advice(report: JobReport, column: ColumnReport) -> CrewAdvice:
 
 def in_steps(advice: CrewAdvice) -> Phrase:
     """The steps of an advice in one line, numbered where they are several."""
-    release = phrase("crew.after_release")
-    told = [
-        Phrase(f"{step.text.en} ({release.en})", f"{step.text.zh}（{release.zh}）") if step.release else step.text
-        for step in advice.steps
-    ]
+    told = [_in_line(step) for step in advice.steps]
     if len(told) == 1:
         return told[0]
     return Phrase(
         " ".join(f"{number}. {text.en}" for number, text in enumerate(told, start=1)),
         " ".join(f"{number}. {text.zh}" for number, text in enumerate(told, start=1)),
+    )
+
+
+def _in_line(step: Step) -> Phrase:
+    release, left = phrase("crew.after_release"), step.left or Phrase("", "")
+    if not step.release:
+        return Phrase(f"{step.text.en} {left.en}".strip(), f"{step.text.zh}{left.zh}")
+    return Phrase(
+        f"{step.text.en.removesuffix('.')} ({release.en}). {left.en}".strip(),
+        f"{step.text.zh.removesuffix('。')}（{release.zh}）。{left.zh}",
     )
 
 
@@ -243,19 +250,25 @@ def _repair(column: ColumnReport, repair: RepairReport, compass: Compass) -> Ite
     else:
         if column.verdict == "inconclusive":
             yield _scan_closer(column)
-        yield from (_of_pair(step, compass) for step in repair.steps)
-        yield from _left_over(repair)
+        yield from _pairs(repair, compass)
         yield Step(phrase("crew.scan_bars_again"))
 
 
-def _left_over(repair: RepairReport) -> Iterator[Step]:
-    """What stays beyond its limit of position once the steps are done: the column goes on, and the engineer decides."""
-    after = {step.rebar: step for step in repair.steps if step.position_after_mm is not None}
-    known = [after[label] for label in repair.still_fails if label in after]
-    for step in known:
-        values = {"rebar": step.rebar, "mm": f"{step.position_after_mm:.1f}", "limit": f"{step.position_limit_mm:g}"}
-        yield Step(phrase("crew.still_off_by", **values))
-    rest = [label for label in repair.still_fails if label not in after]
+def _pairs(repair: RepairReport, compass: Compass) -> Iterator[Step]:
+    """What to do with each pair, and with it what stays beyond a limit of position then: the engineer decides."""
+    known = set()
+    for step in repair.steps:
+        done = _of_pair(step, compass)
+        if step.rebar in repair.still_fails and step.position_after_mm is not None:
+            known.add(step.rebar)
+            values = {
+                "rebar": step.rebar,
+                "mm": f"{step.position_after_mm:.1f}",
+                "limit": f"{step.position_limit_mm:g}",
+            }
+            done = replace(done, left=phrase("crew.still_off_by", **values))
+        yield done
+    rest = [label for label in repair.still_fails if label not in known]
     if rest:
         yield Step(phrase("crew.still_off", labels=", ".join(rest)))
 
@@ -301,7 +314,7 @@ def _turned(column: ColumnReport) -> Iterator[Step]:
         yield Step(phrase("crew.set_turned", rebar=rebar))
 
 
-def _room(column: ColumnReport) -> Iterator[Step]:
+def _room(column: ColumnReport) -> Phrase | None:
     """How far the column may be off its best position, whichever way: no bar then passes its limit or touches.
 
     The feasible window is larger, for it lets the column give way in the other coordinates; a crew cannot do that.
@@ -309,5 +322,4 @@ def _room(column: ColumnReport) -> Iterator[Step]:
     rooms = [pair.limit_mm - pair.distance_mm for pair in column.pairs if pair.limit_mm is not None]
     rooms += [pair.clearance_mm for pair in column.pairs if pair.clearance_mm is not None]
     room_mm = math.floor(10.0 * min(rooms, default=0.0)) / 10.0
-    if room_mm >= SMALLEST_MM:
-        yield Step(phrase("crew.lower_middle", mm=f"{room_mm:.1f}"))
+    return phrase("crew.lower_middle", mm=f"{room_mm:.1f}") if room_mm >= SMALLEST_MM else None

@@ -10,7 +10,7 @@ from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.pages.crew import CrewAdvice, Step, crew_advice
 from aadm_workbench.report.pages.crew_sketch import crew_sketch, sleeves_from_below
-from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, pages, write, write_lines
+from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, end_page, pages, write, write_lines
 from aadm_workbench.report.pages.pdf_text import lines_of, reportlab, width_of
 from aadm_workbench.report.words.labels import COLOUR, FAINT, HEAD, INK, WARN, Language, phrase
 
@@ -34,7 +34,7 @@ def write_crew_pages(report: JobReport, path: Path, language: Language = "zh") -
     with pages(path, title, "crew.pdf") as canvas:
         for finding in findings(report):
             _Page(canvas, language).draw(report, finding)
-            canvas.showPage()
+            end_page(canvas)
 
 
 class _Page:
@@ -90,6 +90,7 @@ class _Page:
     def _title(self, name: str) -> None:
         text = phrase(name)
         said = f"{text.in_language(self.first)}  {text.in_language(self.second)}"
+        self.y -= 1.0 * MM
         write(self.canvas, (_LEFT, self.y), said, 12.0, colour=FAINT, bold=True)
         self.y -= 8.0 * MM
 
@@ -115,7 +116,12 @@ class _Page:
             said = phrase("crew.after_release")
             both = f"{said.in_language(self.first)}  {said.in_language(self.second)}"
             self.y = write_lines(canvas, (x, self.y), both, 0.72 * size, wide, colour=WARN, bold=True)
-        self.y = min(self.y, top - 1.6 * size) - 0.5 * size
+        if step.left is not None:
+            self.y = write_lines(canvas, (x, self.y), step.left.in_language(self.first), 0.72 * size, wide)
+            self.y = write_lines(
+                canvas, (x, self.y), step.left.in_language(self.second), 0.6 * size, wide, colour=FAINT
+            )
+        self.y = min(self.y, top - 1.6 * size) - 0.8 * size
 
     def _reasons(self, finding: Finding) -> None:
         """The decisive ones; the second language below the first where there is room."""
@@ -127,9 +133,12 @@ class _Page:
             if reason.en != reason.zh:
                 said = reason.in_language(self.second)
                 self.y = write_lines(self.canvas, (_LEFT, self.y), said, 9.0, _WIDTH, colour=FAINT, most=2)
-            self.y -= 3.0
+            self.y -= 5.0
         if finding.more:
-            write(self.canvas, (_LEFT, self.y), f"+ {finding.more}", 10.0, colour=FAINT)
+            more = phrase("crew.more_reasons", number=finding.more)
+            said = f"{more.in_language(self.first)}  {more.in_language(self.second)}"
+            write(self.canvas, (_LEFT, self.y), said, 9.0, colour=FAINT)
+            self.y -= 4.0 * MM
 
     def _foot(self, report: JobReport, column: ColumnReport, advice: CrewAdvice) -> None:
         """The sketch in the lower half, beside it the foot from below and the box for the engineer's signature."""
@@ -140,15 +149,15 @@ class _Page:
         below = sleeves_from_below(column)
         bars_matter = any(point.verdict != "pass" for point in column.points(Kind.REBAR))
         if below is not None and not bars_matter and not advice.shifts:
-            self._caption("crew.from_below", (_LEFT, low + side + 3.0 * MM), side)
+            self._caption("crew.from_below", (_LEFT, low + side + 2.0 * MM), _WIDTH)
             draw_sketch(canvas, below, (_LEFT, low), side)
         elif column.rebars or column.sleeves or advice.shifts:
             shown = "crew.sleeves_from_above" if column.sleeves and not column.rebars else "crew.from_above"
-            self._caption(shown, (_LEFT, low + side + 3.0 * MM), side)
+            self._caption(shown, (_LEFT, low + side + 2.0 * MM), side if below is not None else _WIDTH)
             draw_sketch(canvas, crew_sketch(column, advice, self.first), (_LEFT, low), side)
             if below is not None:
                 width = min(narrow, side - 40.0 * MM)
-                self._caption("crew.from_below", (beside, low + side + 3.0 * MM), narrow)
+                self._caption("crew.from_below", (beside, low + side + 2.0 * MM), narrow)
                 draw_sketch(canvas, below, (beside, low + side - width - 4.0 * MM), width)
         if any(step.release for step in advice.steps) or advice.light == "red":
             self._signature((beside, low), narrow)

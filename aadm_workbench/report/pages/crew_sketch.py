@@ -16,7 +16,8 @@ from aadm_workbench.report.words.labels import Language
 SIDE = 220.0
 """Of the drawing, in its own units; the page gives it its size."""
 _DOT, _RING = 5.5, 10.5  # radii of a point, and of the ring about one to look at
-_MARGIN = 36.0  # about the foot: labels and arrows of its outermost points
+_MARGIN = 36.0  # about the foot: names and arrows of its outermost points, and where its sides lead to
+_NARROW = 20.0  # the same where nobody knows where its sides lead to
 _ARROW = 26.0  # long enough to show a direction, whatever the distance
 _MOVE = 52.0  # the arrow of the whole column: twice those of bars
 _TURN_RADIUS = 30.0  # of the bow that shows a turn: within the innermost bars
@@ -29,7 +30,8 @@ def crew_sketch(column: ColumnReport, advice: CrewAdvice, language: Language) ->
     frames are known has its outline, and the arrow.
     """
     points = column.points(Kind.REBAR) or column.points(Kind.SLEEVE)
-    frame = _Frame(column, points, advice.compass.turn_deg)
+    margin = _MARGIN if advice.compass.placed else _NARROW
+    frame = _Frame(column, points, advice.compass.turn_deg, margin)
     shifts = {shift.label: shift for shift in advice.shifts}
     layout = Layout(SIDE, SIDE)
     shapes = [*_outline(column, frame, layout), *_edge_names(advice.compass, language, layout)]
@@ -43,7 +45,7 @@ def sleeves_from_below(column: ColumnReport) -> Sketch | None:
     points = column.points(Kind.SLEEVE)
     if all(point.verdict in ("pass", "not_assessed") for point in points):
         return None
-    frame = _Frame(column, points, 0.0, mirrored=True)
+    frame = _Frame(column, points, 0.0, _NARROW, mirrored=True)
     layout = Layout(SIDE, SIDE)
     shapes = [*_outline(column, frame, layout)]
     return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, {}, {*blame_of(column).follows}, layout)))
@@ -85,7 +87,13 @@ class _Frame:
     """From the column frame, mm, to the sketch: scaled, and turned so that the plan's top is at the top."""
 
     def __init__(
-        self, column: ColumnReport, points: Sequence[PointResult], turn_deg: float, *, mirrored: bool = False
+        self,
+        column: ColumnReport,
+        points: Sequence[PointResult],
+        turn_deg: float,
+        margin: float,
+        *,
+        mirrored: bool = False,
     ) -> None:
         ends = [abs(value) for point in points for value in point.design_mm[:2]]
         reach = max([*ends, *(side / 2.0 for side in column.size_mm or ()), 1.0])
@@ -94,7 +102,7 @@ class _Frame:
         self.mirror = -1.0 if mirrored else 1.0
         # Turned by 45 degrees the outline is wider by that factor.
         spread = abs(self.cosine) + abs(self.sine)
-        self.scale = (SIDE / 2.0 - _MARGIN) / (reach * spread)
+        self.scale = (SIDE / 2.0 - margin) / (reach * spread)
         x, y = column.size_mm or (0.0, 0.0)
         sine, cosine = abs(self.sine), abs(self.cosine)
         self.half = ((cosine * x + sine * y) / 2.0 * self.scale, (sine * x + cosine * y) / 2.0 * self.scale)
@@ -128,12 +136,10 @@ def _dot(point: PointResult, at: Point, radius: float) -> Iterator[Shape]:
 
 
 def _name(point: PointResult, frame: _Frame, layout: Layout, dot: float, *, alarming: bool) -> Iterator[Shape]:
-    """Outside of the pattern, where no arrow of the column stands; elsewhere where that is taken."""
+    """Straight towards the middle, where no edge is; elsewhere where that is taken."""
     at = frame.place(point.design_mm)
-    outwards = (at[0] - SIDE / 2.0, at[1] - SIDE / 2.0)
-    straight = (math.copysign(1.0, outwards[0]), 0.0)
-    if abs(outwards[1]) > abs(outwards[0]):
-        straight = (0.0, math.copysign(1.0, outwards[1]))
+    x, y = SIDE / 2.0 - at[0], SIDE / 2.0 - at[1]
+    straight = (0.0, math.copysign(1.0, y)) if abs(y) > abs(x) else (math.copysign(1.0, x), 0.0)
     radius, size = (_RING + 1.2, 11.0) if alarming else (dot, 9.0)
     style = "text-fail" if alarming else "text"
     sign = {"fail": " ✗", "inconclusive": " ?", "not_measured": " –"}.get(point.verdict, "") if alarming else ""

@@ -18,7 +18,7 @@ from aadm_workbench.report.drawing.plan import floor_plans
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.hoist import headline
 from aadm_workbench.report.pages.crew import crew_advice, in_steps
-from aadm_workbench.report.pages.pdf_canvas import A4, MM, pages, write
+from aadm_workbench.report.pages.pdf_canvas import A4, MM, end_page, pages, write
 from aadm_workbench.report.pages.pdf_column import column_parts
 from aadm_workbench.report.pages.pdf_flow import Block, Page, height_of, paginate
 from aadm_workbench.report.pages.pdf_parts import Drawing, fields, paragraph
@@ -27,7 +27,17 @@ from aadm_workbench.report.pages.pdf_tower import setting_out_blocks, tower_bloc
 from aadm_workbench.report.sheets.sheets import MOULD, mould_rows, profile_table
 from aadm_workbench.report.sheets.tables import narrowed
 from aadm_workbench.report.tower import TowerShown
-from aadm_workbench.report.words.labels import COLOUR, FAINT, MOVE, Language, Phrase, all_words, phrase, verdict_words
+from aadm_workbench.report.words.labels import (
+    COLOUR,
+    FAINT,
+    MOVE,
+    Language,
+    Phrase,
+    all_words,
+    phrase,
+    profile_words,
+    verdict_words,
+)
 from aadm_workbench.report.words.reasons import in_both_languages
 
 _MARGIN = 14.0 * MM  # printers reach as far
@@ -78,7 +88,7 @@ class _Book:
                 placed.block.draw(self._canvas, _MARGIN, A4[1] - 14.0 * MM - placed.below)
             write(self._canvas, (_MARGIN, 9.0 * MM), self._title, 7.5, colour=FAINT)
             write(self._canvas, (A4[0] - _MARGIN, 9.0 * MM), str(self._number), 7.5, colour=FAINT, anchor="end")
-            self._canvas.showPage()
+            end_page(self._canvas)
 
 
 def _without_remnant(blocks_of: Callable[[float], list[Block]]) -> list[Page]:
@@ -102,9 +112,8 @@ def _ends_well(found: list[Page]) -> bool:
 def _front(report: JobReport, found: list[Finding], title: str, language: Language) -> Iterator[Block]:
     yield paragraph(title, WIDTH, 17.0, bold=True, outline=0, bookmark="top")
     said = " · ".join(f"{_named(key, language)}: {value}" for key, value in report.capture.items() if value)
-    yield paragraph(
-        " · ".join(part for part in (said, report.profile.title) if part), WIDTH, 8.0, colour=FAINT, after=8.0
-    )
+    limits = profile_words(report.profile.name, report.profile.title).in_language(language)
+    yield paragraph(" · ".join(part for part in (said, limits) if part), WIDTH, 8.0, colour=FAINT, after=8.0)
     bad = any(finding.hoist.state == "no" for finding in found)
     said = headline(report).in_language(language)
     yield paragraph(said, WIDTH, 20.0, bold=True, colour=COLOUR["fail" if bad else "pass"], after=2.0)

@@ -64,9 +64,22 @@ def width_of(text: str, size: float) -> float:
 
 @lru_cache(KEPT_TEXTS)
 def _width_in_thousandths(text: str) -> float:
-    face = prepared_font().face
-    widths, otherwise = face.charWidths, face.defaultWidth
-    return float(sum(widths.get(ord(sign), otherwise) for sign in text))
+    widths = _widths()
+    return sum([widths[sign] for sign in text])
+
+
+@cache
+def _widths() -> _Widths:
+    return _Widths()
+
+
+class _Widths(dict[str, float]):
+    """Widths of signs in thousandths of their size, each looked up once."""
+
+    def __missing__(self, sign: str) -> float:
+        face = prepared_font().face
+        self[sign] = width = float(face.charWidths.get(ord(sign), face.defaultWidth))
+        return width
 
 
 def shortened(text: str, most: int, most_lines: int) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 from aadm_workbench.model import Kind
 from aadm_workbench.report.drawing.layout import Layout
 from aadm_workbench.report.drawing.sketch import Circle, Label, Point, Polyline, Shape, Sketch, arrow, rectangle
-from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, pages, write, write_lines
+from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, end_page, pages, write, write_lines
 from aadm_workbench.report.pages.pdf_text import lines_of
 from aadm_workbench.report.pages.scan_card import (
     CardPart,
@@ -45,7 +45,7 @@ def write_scan_cards(cards: Sequence[ScanCard], path: Path, language: Language =
     with pages(path, phrase("card.title").en, "scan-card.pdf") as canvas:
         for card in cards:
             _Page(canvas, language).draw(card, title)
-            canvas.showPage()
+            end_page(canvas)
 
 
 def picture_sketch(card: ScanCard, part: CardPart) -> Sketch:

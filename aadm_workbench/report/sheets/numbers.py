@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
-from aadm_workbench.report.sheets.tables import CellKind
+if TYPE_CHECKING:
+    from aadm_workbench.report.sheets.tables import CellKind
 
 _DECIMALS: dict[CellKind, int] = {"mm": 2, "mm_signed": 2, "mm_fine": 3, "deg": 2, "ratio": 2, "count": 0}
 

@@ -12,7 +12,6 @@ from aadm_workbench.model import FloatArray, Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile, narrowed
 from aadm_workbench.scan.formats.pcd_header import Field, PcdHeader, parse_header
 from aadm_workbench.scan.formats.records import check_room, coordinate_dtype, gather
-from aadm_workbench.scan.formats.rows import parse_rows
 
 _SIZES_BYTES = 8
 """Before a compressed body stand its length packed and its length unpacked, uint32 each."""
@@ -63,6 +62,8 @@ def _text_points(file: ScanFile, header: PcdHeader, axes: tuple[Field, ...], mm_
     # A value takes a digit and a separator; the last one may do without the separator.
     check_room(file, start, header.count, 2 * header.columns, len(file.content) - start + 1)
     columns = [field.column for field in axes]
+    from aadm_workbench.scan.formats.rows import parse_rows  # as above
+
     points = parse_rows(file, file.content[start:], start, columns, count=header.count)
     return narrowed(points, coordinate_dtype([field.dtype for field in axes]), mm_per_unit)
 

@@ -10,7 +10,6 @@ from aadm_workbench.model import FloatArray, Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile, narrowed
 from aadm_workbench.scan.formats.ply_header import Element, PlyHeader, parse_header
 from aadm_workbench.scan.formats.records import check_room, coordinate_dtype, gather
-from aadm_workbench.scan.formats.rows import parse_rows
 
 MOST_UNEQUAL_ROWS = 1_000_000
 """Rows of lists before the points that are gone through one by one, at a microsecond each."""
@@ -124,6 +123,8 @@ def _text_points(
 ) -> FloatArray:
     # A value takes a digit and a separator; the last one may do without the separator.
     check_room(file, start, vertex.count, 2 * len(vertex.properties), len(file.content) - start + 1)
+    from aadm_workbench.scan.formats.rows import parse_rows  # as above
+
     points = parse_rows(file, file.content[start:], start, columns, count=vertex.count)
     dtype = coordinate_dtype([vertex.properties[column].dtype for column in columns])
     return narrowed(points, dtype, mm_per_unit)

@@ -12,7 +12,8 @@ from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.assembly.trial.shipment import interchangeable, try_margin
 from aadm_workbench.assembly.trial.virtual import try_scans
-from aadm_workbench.model import Array, ColumnDesign, FitCell, Kind, Profile
+from aadm_workbench.model import Array, ColumnDesign, Kind, Profile
+from aadm_workbench.model.shipment import FitCell
 
 CN = load_profile("cn")
 Y_UP = np.array([0.0, 1.0])

@@ -181,8 +181,8 @@ def test_embedded_length(build: Any, square: Array) -> None:
 
 def test_missing_points_are_tried_with_the_rest(build: Any, square: Array) -> None:
     design = build.column(square)
-    bars = build.moved(design.rebars, np.zeros((12, 2)))
-    sleeves = build.moved(design.sleeves, np.zeros((12, 2)))
+    bars = build.moved(design.rebars, np.zeros((12, 2)), 0.05)
+    sleeves = build.moved(design.sleeves, np.zeros((12, 2)), 0.05)
     bars[4] = sleeves[7] = None
     report = try_assembly(design, sleeves, bars, CN, np.random.default_rng(0))
     assert report.verdict is Verdict.NOT_MEASURED
@@ -190,12 +190,17 @@ def test_missing_points_are_tried_with_the_rest(build: Any, square: Array) -> No
     assert report.minimax is not None
     assert len(report.minimax.pairs) == 10
     assert "not measured: R5, S8" in report.reasons
+    assert report.probability is None, "ten pairs that fit say nothing of the two that nobody saw"
+    assert any("is not stated" in note and "R5, S8" in note for note in report.notes)
     far = np.zeros((12, 2))
     far[0], far[6] = [-4.0, -4.0], [4.0, 4.0]
-    bars = build.moved(design.rebars, far)
+    bars = build.moved(design.rebars, far, 0.05)
     bars[4] = None
     report = try_assembly(design, sleeves, bars, CN, np.random.default_rng(0))
     assert report.verdict is Verdict.FAIL, "no pose of eleven pairs is no pose of twelve"
+    assert report.probability is not None
+    assert report.probability <= 0.05
+    assert any("for the pairs that were measured is 0.0 %" in reason for reason in report.reasons)
     few = try_assembly(design, sleeves[:1] + [None] * 11, bars, CN, np.random.default_rng(0))
     assert few.verdict is Verdict.NOT_MEASURED
     assert few.minimax is None

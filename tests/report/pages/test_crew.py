@@ -14,7 +14,7 @@ import pytest
 from aadm_workbench.assembly.pose.minimax import fit_minimax
 from aadm_workbench.model import Array
 from aadm_workbench.report.column_view import advice_notes
-from aadm_workbench.report.pages.crew import CrewAdvice, crew_advice
+from aadm_workbench.report.pages.crew import CrewAdvice, crew_advice, in_steps
 from aadm_workbench.report.pages.crew_page import write_crew_pages
 from tests.report.checked_floor import CASES, CENTRES, HOSTILE, Case, far_apart, floor_report
 from tests.report.test_directions import told_vector
@@ -192,7 +192,7 @@ def test_room_holds_whichever_way_the_column_goes() -> None:
     """Shifted by the room that its page names, every bar stays within its limit and touches nothing."""
     report = floor_report(Case("C-1", "A/1", off={"S3": (0.7, -0.3), "R5": (0.3, 0.9), "R9": (-0.8, 0.0)}))
     column = report["columns"][0]
-    said = " ".join(step.text.en for step in crew_advice(typed(report), of_column(column)).steps)
+    said = in_steps(crew_advice(typed(report), of_column(column))).en
     room_mm = float(re.findall(r"it has ([\d.]+) mm of room in every direction", said)[0])
     pairs = column["trial_assembly"]["minimax"]["pairs"]
     offsets = np.array([pair["offset_mm"] for pair in pairs])
@@ -235,13 +235,15 @@ def test_what_a_bend_leaves_is_told(floor: dict[str, Any]) -> None:
     step = repair["steps"][0]
     step |= {"position_after_mm": 2.3, "position_limit_mm": 2.0}
     repair["still_fails"] = [step["rebar"], "R99"]
-    said = [step.text for step in crew_advice(typed(floor), of_column(column)).steps]
-    (left,) = (text for text in said if "still stands" in text.en)
+    steps = crew_advice(typed(floor), of_column(column)).steps
+    said = [step.text for step in steps]
+    (left,) = (step.left for step in steps if step.left is not None and step.text.en.startswith("Bend"))
+    assert "still stands" in left.en
     assert all(f"{step['rebar']}" in text and "2.3 mm" in text and "2 mm" in text for text in (left.en, left.zh))
     (others,) = (text for text in said if "R99" in text.en)
     assert "R99" in others.zh
     repair["still_fails"] = []
-    assert not any("still" in one.text.en for one in crew_advice(typed(floor), of_column(column)).steps)
+    assert "still" not in in_steps(crew_advice(typed(floor), of_column(column))).en
 
 
 def test_whether_a_clause_says_how_far_to_bend_is_no_matter_of_its_words(floor: dict[str, Any]) -> None:

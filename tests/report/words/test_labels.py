@@ -9,11 +9,10 @@ import pytest
 
 from aadm_workbench.assembly.group_notes import AXES_NOT_TOLD
 from aadm_workbench.errors import CameraError, ScanError
-from aadm_workbench.model import Scan
+from aadm_workbench.model import Reason, Scan
 from aadm_workbench.report.pages.fonts import FONT_FILE
 from aadm_workbench.report.words.labels import all_words
 from aadm_workbench.report.words.reasons import in_both_languages
-from aadm_workbench.scan.axes import TAKEN_FOR_OPENGL
 from aadm_workbench.scan.depth_picture import depth_picture
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.formats.e57 import NO_ROTATION
@@ -66,7 +65,7 @@ def notes_of_scans() -> list[str]:
     with pytest.raises(ScanError) as hollow:
         refuse_ray_distances(Scan(bowl, "a.tiff", viewpoint=np.zeros(3)), bowl)
     errors = [str(caught.value) for caught in (coloured, bent, hollow)]
-    return [*errors, TAKEN_FOR_OPENGL, AXES_NOT_TOLD, NO_ROTATION]
+    return [*errors, Reason("scan.opengl_axes"), AXES_NOT_TOLD, NO_ROTATION]
 
 
 @pytest.mark.parametrize("number", range(6))

@@ -7,7 +7,7 @@ Chinese files re-encoded; a coordinator who compares two versions would then see
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 # Strings and comments may hold semicolons. In UTF-8, GB 18030 and Shift-JIS no second byte is a quote, a semicolon or
@@ -38,27 +38,25 @@ class StepText:
         replaced: Mapping[int, bytes] | None = None,
         removed: Collection[int] = (),
         appended: Iterable[bytes] = (),
-    ) -> bytes:
-        """The file with some entities replaced, some taken out with their line, and some put in at the end."""
-        edits: list[tuple[int, int, bytes | bytearray]] = [
-            (*self.places[number], text) for number, text in (replaced or {}).items()
-        ]
+    ) -> Iterator[bytes]:
+        """The file in parts, some entities replaced, some taken out with their line, and some put in at the end."""
+        edits = {self.places[number]: text for number, text in (replaced or {}).items()}
         for number in removed:
             begin, end = self.places[number]
             line_break = _LINE_BREAK.match(self.content, end)
-            edits.append((begin, line_break.end() if line_break else end, b""))
-        lines = bytearray()
-        for line in appended:
-            lines += line
-            lines += self.line_break
-        edits.append((self.end_of_data, self.end_of_data, lines))
-        kept = memoryview(self.content)
-        pieces: list[bytes | bytearray | memoryview] = []
+            edits[begin, line_break.end() if line_break else end] = b""
+        at_end = (self.end_of_data, self.end_of_data)
         done = 0
-        for begin, end, text in sorted(edits):
-            pieces += [kept[done:begin], text]
+        for begin, end in sorted([*edits, at_end]):
+            yield self.content[done:begin]
+            if (begin, end) == at_end:
+                for line in appended:
+                    yield line
+                    yield self.line_break
+            else:
+                yield edits[begin, end]
             done = end
-        return b"".join([*pieces, kept[done:]])
+        yield self.content[done:]
 
 
 def step_text(content: bytes) -> StepText:

@@ -1,0 +1,116 @@
+"""A foot whose face sites have spoilt, seen by marching along rays over a height: shares nothing with the twin.
+
+Millimetres, camera frame. The face is z = ``DISTANCE``; what is broken out, cut in or plugged is a depth behind it at
+each place. A bore is a place without a floor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from aadm_workbench.model import Camera, Scan
+from aadm_workbench.scan.camera import depth_to_points
+
+Floats = npt.NDArray[np.float64]
+Depth = Callable[[Floats, Floats], Floats]
+"""From places on the face to how far behind it the solid begins there, all mm."""
+
+_STEPS_MM = np.concatenate([np.arange(0.0, 14.0, 0.5), np.arange(14.0, 112.0, 3.5)])
+_HALVINGS = 9
+
+
+@dataclass(frozen=True)
+class SpoiltFoot:
+    """Bores of one ``radius`` at ``centres`` (n, 2), some ``plugged`` or ``covered``; ``spoilt`` is done to the face.
+
+    Where a bore is ``covered`` there is face.
+    """
+
+    centres: Floats
+    radius: float
+    spoilt: Sequence[Depth] = ()
+    plugged: frozenset[int] = frozenset()
+    covered: frozenset[int] = frozenset()
+    plug_mm: float = 10.0
+    land_mm: float = 0.0
+
+    def depth(self, x: Floats, y: Floats) -> Floats:
+        """How far behind the face the solid begins; infinite in an open bore."""
+        deepest = np.zeros(x.shape)
+        for one in self.spoilt:
+            deepest = np.maximum(deepest, one(x, y))
+        for number, (cx, cy) in enumerate(self.centres):
+            squares = (x - cx) ** 2 + (y - cy) ** 2
+            if self.land_mm:
+                deepest[squares < (self.radius + self.land_mm) ** 2] = 0.0
+            if number not in self.covered:
+                end_mm = self.plug_mm if number in self.plugged else np.inf
+                deepest[squares < self.radius**2] = end_mm
+        return deepest
+
+
+def dish(cx: float, cy: float, reach_mm: float, depth_mm: float) -> Depth:
+    """A piece broken out, as round as a bowl: a paraboloid."""
+    return lambda x, y: depth_mm * np.clip(1.0 - ((x - cx) ** 2 + (y - cy) ** 2) / reach_mm**2, 0.0, 1.0)
+
+
+def grooves(period_mm: float, depth_mm: float) -> Depth:
+    """Keys: grooves half as wide as they are apart."""
+    return lambda x, y: np.where(np.mod(x, period_mm) < period_mm / 2.0, depth_mm, 0.0)
+
+
+def scanned(
+    foot: SpoiltFoot,
+    distance_mm: float,
+    rng: np.random.Generator,
+    *,
+    noise_mm: float = 0.05,
+    lost: float = 0.01,
+    lost_in_bores: float = 0.2,
+    focal_px: float = 2400.0,
+) -> Scan:
+    """The picture of a foot by a camera square to its face, beside its middle."""
+    reach = np.abs(foot.centres).max(axis=0) + foot.radius + 22.0
+    width, height = (2.0 * reach * focal_px / distance_mm).astype(int).tolist()
+    aside = focal_px / distance_mm * np.array([40.0, -25.0])
+    camera = Camera(focal_px, focal_px, width / 2.0 + aside[0], height / 2.0 + aside[1], width, height)
+    u, v = np.meshgrid(np.arange(width), np.arange(height))
+    x, y = (u - camera.cx) / focal_px, (v - camera.cy) / focal_px
+    middle = -aside / focal_px * distance_mm
+    z = _marched(foot, x, y, middle, distance_mm)
+    deep = z > distance_mm + 1.0
+    gone = rng.random(z.shape) < np.where(deep, lost_in_bores, lost)
+    z = np.where(gone, np.nan, z + rng.normal(0.0, noise_mm, z.shape))
+    return Scan(depth_to_points(z.astype(np.float32), camera), "foot", "", camera, np.zeros(3))
+
+
+def true_points(foot: SpoiltFoot, distance_mm: float) -> Floats:
+    """Centres (n, 3) of the mouths, scan frame."""
+    middle = -np.array([40.0, -25.0])
+    return np.column_stack([foot.centres + middle, np.full(len(foot.centres), distance_mm)])
+
+
+def _marched(foot: SpoiltFoot, x: Floats, y: Floats, middle: Floats, distance_mm: float) -> Floats:
+    """Depth (h, w) at which each ray first lies in the solid; NaN where it goes on."""
+
+    def inside(behind: Floats, rays: npt.NDArray[np.intp]) -> npt.NDArray[np.bool_]:
+        z = distance_mm + behind
+        return behind >= foot.depth(x.ravel()[rays] * z - middle[0], y.ravel()[rays] * z - middle[1])
+
+    low, high = np.zeros(x.size), np.full(x.size, np.nan)
+    open_ = np.arange(x.size)
+    for step in _STEPS_MM:
+        hit = inside(np.full(len(open_), step), open_)
+        high[open_[hit]] = step
+        open_ = open_[~hit]
+        low[open_] = step
+    found = np.flatnonzero(high > 0.0)
+    for _ in range(_HALVINGS):
+        half = (low[found] + high[found]) / 2.0
+        hit = inside(half, found)
+        high[found[hit]], low[found[~hit]] = half[hit], half[~hit]
+    return (distance_mm + high).reshape(x.shape)
