@@ -164,7 +164,7 @@ def test_watch_measures_new_frames_waits_for_unfinished_ones_and_skips_bad_ones(
     state = json.loads((frames / "aadm-state.json").read_text(encoding="utf-8"))
     assert code == 12  # the last frame was no picture
     assert "old.tiff" not in said
-    assert [line.partition(":")[0] for line in said.splitlines()] == ["a.tiff", "b.tiff", "c.tiff"]
+    assert [line.partition(":")[0] for line in said.splitlines()] == ["L-1", "a.tiff", "b.tiff", "c.tiff"]
     assert "still for 2 frames" in said
     assert (state["frames"], state["bad_frames"], state["frame"]["verdict"]) == (3, 1, "error")
     assert not list(frames.glob(".*"))
@@ -192,6 +192,16 @@ def test_watch_says_its_last_state_as_json(folder: Path, capsysbinary: pytest.Ca
     assert state["reason"] == "seen in fewer than three frames: whether it moves is not known"
     assert state["frame"]["near"] == "-x-y"
     assert len(state["running"]["pairs"]) == 12
+
+
+def test_watch_without_a_frame_has_no_state_to_say(
+    folder: Path, tmp_path: Path, capsysbinary: pytest.CaptureFixture[bytes]
+) -> None:
+    options = ["--column", "L-1", "--present", "--seconds", "0.1", "--json"]
+    assert main(["watch", str(folder / "job.toml"), str(tmp_path), *options]) == 13
+    said = capsysbinary.readouterr()
+    assert said.out == b""
+    assert b"Traceback" not in said.err
 
 
 def moved_by(found: HoistingMeasurement, shift_mm: float) -> HoistingMeasurement:
