@@ -261,7 +261,11 @@ def _pairs(repair: RepairReport, compass: Compass) -> Iterator[Step]:
         done = _of_pair(step, compass)
         if step.rebar in repair.still_fails and step.position_after_mm is not None:
             known.add(step.rebar)
-            values = {"rebar": step.rebar, "mm": f"{step.position_after_mm:.1f}", "limit": f"{step.position_limit_mm:g}"}
+            values = {
+                "rebar": step.rebar,
+                "mm": f"{step.position_after_mm:.1f}",
+                "limit": f"{step.position_limit_mm:g}",
+            }
             done = replace(done, left=phrase("crew.still_off_by", **values))
         yield done
     rest = [label for label in repair.still_fails if label not in known]

@@ -118,7 +118,9 @@ class _Page:
             self.y = write_lines(canvas, (x, self.y), both, 0.72 * size, wide, colour=WARN, bold=True)
         if step.left is not None:
             self.y = write_lines(canvas, (x, self.y), step.left.in_language(self.first), 0.72 * size, wide)
-            self.y = write_lines(canvas, (x, self.y), step.left.in_language(self.second), 0.6 * size, wide, colour=FAINT)
+            self.y = write_lines(
+                canvas, (x, self.y), step.left.in_language(self.second), 0.6 * size, wide, colour=FAINT
+            )
         self.y = min(self.y, top - 1.6 * size) - 0.8 * size
 
     def _reasons(self, finding: Finding) -> None:
