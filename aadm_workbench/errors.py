@@ -81,7 +81,7 @@ class MissingDependencyError(AadmError):
         from aadm_workbench.model import Reason
 
         is_private = os.environ.get(PRIVATE_ENVIRONMENT) and install.startswith("pip ")
-        code = "errors.missing.private" if is_private else "errors.missing"
+        code = "command.missing.private" if is_private else "command.missing"
         super().__init__(Reason(code, needed_for=needed_for, package=package, install=install))
         self.package = package
         self.install = install

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.own_files import is_there
 
 if TYPE_CHECKING:
     from aadm_workbench.model import JobReport
@@ -30,8 +31,8 @@ FORMATS = {
 }
 """By the name of their switch: file, and what it is."""
 
-_WITH_TOWER = ("html", "pdf")
-"""Formats that show the tower of a job with [stack]."""
+SETTING_OUT = "setting-out.csv"
+"""Beside report.csv of a job with [stack]: where the next storey will find its bars."""
 
 _PACKAGES = {
     "html": ("jinja2", "fonttools"),
@@ -134,10 +135,14 @@ def write_reports(report: JobReport, formats: Sequence[str], folder: Path, how: 
             failed[name] = error
         else:
             files[name] = path
+            beside = path.with_name(SETTING_OUT)
+            if name == "csv" and "stack" in report.job and is_there(beside):
+                files["setting_out"] = beside
     return Written(files, failed)
 
 
-def _write_with_tower(name: str, report: JobReport, path: Path, language: Language, model: Path | None) -> None:
+def _with_tower(name: str, report: JobReport, path: Path, language: Language, model: Path | None) -> None:
+    """A format that shows the tower of a job with [stack]."""
     from .tower_plan import tower_of
 
     tower = tower_of(report, model)
@@ -145,31 +150,32 @@ def _write_with_tower(name: str, report: JobReport, path: Path, language: Langua
         from aadm_workbench.report.pages.html import write_html
 
         write_html(report, path, language, tower=tower)
-    else:
+    elif name == "pdf":
         from aadm_workbench.report.pages.pdf import write_pdf
 
         write_pdf(report, path, language, tower=tower)
+    elif name == "xlsx":
+        from aadm_workbench.report.sheets.xlsx import write_xlsx
+
+        write_xlsx(report, path, language, tower=tower)
+    else:
+        from aadm_workbench.report.sheets.csv import write_csv, write_setting_out
+
+        write_csv(report, path)
+        if tower is not None and tower.setting_out:
+            write_setting_out(tower, path.with_name(SETTING_OUT))
 
 
 def _write(name: str, report: JobReport, path: Path, how: HowReports) -> None:
     """One report; the packages of a format are imported only where it is asked for."""
     language = how.language
-    if name in _WITH_TOWER:
-        _write_with_tower(name, report, path, language or "en", how.model)
-    elif name == "xlsx":
-        from aadm_workbench.report.sheets.xlsx import write_xlsx
-
-        write_xlsx(report, path, language or "en")
-    elif name == "csv":
-        from aadm_workbench.report.sheets.csv import write_csv
-
-        write_csv(report, path)
+    if name in ("html", "pdf", "xlsx", "csv"):
+        _with_tower(name, report, path, language or "en", how.model)
     elif name == "fcstd":
         from .fcstd import write_fcstd
 
         write_fcstd(report, path)
     elif name in ("bcf", "bcf_pairs"):
-        from aadm_workbench.own_files import is_there
         from aadm_workbench.report.bcf.topics import write_bcf
 
         per: Literal["column", "pair"] = "pair" if name == "bcf_pairs" else "column"

@@ -10,6 +10,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any, TypeVar
 
 from aadm_workbench.inspection.job import Job
+from aadm_workbench.model.made import Made
 
 Part = TypeVar("Part")
 
@@ -54,6 +55,8 @@ def _mapped(value: Any, text: Callable[[str], str]) -> Any:
     if type(value) is str:
         new = text(value)
         return value if new == value else new
+    if isinstance(value, Made):
+        return value.changed(lambda _, item: _mapped(item, text), keeps_facts=True)
     if isinstance(value, tuple):
         items = tuple(_mapped(item, text) for item in value)
         return value if all(one is other for one, other in zip(items, value, strict=True)) else items

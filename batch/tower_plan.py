@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.model.made import changed
 
 if TYPE_CHECKING:
     from aadm_workbench.design.floor import Floor
@@ -111,4 +112,5 @@ def with_setting(report: JobReport, model: Path | None) -> JobReport:
     from aadm_workbench.stack.setting import setting_report
 
     found = {one.measured.id: setting_report(one) for one in plan.columns}
-    return replace(report, columns=tuple(replace(one, setting=found[one.id]) for one in report.columns))
+    columns = changed(report.columns, lambda _, one: replace(one, setting=found[one.id]), keeps_facts=True)
+    return replace(report, columns=columns)

@@ -3,14 +3,16 @@
     python -m benchmarks.chaos [--columns 300] [--full-size] [--seed 1] [--kill-every 2.0] [--folder DIR]
 
 The calm check comes first. Then inputs are corrupted, some before and some during the second check, whose workers are
-killed one by one and whose own process is killed twice, each time to be resumed; strangers put links and pipes into its
-folder, and reach for its ports, pipes and files. Every column whose inputs were sound must come to the same report, bit
+killed one by one and whose own process is killed twice, each time to be resumed; then the disk is full, a scheduler
+dies, and a worker sees an empty mount (:mod:`benchmarks.faults`); strangers put links and pipes into its folder, and
+reach for its ports, pipes and files. Every column whose inputs were sound must come to the same report, bit
 by bit; every other must be an error of its own; no stranger may get anywhere. Ends with 1 where it is not so.
 """
 
 from __future__ import annotations
 
 import argparse
+import functools
 import json
 import subprocess
 import sys
@@ -23,6 +25,7 @@ from typing import Any
 import numpy as np
 import psutil
 
+from benchmarks.faults import Faults, meet_faults
 from benchmarks.floors import SMALL, write_floor
 from benchmarks.strangers import Strangers
 
@@ -49,12 +52,13 @@ class Chaos:
     exit_codes: list[int] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
     harm: list[str] = field(default_factory=list)
+    faults: Faults = field(default_factory=Faults)
 
     @property
     def ended_well(self) -> bool:
         """Whether sound columns are as in the calm check, the others are errors, and no stranger got anywhere."""
         sound = not self.differ and not self.not_noticed and not self.harm
-        return sound and self.processes_killed == _PROCESS_DEATHS
+        return sound and self.processes_killed == _PROCESS_DEATHS and self.faults.all_said
 
 
 def run_chaos(
@@ -77,6 +81,9 @@ def run_chaos(
             strangers.plant(rng)
         dies_at = (number + 1) * columns // (_PROCESS_DEATHS + 1) if number < _PROCESS_DEATHS else None
         chaos.exit_codes.append(_run(job, chaos, rng, during, kill_every_s, dies_at, resume=number > 0))
+        if number == _PROCESS_DEATHS - 1:
+            kept = functools.partial(_kept, harmed / "job-report" / "journal.jsonl")
+            chaos.faults = meet_faults([*_command(job, scheduler=True), "--resume"], job, kept)
     while during:
         chaos.corrupt.append(_corrupt(harmed / "scans", during.pop(), rng))
     # What was spoilt after its column had been checked is found now: nothing else is checked again.
@@ -87,8 +94,19 @@ def run_chaos(
     return chaos
 
 
-def _command(job: Path) -> list[str]:
-    return [sys.executable, "-m", "batch", "check", str(job), "--jobs", "2", "--quiet", "--debug"]
+def _command(job: Path, *, scheduler: bool = False) -> list[str]:
+    """A check in two processes, or by a scheduler that is still to be named."""
+    processes = [] if scheduler else ["--jobs", "2"]
+    return [
+        sys.executable,
+        "-m",
+        "batch",
+        "check",
+        str(job),
+        *processes,
+        "--quiet",
+        *([] if scheduler else ["--debug"]),
+    ]
 
 
 def _run(
@@ -195,6 +213,7 @@ def main() -> int:
     them = chaos.strangers
     print(f"strangers: {them.links} links, {them.pipes} pipes, {them.users} attempts as another user: ", end="")
     print("; ".join(chaos.harm) or "nothing written, opened or found listening")
+    print(*chaos.faults.lines(), sep="\n")
     print(f"columns with spoilt inputs: {len(chaos.corrupt)}, not noticed: {chaos.not_noticed or 'none'}")
     if not chaos.ended_well:
         print(*chaos.said, sep="\n---\n")

@@ -5,14 +5,14 @@
     python -m benchmarks.reports --failing             # every column fails: each has a topic, reasons, advice
 
 The columns are those of the sample floor, checked from their scans, again and again under other names and GlobalIds,
-six metres apart, with other figures: what a format shares between columns that are alike is not to flatter it. Prints a table; ends with 1 where a format needs more than it should.
+six metres apart, with other figures: what a format shares between columns that are alike is not to flatter it. Prints a
+table; ends with 1 where a format needs more than it should.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import random
 import resource
 import subprocess
 import sys
@@ -22,6 +22,8 @@ import uuid
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from aadm_workbench.report.read import read_report
 from batch.report_files import write_reports
@@ -52,7 +54,7 @@ def many_columns(document: dict[str, Any], number: int, *, failing: bool = False
     """The same columns again and again, under names, GlobalIds and places of their own."""
     columns = [c for c in document["columns"] if c["verdict"] == "fail" or not failing]
     made = []
-    generator = random.Random(number)  # noqa: S311 - figures, no secrets
+    generator = np.random.default_rng(number)
     for k in range(number):
         column = _otherwise(columns[k % len(columns)], generator)
         column["id"] = f"K-{k:04d}"
@@ -69,14 +71,14 @@ def many_columns(document: dict[str, Any], number: int, *, failing: bool = False
     return document | {"columns": made, "mould_drift": document["mould_drift"]}
 
 
-def _otherwise(value: Any, generator: random.Random) -> Any:
+def _otherwise(value: Any, generator: np.random.Generator) -> Any:
     """A copy with other lengths and angles."""
     if isinstance(value, dict):
         kept = {name: entry for name, entry in value.items() if any(part in name for part in _SAME)}
         return {name: kept[name] if name in kept else _otherwise(entry, generator) for name, entry in value.items()}
     if isinstance(value, list):
         return [_otherwise(entry, generator) for entry in value]
-    return round(value + generator.uniform(0.0, _OTHERWISE_MM), 4) if isinstance(value, float) else value
+    return round(value + float(generator.uniform(0.0, _OTHERWISE_MM)), 4) if isinstance(value, float) else value
 
 
 def _letters(number: int) -> str:
@@ -100,20 +102,21 @@ def measure(path: Path, name: str, folder: Path) -> dict[str, float]:
 def measured(path: Path, name: str, folder: Path) -> dict[str, float]:
     """The same, in this process."""
     report = read_report(path)
-    before, wall = _cpu_s(), time.perf_counter()
-    read_mb = _peak_mb()
+    before, wall = cpu_s(), time.perf_counter()
+    read_mb = peak_mb()
     written = write_reports(report, (name,), folder)
-    seconds, took = _cpu_s() - before, time.perf_counter() - wall
+    seconds, took = cpu_s() - before, time.perf_counter() - wall
     size = sum(file.stat().st_size for file in written.files.values())
-    return {"cpu_s": seconds, "wall_s": took, "read_mb": read_mb, "peak_mb": _peak_mb(), "mb": size / 1e6}
+    return {"cpu_s": seconds, "wall_s": took, "read_mb": read_mb, "peak_mb": peak_mb(), "mb": size / 1e6}
 
 
-def _cpu_s() -> float:
+def cpu_s() -> float:
+    """That this process has used."""
     used = resource.getrusage(resource.RUSAGE_SELF)
     return used.ru_utime + used.ru_stime
 
 
-def _peak_mb() -> float:
+def peak_mb() -> float:
     """Of this process alone: what getrusage says begins with that of its parent."""
     status = Path("/proc/self/status").read_text(encoding="utf-8")
     return float(next(line.split()[1] for line in status.splitlines() if line.startswith("VmHWM:"))) / 1024.0

@@ -1,10 +1,13 @@
 """How long a shipment takes, and what memory: the whole command against a bare loop, and one column against 2,000.
 
-    python -m benchmarks.shipment [--columns 100] [--sizes 10 100 1000 2000] [--only start floor growth] [--json FILE]
+    python -m benchmarks.shipment [--columns 100] [--sizes 10 100 1000 2000] [--only start floor growth resume]
+        [--json FILE]
 
 ``start`` times the command alone. ``floor`` checks columns with two depth maps of 2.3 megapixels each, with two
 processes and with one, and compares with two processes that do nothing but the same checks in a loop. ``growth`` checks
-more and more columns with small scans. Memory is sampled from outside while the command runs.
+more and more columns with small scans. ``resume`` goes on with checks of which all is done: the results of five
+columns, repeated under other names; once the report is still to be written, once it stands there. Memory is sampled
+from outside while the command runs.
 """
 
 from __future__ import annotations
@@ -18,18 +21,23 @@ import sys
 import tempfile
 import threading
 import time
-from dataclasses import asdict, dataclass, field
+from contextlib import closing
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import psutil
 
+from aadm_workbench.inspection.tasks import plan_job
 from batch.job.file import read_job
-from batch.program import program_versions
+from batch.job.inputs import looks, order_key, task_key
+from batch.program import program_key, program_versions
+from batch.runner.journal import Journal
 from batch.runner.machine import calculate_in_one_thread
-from benchmarks.floors import SMALL, write_floor
+from batch.runner.packed import pack, unpack
+from benchmarks.floors import SMALL, SOUND, write_floor
 
-PARTS = ("start", "floor", "growth")
+PARTS = ("start", "floor", "growth", "resume")
 _SAMPLE_S = 0.05
 _REPEATS = 5
 
@@ -157,6 +165,45 @@ def growth(folder: Path, sizes: list[int]) -> list[dict[str, Any]]:
     return found
 
 
+def resume(folder: Path, sizes: list[int]) -> list[dict[str, Any]]:
+    """What it costs to go on where all is done, by the number of columns: ms of processor time each, memory, bytes."""
+    found = []
+    for columns in sizes:
+        job = write_floor(folder / f"done-{columns}", columns, shrink=SMALL)
+        empty = run_check(job, "--only", *(f"K-{number:04d}" for number in range(len(SOUND))), "--jobs", "1")
+        entries_bytes = _repeat_results(job)
+        writes, stands = (run_check(job, "--resume", "--jobs", "1") for _ in range(2))
+        found.append(
+            {
+                "columns": columns,
+                "bytes_per_column": entries_bytes / columns,
+                "ms_writing": 1000.0 * writes.cpu_s / columns,
+                "ms_standing": 1000.0 * stands.cpu_s / columns,
+                "mb_writing": writes.main_mb,
+                "mb_standing": stands.main_mb,
+                "mb_of_five": empty.main_mb,
+            }
+        )
+    return found
+
+
+def _repeat_results(job: Path) -> int:
+    """Fill the journal of a job with the results of its first columns, under the names of all; its size."""
+    folder = job.parent / "job-report"
+    program = program_key()
+    with closing(Journal(folder, resume=True)) as journal:
+        tasks = plan_job(read_job(job)).tasks
+        first = [journal.record(task.column.id) for task in tasks[: len(SOUND)]]
+        texts = [unpack(record.report) for record in first]
+        for place, task in enumerate(tasks[len(SOUND) :]):
+            like, name = place % len(SOUND), task.column.id
+            order = order_key(task, program)
+            text = texts[like].replace(f'"id":"{first[like].id}"', f'"id":"{name}"', 1)
+            key, seen = task_key(task, order), looks(task, order).hash
+            journal.add(replace(first[like], id=name, key=key, seen=seen, report=pack(text)))
+        return journal.path.stat().st_size
+
+
 def machine() -> dict[str, Any]:
     """What the numbers were measured on."""
     return {
@@ -207,6 +254,16 @@ def show(found: dict[str, Any]) -> None:
             )
 
 
+def _show_resume(rows: list[dict[str, Any]]) -> None:
+    print("all is done; one process, ms of processor time a column and MB: the report written / the report stands")
+    for row in rows:
+        print(
+            f"{row['columns']:7d} columns: {row['ms_writing']:.2f} / {row['ms_standing']:.2f} ms, "
+            f"{row['mb_writing']:.0f} / {row['mb_standing']:.0f} MB (a check of five columns of it: "
+            f"{row['mb_of_five']:.0f} MB), journal {row['bytes_per_column']:.0f} bytes a column"
+        )
+
+
 def main() -> int:
     """Measure what the command line asks for."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -228,7 +285,10 @@ def main() -> int:
             found["floor"] = floor(folder, options.columns)
         if "growth" in options.only:
             found["growth"] = growth(folder, options.sizes)
+        if "resume" in options.only:
+            found["resume"] = resume(folder, options.sizes)
     show(found)
+    _show_resume(found.get("resume", []))
     if options.json:
         options.json.write_text(json.dumps(found, indent=1), encoding="utf-8")
     return 0

@@ -93,6 +93,7 @@ TROUBLES: dict[str, Trouble] = {
     "rough": _site("rough"),
     "keyed": _site("keyed"),
     "spalls": _site("spalls"),
+    "tapes": _site("tapes"),
     "taped-spalls": _site("taped-spalls"),
     "proud-rings": _site("proud-rings"),
     "plugs": _site("plugs"),

@@ -197,14 +197,13 @@ def nothing_listens(path: PurePosixPath, tree: ast.Module) -> Iterator[Finding]:
 
 
 def no_long_files(path: PurePosixPath, tree: ast.Module) -> Iterator[Finding]:
-    """Rule: a file is a room of at most 360 lines (up to its last statement), of tests 400."""
+    """Rule: a file is a room of at most 350 lines (up to its last statement)."""
     last = max((node.end_lineno or 0 for node in tree.body), default=0)
-    most = LONGEST_TEST if is_test(path) else LONGEST_FILE
-    if last > most:
-        yield last, f"is longer than {most} lines: cut it"
+    if last > LONGEST_FILE:
+        yield last, f"is longer than {LONGEST_FILE} lines: cut it"
 
 
-LONGEST_FILE, LONGEST_TEST = 360, 400
+LONGEST_FILE = 350
 RULES: dict[str, Rule] = {
     "FreeCAD only in document and gui": freecad_only_in_document_and_gui,
     "windows only in gui": window_only_in_gui,

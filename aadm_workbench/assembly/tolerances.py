@@ -116,13 +116,13 @@ def load_profile(name: str, beside: Path | None = None) -> Profile:
         path = _folder() / f"{name}.toml"
         if name not in profile_names():
             known = ", ".join(profile_names())
-            raise JobError.because("profile.unknown", name=repr(name), known=known)
+            raise JobError.because("jobfile.profile_unknown", name=repr(name), known=known)
     else:
         path = (beside or Path()) / name
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise JobError.because("profile.unread", path=path, why=error) from error
+        raise JobError.because("jobfile.profile_unread", path=path, why=error) from error
     return parse_profile(text, path.stem, str(path))
 
 
@@ -137,23 +137,25 @@ def parse_profile(text: str, name: str, source: str) -> Profile:
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise JobError.about(source, "profile.no_toml", why=error) from error
+        raise JobError.about(source, "jobfile.profile_no_toml", why=error) from error
     if table.get("schema") != 1:
-        raise JobError.about(source, "profile.schema", found=repr(table.get("schema")))
+        raise JobError.about(source, "jobfile.profile_schema", found=repr(table.get("schema")))
     unknown = sorted(set(table) - {"schema", "name", "title", "rules"})
     if unknown:
-        raise JobError.about(source, "profile.unknown_key", key=repr(unknown[0]), known="name, rules, schema, title")
+        raise JobError.about(
+            source, "jobfile.profile_unknown_key", key=repr(unknown[0]), known="name, rules, schema, title"
+        )
     for key in ("name", "title"):
         if not isinstance(table.get(key, ""), str):
             raise JobError.about(source, "jobfile.not_text", key=key, shown=repr(table[key]))
     entries = table.get("rules", [])
     if not isinstance(entries, list) or not entries or not all(isinstance(entry, dict) for entry in entries):
-        raise JobError.about(source, "profile.no_rules")
+        raise JobError.about(source, "jobfile.profile_no_rules")
     rules = tuple(_rule(entry, f"{source}: rules[{number}]") for number, entry in enumerate(entries, start=1))
     names = [rule.name for rule in rules]
     for rule_name in names:
         if names.count(rule_name) > 1:
-            raise JobError.about(source, "profile.same_name", name=repr(rule_name))
+            raise JobError.about(source, "jobfile.profile_same_name", name=repr(rule_name))
     adjustment = next((rule.upper for rule in rules if rule.limits == "rebar_adjustment"), None)
     return Profile(table.get("name", name), table.get("title", name), rules, adjustment)
 
@@ -184,17 +186,17 @@ def _rule(entry: _Table, where: str) -> Rule:
     where = f"{where} ({entry['name']})" if isinstance(entry.get("name"), str) else where
     for key, value in entry.items():
         if key not in _TYPES:
-            raise JobError.about(where, "profile.unknown_key", key=repr(key), known=sorted(_TYPES))
+            raise JobError.about(where, "jobfile.profile_unknown_key", key=repr(key), known=sorted(_TYPES))
         if not isinstance(value, _TYPES[key]) or (isinstance(value, bool) and bool not in _TYPES[key]):
             raise JobError.about(where, _NOT[_TYPES[key][-1]], key=key, shown=repr(value))
     for key in _REQUIRED:
         if key not in entry:
-            raise JobError.about(where, "profile.missing", key=repr(key))
+            raise JobError.about(where, "jobfile.profile_missing", key=repr(key))
     _one_of(entry["limits"], tuple(QUANTITIES), where, "limits")
     kind = entry.get("kind", QUANTITIES[entry["limits"]])
     _one_of(kind, _KINDS, where, "kind")
     if (kind == "signed") != (QUANTITIES[entry["limits"]] == "signed"):
-        raise JobError.about(where, "profile.kind", limits=entry["limits"], kind=kind)
+        raise JobError.about(where, "jobfile.profile_kind", limits=entry["limits"], kind=kind)
     _one_of(entry["severity"], _SEVERITIES, where, "severity")
     _one_of(entry["source"], _SOURCES, where, "source")
     _one_of(entry.get("level", "bar_in_group"), _LEVELS, where, "level")
@@ -218,20 +220,20 @@ def _rule(entry: _Table, where: str) -> Rule:
 
 def _one_of(value: str, known: tuple[str, ...], where: str, key: str) -> None:
     if value not in known:
-        raise JobError.about(where, "profile.one_of", key=key, known=known, found=repr(value))
+        raise JobError.about(where, "jobfile.profile_one_of", key=key, known=known, found=repr(value))
 
 
 def _check_limits(entry: _Table, kind: str, where: str) -> None:
     upper, lower = float(entry["upper_mm"]), float(entry.get("lower_mm", -math.inf))
     if not math.isfinite(upper) or ("lower_mm" in entry and not math.isfinite(lower)):
-        raise JobError.about(where, "profile.finite")
+        raise JobError.about(where, "jobfile.profile_finite")
     if kind == "signed":
         if lower >= upper:
-            raise JobError.about(where, "profile.order", lower=lower, upper=upper)
+            raise JobError.about(where, "jobfile.profile_order", lower=lower, upper=upper)
     elif "lower_mm" in entry:
-        raise JobError.about(where, "profile.no_lower", kind=kind)
+        raise JobError.about(where, "jobfile.profile_no_lower", kind=kind)
     elif upper <= 0.0:
-        raise JobError.about(where, "profile.positive", upper=upper)
+        raise JobError.about(where, "jobfile.profile_positive", upper=upper)
 
 
 def applicable_rules(profile: Profile, quantity: str) -> tuple[tuple[Rule, ...], tuple[Rule, ...]]:

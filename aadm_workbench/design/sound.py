@@ -59,7 +59,7 @@ def _swept(disk: SweptDisk) -> SweptDisk:
         _check_places(leg.points)
     legs = tuple(joined(disk.legs))
     if not legs:
-        raise UnsoundError(Reason("sound.no_line"))
+        raise UnsoundError(Reason("geometry.unsound_no_line"))
     _check_size(disk.radius_mm, "radius")
     return replace(disk, legs=legs)
 
@@ -67,9 +67,9 @@ def _swept(disk: SweptDisk) -> SweptDisk:
 def _prism(prism: Prism) -> Prism:
     _check_places(prism.sweep, *(loop.points for loop in (prism.outer, *prism.holes)))
     if float(np.linalg.norm(prism.sweep)) < _NO_LENGTH_MM:
-        raise UnsoundError(Reason("sound.no_depth"))
+        raise UnsoundError(Reason("geometry.unsound_no_depth"))
     if not _has_extent(prism.outer):
-        raise UnsoundError(Reason("sound.no_area"))
+        raise UnsoundError(Reason("geometry.unsound_no_area"))
     return replace(prism, holes=tuple(hole for hole in prism.holes if _has_extent(hole)))
 
 
@@ -84,7 +84,7 @@ def _has_extent(loop: Loop) -> bool:
 def _turned(turned: Turned) -> Turned:
     _check_places(turned.origin, turned.axis, turned.outline_rz)
     if np.ptp(turned.outline_rz[:, 1]) < _NO_LENGTH_MM or turned.outline_rz[:, 0].max() < _NO_LENGTH_MM:
-        raise UnsoundError(Reason("sound.turned_no_area"))
+        raise UnsoundError(Reason("geometry.unsound_turned_no_area"))
     return turned
 
 
@@ -94,26 +94,26 @@ def _mesh(mesh: Mesh) -> Mesh:
     for face in mesh.faces:
         for loop in face:
             if len(loop) and (loop.min() < 0 or loop.max() >= len(mesh.vertices)):
-                raise UnsoundError(Reason("sound.no_corner"))
+                raise UnsoundError(Reason("geometry.unsound_no_corner"))
     faces = tuple(
         (face[0], *(hole for hole in face[1:] if len(hole) >= _FEWEST_CORNERS))
         for face in mesh.faces
         if face and len(face[0]) >= _FEWEST_CORNERS
     )
     if not faces:
-        raise UnsoundError(Reason("sound.no_faces"))
+        raise UnsoundError(Reason("geometry.unsound_no_faces"))
     return replace(mesh, faces=faces)
 
 
 def _check_places(*places: Array) -> None:
     for points in places:
         if not (np.abs(points) < FARTHEST_MM).all():
-            raise UnsoundError(Reason("sound.far"))
+            raise UnsoundError(Reason("geometry.unsound_far"))
 
 
 def _check_size(size_mm: float, what: str) -> None:
     if not _NO_LENGTH_MM < size_mm < FARTHEST_MM:
-        raise UnsoundError(Reason("sound.size", what=what, size_mm=size_mm))
+        raise UnsoundError(Reason("geometry.unsound_size", what=what, size_mm=size_mm))
 
 
 def sound_elements(elements: Iterable[Element]) -> tuple[list[Element], list[str]]:
@@ -125,12 +125,14 @@ def sound_elements(elements: Iterable[Element]) -> tuple[list[Element], list[str
         placed = _is_frame(element.T_model_element)
         if len(solids) < len(element.solids) or not placed:
             called = element.Name or element.GlobalId
-            what = Reason("sound.placement") if not placed else Reason("sound.body")
-            lines.append(Reason("sound.left_out", type=element.is_a() or "object", called=repr(called), why=what))
+            what = Reason("geometry.unsound_placement") if not placed else Reason("geometry.unsound_body")
+            lines.append(
+                Reason("geometry.unsound_left_out", type=element.is_a() or "object", called=repr(called), why=what)
+            )
         if solids and placed:
             kept.append(replace(element, solids=solids))
     more = len(lines) - _SHOWN
-    return kept, [*lines[:_SHOWN], Reason("sound.more", count=more)] if more > 0 else lines
+    return kept, [*lines[:_SHOWN], Reason("geometry.unsound_more", count=more)] if more > 0 else lines
 
 
 def _is_sound(solid: Solid) -> bool:

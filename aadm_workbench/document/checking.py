@@ -24,15 +24,18 @@ CHECKED = frozenset({0, 10, 11, 12})
 """Exit codes of a job whose columns were looked at: report.json is there."""
 
 
-def check_work(column: Any) -> Work:
+def check_work(column: Any, profile: str = "") -> Work:
     """What the private process is asked to do; its answer is a whole report.json with one column.
+
+    ``profile`` is the file of what was learned of the camera; empty without.
 
     Raises
     ------
     AadmError
         Where there is nothing to check, or a scan is no longer what was imported.
     """
-    files = {"job.toml": job_toml(job_table([column], DESIGN_FILE)), DESIGN_FILE: design_text([column])}
+    table = job_table([column], DESIGN_FILE, profile=profile)
+    files = {"job.toml": job_toml(table), DESIGN_FILE: design_text([column])}
     for cloud in column.Scans:
         check_unchanged(cloud)
     arguments = ("check", "job.toml", "--out", "out", "--method", column.Method, "--json")

@@ -12,9 +12,9 @@ from typing import Any
 import FreeCAD
 
 from aadm_workbench.document.asking import SCAN_PANELS
+from aadm_workbench.document.display.import_hook import import_hook
 from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.groups import columns_in
-from aadm_workbench.document.import_hook import import_hook
 from aadm_workbench.document.job.scan_names import guessed_kind
 from aadm_workbench.document.private_process import run
 from aadm_workbench.document.scan_cloud import KINDS

@@ -46,6 +46,9 @@ _FLOOR_MM, _SPALL_MM, _PLUG_ROUND, _AGREES_PITCHES = 15.0, 5.0, 0.6, 1.5
 # bore lies on it; fewer points are strays
 _FLOOR_BAND_MM, _FLOOR_SHARE, _FLOOR_POINTS = 2.0, 0.6, 20
 _OPPOSITE_COSINE = 0.3  # 73 degrees to either side of where the camera looks
+# of the radius, from where a hole was found to its centre: a mouth that is open by half has its open part's middle 0.42
+# of it beside; what moves farther is the edge of something else, seen in part
+_MOVED_SHARE = 0.45
 # of a circle: half a mouth may be taped, and a part of the rest lost; a choice: ±30 % moves nothing on sound scans
 _COVERAGE_MIN = 0.35
 
@@ -98,7 +101,7 @@ def mouths_in(
     inside = PlanPoints.of(patches.x, patches.y, np.flatnonzero(solid))
     kept = ~other & (shape.coverage >= _COVERAGE_MIN) & ~_closed(inside, centre, radius_mm, pitch_mm)
     kept &= ~_is_shallow(patches, solid, near & ~front, shape, centre, radius_mm, pitch_mm)
-    kept &= np.hypot(*centre.T) + _INSIDE[1] * radius_mm < radius_mm + REACH_MM  # what lies beyond was not looked at
+    kept &= np.hypot(*centre.T) < _MOVED_SHARE * radius_mm
     hidden = _are_hidden(patches, high_mm, centre, radius_mm, pitch_mm)
     kept &= ~hidden & (not _is_floor(hidden, kept))
     bores = _bores(patches, centre, radius_mm, near)

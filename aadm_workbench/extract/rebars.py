@@ -16,12 +16,26 @@ from aadm_workbench.extract.bars_in_scan import Standing, find_standing, standin
 from aadm_workbench.extract.burrs import burr_u_mm
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
-from aadm_workbench.extract.edges.edge_shift import Bend, bend_at_edges, eroded_rings, no_bend, shift_of_tops
+from aadm_workbench.extract.edges.edge_shift import (
+    PARTS_VIEW_MM,
+    Bend,
+    bend_at_edges,
+    eroded_rings,
+    no_bend,
+    shift_of_tops,
+)
+from aadm_workbench.extract.edges.learned_edges import (
+    LEARNED_BAND_MM,
+    KnownEdges,
+    known_edges,
+    with_learned_discs,
+    without_losses,
+)
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import filter_signs
 from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
-from aadm_workbench.extract.plane import in_plane
+from aadm_workbench.extract.plane import axes_on, in_plane
 from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw, Rims, Walls
 from aadm_workbench.extract.pooled.fit import CircleEvidence, Evidence, PooledFit, fit_pooled, likeliest_circles
 from aadm_workbench.extract.pooled.system import Priors, State
@@ -65,6 +79,7 @@ _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)  # before the vertical is known
 # of the size that was looked for: cores have 0.94 to 1.03 of it, outlines a few hundredths more or less; each look
 # finds more of what is larger than the last one took it for
 _OF_SIZE, _SIZES_TRIED = (0.9, 1.06), 3
+_NEAR_DISC_MM = 1.5  # between a disc and the fit: filters and ribs move one by less, a hidden top by more
 _TURNS = 3  # each is seen along what the last one's bars show: a choice, not tuned since
 
 
@@ -175,7 +190,10 @@ def _measured(
     if leaning is not tops:
         tops, fit = leaning, _fit(leaning, radius_mm, priors)
     fit = _shifted(fit, tops, lines, bend)
-    return _Bars(tops, fit, _points(tops, fit, priors.lean, level), signs.complete)
+    known, lost_mm = known_edges(scan.learned, Kind.REBAR, patches.of(tops.kept).eye, axes_on(level)), 0.0
+    if lines is not None and known is not None:
+        fit, lost_mm = _drawn_to_discs(fit, lines, known), known.most_lost_mm
+    return _Bars(tops, fit, _points(tops, fit, priors.lean, level, lost_mm), signs.complete)
 
 
 def _lines(patches: Patches, planes: TopPlanes, tops: Tops) -> SightLines | None:
@@ -200,6 +218,14 @@ def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -
     shift = shift_of_tops(lines.slope, bend, eroded)
     covariance = _FIT_SHARE**2 * fit.covariance + shift.covariance
     return replace(fit, centre=fit.centre - shift.mean, covariance=covariance, radius_u_mm=shift.radius_u_mm)
+
+
+def _drawn_to_discs(fit: PooledFit, lines: SightLines, known: KnownEdges) -> PooledFit:
+    """The fit, its centres drawn to discs of lines of sight set right by what was learned of the camera."""
+    lines, on = without_losses(lines, fit.centre, -1.0, known), np.abs(lines.height) < LEARNED_BAND_MM
+    discs = seen_discs(lines, on, fit.centre, float(np.median(fit.outline_radius)), known.pitch_mm, -1.0)
+    near = np.hypot(*(discs.centre - fit.centre).T) < _NEAR_DISC_MM
+    return with_learned_discs(fit, discs, near, lines.slope, known, PARTS_VIEW_MM[-1.0])
 
 
 def _fit(tops: Tops, radius_mm: float, priors: Priors) -> PooledFit:
@@ -289,10 +315,10 @@ def _posterior(told: Array, off: Array, lean: float) -> tuple[Array, Array, Arra
     return covariance, mean, evidence
 
 
-def _points(tops: Tops, fit: PooledFit, lean_prior: float, level: Plane) -> tuple[AssemblyPoint, ...]:
+def _points(tops: Tops, fit: PooledFit, lean_prior: float, level: Plane, lost_mm: float) -> tuple[AssemblyPoint, ...]:
     over = np.einsum("ki,ki->k", tops.normal[:, :2], fit.centre)
     height = (tops.offset - over) / tops.normal[:, 2]
-    shape = _shape_u_mm(tops, fit)[:, None, None] ** 2 * np.eye(2)
+    shape = _shape_u_mm(tops, fit, lost_mm)[:, None, None] ** 2 * np.eye(2)
     lean, lean_covariance = _believed_leans(fit, lean_prior)
     return found_points(
         Kind.REBAR,
@@ -311,12 +337,15 @@ def _points(tops: Tops, fit: PooledFit, lean_prior: float, level: Plane) -> tupl
     )
 
 
-def _shape_u_mm(tops: Tops, fit: PooledFit) -> Array:
-    """What each top's departure from a disc may hide (k,): ribs, and more where a burr or a broken piece spoils it."""
+def _shape_u_mm(tops: Tops, fit: PooledFit, lost_mm: float) -> Array:
+    """What each top's departure from a disc may hide (k,): ribs, and more where a burr or a broken piece spoils it.
+
+    What a camera is known to lose, up to ``lost_mm`` behind edges, spoils nothing.
+    """
     count = np.maximum(tops.rims.seen.sum(axis=1), 1)
     behind = np.where(tops.rims.seen, fit.outline_radius[:, None] - tops.rims.distance(fit.centre), 0.0)
     spoilt = np.maximum((behind < -_INSIDE_MM).sum(axis=1) / count - _USUAL_SPOILT, 0.0)
-    spoilt += 0.5 * (behind > _FAR_MM).sum(axis=1) / count + 0.5 * (1.0 - tops.rims.coverage)
+    spoilt += 0.5 * (behind > _FAR_MM + lost_mm).sum(axis=1) / count + 0.5 * (1.0 - tops.rims.coverage)
     held = tops.beyond.seen.sum(axis=1) > 0.5 * count
     ribs = np.where(held, *_SHAPE_U_PITCHES) * tops.pitch_mm
     burrs = burr_u_mm(tops.rims, fit.centre, float(np.median(fit.outline_radius)))

@@ -44,6 +44,16 @@ def remember_camera_file(path: str) -> None:
     _kept().SetString("CameraFile", path)
 
 
+def camera_profile() -> str:
+    """File of what was learned of the camera, which checks use; empty: they use none."""
+    return _kept().GetString("CameraProfile", "")
+
+
+def remember_camera_profile(path: str) -> None:
+    """Use this profile from now on."""
+    _kept().SetString("CameraProfile", path)
+
+
 def camera_address() -> str:
     """The live camera that was used last."""
     return _kept().GetString("CameraAddress", "")

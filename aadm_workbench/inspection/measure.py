@@ -130,6 +130,7 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             from aadm_workbench.assembly.matching.views import merge_views
 
             extraction, notes = merge_views([one for one, _ in found], [one for _, one in found])
+            extraction = _with_reversal(extraction, points, found)
             match = match_extraction(points, extraction, up=up_deg, image_up_scan=IMAGE_UP_SCAN)
             unseen: str = Reason("assembly.in_no_view", views=len(views))
             reasons = dict.fromkeys(missing_places(points, match), unseen)
@@ -161,6 +162,22 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
         return replace(measured, report=in_coordinates_of_the_file(measured.report, scan))
 
 
+def _with_reversal(
+    extraction: Extraction, points: tuple[AssemblyPoint, ...], found: list[tuple[Extraction, Match]]
+) -> Extraction:
+    """The merged points, with what their views tell of the camera: what went with it, and not with the part."""
+    from aadm_workbench.assembly.matching.reversal import reversal_of, view_of
+
+    seen = [view_of(points, *one) for one in found]
+    told = reversal_of([view for view in seen if view is not None])
+    if told is None:
+        return extraction
+    bend = {"camera_bend_mm": told.largest_mm, "camera_bend_u_mm": told.u_mm}
+    if told.contradicts:
+        bend["camera_bend_stated_u_mm"] = told.stated_u_mm
+    return replace(extraction, quality={**extraction.quality, **bend})
+
+
 def _extracted(
     scan: Scan,
     kind: Kind,
@@ -174,9 +191,9 @@ def _extracted(
     found = extract_sizes(scan, kind, _diameters_mm(points), settings.method, rng, places, known=known)
     if scan.learned is None or settings.method != "refined":
         return found
-    from aadm_workbench.extract.edges.learned_edges import with_learned_edges
+    from aadm_workbench.extract.edges.learned_edges import with_learned_stretch
 
-    return with_learned_edges(found, scan.learned)
+    return with_learned_stretch(found, scan.learned)
 
 
 def scale_error_of(scan: Scan, kind: Kind) -> float:

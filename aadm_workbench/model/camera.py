@@ -45,12 +45,22 @@ class LearnedEdges:
         What a centre is off besides, per axis, in distances of neighbouring pixels.
     size
         Relative: diameters are seen ``1 + size`` times as large.
+    lost
+        Slopes of sight, or of light, into the wall behind an edge, rising; for each, how far behind the edge the
+        surface is seen to end, in distances of neighbouring pixels. Empty: not learned.
+    share
+        Of discs that are set right by ``lost``, in each centre; the rest is the fit of all witnesses.
+    apart_pitches
+        How far, per axis, all centres of this kind may be off together.
     """
 
     stretch: Measure
     spread: float
     scatter_pitches: float
     size: Measure
+    lost: tuple[tuple[float, float], ...] = ()
+    share: float = 0.0
+    apart_pitches: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -59,7 +69,8 @@ class CameraProfile:
 
     ``serial`` and ``settings`` are what it holds for, ``date`` (ISO) when it was learned and ``valid_days`` how long it
     is believed. ``distance_mm`` and ``tilt_deg`` are the ranges of the captures. ``scale`` is relative, by the steps
-    from face to pins. ``sha256`` is of the file's bytes.
+    from face to pins. ``sha256`` is of the file's bytes. ``projector_mm`` is where the light comes from, along the x
+    and y of the picture from the camera; zero where that makes no difference to what is seen at edges.
     """
 
     source: str
@@ -75,3 +86,4 @@ class CameraProfile:
     edges: dict[Kind, LearnedEdges] = field(default_factory=dict)
     plate_sha256: str = ""
     captures: int = 0
+    projector_mm: tuple[float, float] = (0.0, 0.0)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
 from aadm_workbench.model.drift import MouldDrift
 from aadm_workbench.model.findings import Finding
 from aadm_workbench.model.hoisting import HoistingReport
+from aadm_workbench.model.made import each
 from aadm_workbench.model.measured import Array, Vector2
 from aadm_workbench.model.repairs import RepairReport
 from aadm_workbench.model.results import GroupReport, PairResult, PointResult, RuleResult, TrialReport
@@ -106,10 +109,19 @@ class JobReport:
     capture: dict[str, str]
     model: dict[str, str] | None
     profile: Profile
-    columns: tuple[ColumnReport, ...]
+    columns: Sequence[ColumnReport]
     mould_drift: tuple[MouldDrift, ...] = ()
     grid: tuple[GridAxis, ...] = ()
 
+    def verdicts(self) -> list[Verdict]:
+        """The verdict of each column."""
+        return each(self.columns, _verdict)
+
     def summary(self) -> dict[str, int]:
         """How many columns came to each verdict: pass, fail, inconclusive, not_measured, error."""
-        return {verdict.value: sum(column.verdict is verdict for column in self.columns) for verdict in SUMMED}
+        found = Counter(self.verdicts())
+        return {verdict.value: found[verdict] for verdict in SUMMED}
+
+
+def _verdict(column: ColumnReport) -> Verdict:
+    return column.verdict

@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -66,15 +67,15 @@ def write_report(report: JobReport, path: Path) -> None:
     AadmError
         Where the file cannot be written.
     """
-    write_atomically(path, _encoded_parts(report))
+    write_atomically(path, encoded_parts(report))
 
 
 def encoded_report(report: JobReport) -> bytes:
     """The bytes of report.json."""
-    return b"".join(_encoded_parts(report))
+    return b"".join(encoded_parts(report))
 
 
-def _encoded_parts(report: JobReport) -> Iterator[bytes]:
+def encoded_parts(report: JobReport) -> Iterator[bytes]:
     """The bytes of report.json, column by column: a shipment's document need not fit into memory."""
     mark = ' "columns": [],\n'
     before, _, after = _text(_head(report)).partition(mark)
@@ -154,12 +155,16 @@ def _known(value: object) -> object:
 
 def _rounded(name: str, value: Any) -> Json:
     """A value, its numbers rounded by the names of their keys."""
+    if isinstance(value, str):
+        return value
     if isinstance(value, dict):
         return {key: _rounded(key, item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return _transform(value) if name.startswith("T_") else [_rounded(name, item) for item in value]
     # A length that happens to be whole is written as every other length.
-    if isinstance(value, float) or (type(value) is int and name.endswith(("_mm", "_deg"))):
+    if isinstance(value, float):
+        return _number(name, value)
+    if type(value) is int and name.endswith(("_mm", "_deg")):
         return _number(name, float(value))
     plain_value: Json = value
     return plain_value
@@ -173,15 +178,20 @@ def _transform(rows: Sequence[Sequence[float]]) -> Json:
 
 def _number(name: str, value: float) -> float | None:
     """A number by its name: lengths, angles and ratios to a fixed number of decimals, others to nine digits."""
+    decimals = _decimals(name)
+    return _to(decimals, value) if decimals is not None else _to(None, float(f"{value:.{_OTHER_DIGITS}g}"))
+
+
+@cache
+def _decimals(name: str) -> int | None:
+    """Decimals of what a key of this name holds; None where its size is not known."""
     if name.endswith("_mm"):
-        return _to(_LENGTH_DECIMALS, value)
+        return _LENGTH_DECIMALS
     if name.endswith("_deg"):
-        return _to(_ANGLE_DECIMALS, value)
+        return _ANGLE_DECIMALS
     if name == "scale":
-        return _to(_DIRECTION_DECIMALS, value)
-    if name in _RATIOS:
-        return _to(_RATIO_DECIMALS, value)
-    return _to(None, float(f"{value:.{_OTHER_DIGITS}g}"))
+        return _DIRECTION_DECIMALS
+    return _RATIO_DECIMALS if name in _RATIOS else None
 
 
 def _to(decimals: int | None, value: float) -> float | None:

@@ -33,6 +33,9 @@ class _Edges(msgspec.Struct, forbid_unknown_fields=True):
     spread: float
     scatter_pitches: float
     size: tuple[float, float]
+    lost: tuple[tuple[float, float], ...] = ()
+    share: float = 0.0
+    apart_pitches: float = 0.0
 
 
 class _Learned(msgspec.Struct, forbid_unknown_fields=True):
@@ -42,6 +45,7 @@ class _Learned(msgspec.Struct, forbid_unknown_fields=True):
     scale: tuple[float, float]
     sleeves: _Edges
     rebars: _Edges
+    projector_mm: tuple[float, float] = (0.0, 0.0)
 
 
 class _File(msgspec.Struct, forbid_unknown_fields=True):
@@ -75,11 +79,14 @@ def profile_text(profile: CameraProfile, figures: str = "") -> str:
         f"distance_mm = [{profile.distance_mm[0]:.1f}, {profile.distance_mm[1]:.1f}]",
         f"tilt_deg = [{profile.tilt_deg[0]:.2f}, {profile.tilt_deg[1]:.2f}]",
         f"scale = {_pair(profile.scale)}",
+        f"projector_mm = [{profile.projector_mm[0]:.0f}, {profile.projector_mm[1]:.0f}]",
     ]
     for name, kind in _KINDS.items():
         edges = profile.edges[kind]
         lines += ["", f"[learned.{name}]", f"stretch = {_pair(edges.stretch)}", f"spread = {edges.spread:.4g}"]
         lines += [f"scatter_pitches = {edges.scatter_pitches:.4g}", f"size = {_pair(edges.size)}"]
+        lines += [f"share = {edges.share:.3f}", f"apart_pitches = {edges.apart_pitches:.4g}"]
+        lines += [f"lost = [{', '.join(f'[{slope:g}, {pitches:.3f}]' for slope, pitches in edges.lost)}]"]
     return "\n".join(lines) + "\n" + figures
 
 
@@ -121,8 +128,17 @@ def read_profile(path: Path, source: str = "") -> CameraProfile:
         {kind: _edges(getattr(learned, name)) for name, kind in _KINDS.items()},
         found.plate_sha256,
         learned.captures,
+        learned.projector_mm,
     )
 
 
 def _edges(found: _Edges) -> LearnedEdges:
-    return LearnedEdges(Measure(*found.stretch), found.spread, found.scatter_pitches, Measure(*found.size))
+    return LearnedEdges(
+        Measure(*found.stretch),
+        found.spread,
+        found.scatter_pitches,
+        Measure(*found.size),
+        found.lost,
+        found.share,
+        found.apart_pitches,
+    )

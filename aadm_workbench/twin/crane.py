@@ -102,10 +102,10 @@ class Crane:
     def wait_for_decision(self) -> None:
         """Wait until the controller has decided about the last picture."""
         if not self._decided.wait(_DECISION_WITHIN_S):
-            raise CaptureError.because("twin.undecided", within_s=_DECISION_WITHIN_S)
+            raise CaptureError.because("command.twin_undecided", within_s=_DECISION_WITHIN_S)
         self._decided.clear()
         if self.landed:
-            raise EndOfFramesError.because("twin.stands")
+            raise EndOfFramesError.because("command.twin_stands")
 
 
 class VirtualCamera(Closing):

@@ -60,7 +60,7 @@ def filters_of(words: Sequence[str]) -> Filters:
     for word in words:
         name, _, text = word.partition("=")
         if name not in NAMES:
-            raise AadmError.because("twin.filter", word=word, name=name, known=tuple(NAMES))
+            raise AadmError.because("command.twin_filter", word=word, name=name, known=tuple(NAMES))
         amount: Any = _amount(name.replace("-", "_"), word, text)
         chosen = replace(chosen, **{name.replace("-", "_"): amount})
     return chosen
@@ -72,10 +72,12 @@ def _amount(name: str, word: str, text: str) -> float:
         amount: float = int(text) if whole else float(text)
     except ValueError as error:
         kind = "a whole number" if whole else "a number"
-        raise AadmError.because("twin.filter_number", word=word, name=name.replace("_", "-"), kind=kind) from error
+        raise AadmError.because(
+            "command.twin_filter_number", word=word, name=name.replace("_", "-"), kind=kind
+        ) from error
     most = 24.0 if name == "outliers" else _LARGEST.get(name, _LARGEST_PX)
     if not 0 <= amount <= most:
-        raise AadmError.because("twin.filter_range", word=word, name=name.replace("_", "-"), most=most)
+        raise AadmError.because("command.twin_filter_range", word=word, name=name.replace("_", "-"), most=most)
     return amount
 
 

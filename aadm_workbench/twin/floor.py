@@ -97,7 +97,7 @@ def _verdicts(case: Case, foot: Foot, bars: BarGroup) -> dict[str, object]:
     true = true_verdicts(sample_design(FIELD), foot, bars if case.with_bars else None)
     verdict, goes_on = (Verdict.ERROR, Verdict.NOT_ASSESSED) if case.truncated else (true.verdict, true.goes_on)
     if (verdict, goes_on) != (case.verdict, case.goes_on):
-        raise AadmError.because("twin.case", id=case.id, story=case.story, verdict=verdict, goes_on=goes_on)
+        raise AadmError.because("command.twin_case", id=case.id, story=case.story, verdict=verdict, goes_on=goes_on)
     return {
         "verdict": verdict.value,
         "goes_on": goes_on.value,

@@ -56,8 +56,12 @@ def _keyed(foot: Foot, rng: np.random.Generator) -> Foot:
 
 
 def _spalled(sleeve: SleeveAsBuilt, rng: np.random.Generator) -> SleeveAsBuilt:
-    """A piece of the face is broken out at the rim; half of the mouth may be taped on the same side as well."""
+    """A piece of the face is broken out at the rim."""
     return replace(sleeve, chip=float(rng.uniform(8.0, 14.0)), chip_direction=_turn(rng))
+
+
+def _taped(sleeve: SleeveAsBuilt, rng: np.random.Generator) -> SleeveAsBuilt:
+    return replace(sleeve, taped=float(rng.uniform(0.3, 0.5)), chip_direction=_turn(rng))
 
 
 def _taped_and_spalled(foot: Foot, bars: BarGroup, rng: np.random.Generator) -> tuple[Foot, BarGroup]:
@@ -152,6 +156,7 @@ SITE: Mapping[str, Change] = MappingProxyType(
         "rough": _feet(_washed),
         "keyed": _feet(_keyed),
         "spalls": _some_sleeves(_spalled),
+        "tapes": _some_sleeves(_taped),
         "taped-spalls": _taped_and_spalled,
         "proud-rings": _feet(lambda foot, _: replace(foot, sleeves=tuple(replace(s, proud=2.0) for s in foot.sleeves))),
         "plugs": _some_sleeves(lambda sleeve, _: replace(sleeve, plugged_at=10.0)),
@@ -172,9 +177,10 @@ SITE: Mapping[str, Change] = MappingProxyType(
 """What a site does, by name. Lengths in mm, as the notes on them were seen:
 
 ``rough`` feet washed to 6 to 8 mm, ``keyed`` ones with pockets, both up to the mouths; ``spalls`` beside a quarter of
-the mouths; ``taped-spalls``, where that quarter is under tape as well; ``proud-rings`` 2 mm before the face; ``plugs``
-10 mm inside; ``burrs`` of 0.6 to 1.4 mm on one side of half of the bars; ``caps`` of plastic on a quarter; ``kinks``
-of a quarter; ``leans`` of 3 degrees of a quarter; ``two-heights``, every other bar 30 to 80 mm longer.
+the mouths; ``tapes`` over a third to half of a quarter of them; ``taped-spalls``, where that quarter is wholly under
+tape and spalled beside it; ``proud-rings`` 2 mm before the face; ``plugs`` 10 mm inside; ``burrs`` of 0.6 to 1.4 mm on
+one side of half of the bars; ``caps`` of plastic on a quarter; ``kinks`` of a quarter; ``leans`` of 3 degrees of a
+quarter; ``two-heights``, every other bar 30 to 80 mm longer.
 
 Of the foot's own section: ``off-size``, sides off by 1.5 to 6 mm; ``askew`` by 0.2 to 0.6 degrees; ``pattern-beside``,
 the sleeves 1 to 4 mm beside their place in it and turned by 0.1 to 0.4 degrees; ``bowed`` and ``warped`` faces, by 2 to
@@ -192,7 +198,7 @@ def known_site(names: Sequence[str]) -> Sequence[str]:
     """
     for name in names:
         if name not in SITE:
-            raise AadmError.because("twin.site", name=name, known=tuple(SITE))
+            raise AadmError.because("command.twin_site", name=name, known=tuple(SITE))
     return names
 
 

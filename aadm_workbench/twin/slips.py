@@ -67,7 +67,7 @@ def slip_of(names: Sequence[str]) -> Slip:
     slip = NO_SLIP
     for name in names:
         if name not in SLIPS:
-            raise AadmError.because("twin.slip", name=name, known=tuple(SLIPS))
+            raise AadmError.because("command.twin_slip", name=name, known=tuple(SLIPS))
         other = SLIPS[name]
         changed = {key: value for key, value in vars(other).items() if value != getattr(NO_SLIP, key)}
         slip = replace(slip, **changed)

@@ -3,7 +3,9 @@
 `plate` draws it and writes plate.toml with its nominal places; the table of a measuring machine replaces these.
 `learn` takes six to twelve captures of it, from several distances, tilted by up to 5 degrees, turned by 0, 90, 180 and
 270 degrees, and writes the camera's profile, which [camera] profile of a job uses. `verify` asks one capture whether
-the profile still holds, and keeps a log.
+the profile still holds, and keeps a log. `reversal` needs no plate: the same columns, captured again with the camera
+turned by half a turn or moved across, in a job of its own (`up` is another one then): what goes with the camera is its
+bend, what stays is the part.
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ from typing import TYPE_CHECKING
 
 from ..exit_codes import ALL_PASS, exit_code_of
 from ..switches import add_switches, length, whole_number
+from .camera_reversal import add_reversal
 
 if TYPE_CHECKING:
     from aadm_workbench.calibration.learn.capture import PlateCapture
@@ -24,10 +27,12 @@ EXAMPLE = """\
 examples:
   aadm camera plate --holes 12 --diameter 36 --pitch 160 --pins 20 --out plate
   aadm camera learn plate/plate.toml plate-*.tiff --camera camera.toml --serial 0042 --out camera-0042.toml
-  aadm camera verify plate/plate.toml today.tiff --profile camera-0042.toml"""
+  aadm camera verify plate/plate.toml today.tiff --profile camera-0042.toml
+  aadm camera reversal upright.toml half-a-turn.toml"""
 
-_PLATE = "draw a plate for the workshop: plate.pdf, plate.dxf, plate.toml"
+_PLATE = "draw a plate for the workshop: plate.pdf, plate.dxf, plate.step, plate.toml"
 _LEARN = "learn a camera from captures of a plate"
+_REVERSAL = "tell the camera's bend from the parts, by captures of the same columns from a turned or moved camera"
 _VERIFY = "ask one capture of the plate whether a profile still holds; pass or fail, and a line in a log"
 
 
@@ -98,7 +103,12 @@ def _add_verify(parser: argparse.ArgumentParser) -> None:
     parser.set_defaults(run=_verify)
 
 
-_KINDS = (("plate", _PLATE, _add_plate), ("learn", _LEARN, _add_learn), ("verify", _VERIFY, _add_verify))
+_KINDS = (
+    ("plate", _PLATE, _add_plate),
+    ("learn", _LEARN, _add_learn),
+    ("verify", _VERIFY, _add_verify),
+    ("reversal", _REVERSAL, add_reversal),
+)
 
 
 def _draw(options: argparse.Namespace) -> int:
@@ -106,6 +116,7 @@ def _draw(options: argparse.Namespace) -> int:
     from aadm_workbench.calibration.plate.file import write_plate
     from aadm_workbench.calibration.plate.pdf import write_plate_pdf
     from aadm_workbench.calibration.plate.plate import drawn_plate
+    from aadm_workbench.calibration.plate.step import write_plate_step
     from aadm_workbench.errors import DesignError
 
     from ..shown.terminal import show
@@ -117,9 +128,10 @@ def _draw(options: argparse.Namespace) -> int:
         raise DesignError.because("command.no_folder", folder=options.out, why=error.strerror) from error
     write_plate(plate, options.out / "plate.toml")
     write_plate_dxf(plate, options.out / "plate.dxf")
+    write_plate_step(plate, options.out / "plate.step")
     write_plate_pdf(plate, options.out / "plate.pdf", options.language)
     if not options.quiet:
-        show(f"Wrote plate.toml, plate.dxf, plate.pdf to {options.out}")
+        show(f"Wrote plate.toml, plate.dxf, plate.step, plate.pdf to {options.out}")
     return ALL_PASS
 
 

@@ -11,14 +11,16 @@ import argparse
 import signal
 import threading
 from collections.abc import Iterator
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager, nullcontext, suppress
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING
 
 from aadm_workbench.errors import AadmError, JobError
 
-from ..exit_codes import INTERNAL, INTERRUPTED, exit_code_of
+from ..exit_codes import INTERNAL, INTERRUPTED
 from ..job.command import add_job_arguments, pool_options, report_folder
 from ..report_files import add_format_switches, chosen_formats, require_packages
 
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
     from aadm_workbench.model import JobReport
 
+    from ..made_report import MadeReport
     from ..runner.journal import Journal
     from ..runner.run import JobRun
     from ..shown.progress import Events, ShownCheck
@@ -48,13 +51,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         verb="check",
         writes="the reports",
         prints_json="report.json",
-        more="[--resume] [--events FILE] [--write-ifc] [--html] [--pdf] [--xlsx] [--csv] [--bcf] [--bcf-pairs] "
-        "[--crew] [--scan-card] [--bcf-version 2.1|3.0] [--language en|zh] [--absolute-paths]",
+        more="[--resume] [--verify] [--events FILE] [--write-ifc] [--html] [--pdf] [--xlsx] [--csv] [--bcf] "
+        "[--bcf-pairs] [--crew] [--scan-card] [--bcf-version 2.1|3.0] [--language en|zh] [--absolute-paths]",
     )
     parser.add_argument(
         "--resume",
         action="store_true",
         help="go on where an earlier run into the same folder ended; what has changed since is checked again",
+    )
+    parser.add_argument(
+        "--verify",
+        action="store_true",
+        help="with --resume: read every file again, also those whose size and times are what they were",
     )
     parser.add_argument(
         "--events", metavar="FILE", help="write what happens as JSON lines, for programs; - is stdout, without a table"
@@ -88,16 +96,17 @@ def run(options: argparse.Namespace) -> int:
             say(f"an unfinished check lay in {folder}; its results are in {PREVIOUS_NAME} (--resume goes on with such)")
         try:
             with ShownCheck(events, quiet=options.quiet) as shown:
-                run_options = RunOptions(options.method, tuple(options.only), pool_options(options))
+                run_options = RunOptions(options.method, tuple(options.only), pool_options(options), options.verify)
                 done = run_job(job, run_options, shown, journal, folder)
         except (AadmError, KeyboardInterrupt) as stop:
             if isinstance(stop, AadmError) and not shown.done:
                 raise
             return _stopped(stop, shown, journal, events, options)
-        code = _hand_over(done, job, folder, options)
+        code, made = _hand_over(done, journal.finished, job, folder, options)
         if code != INTERNAL:
-            journal.finish()
-        events.send("finished", exit_code=code, report=str(folder / "report.json"), summary=done.report.summary())
+            journal.finish(made.text() if made is not None else "")
+        summary = done.report.summary() if made is None else made.summary
+        events.send("finished", exit_code=code, report=str(folder / "report.json"), summary=summary)
         return code
 
 
@@ -152,39 +161,70 @@ def _stopped(
     return INTERRUPTED if isinstance(stop, KeyboardInterrupt) else INTERNAL
 
 
-def _hand_over(done: JobRun, job: Job, folder: Path, options: argparse.Namespace) -> int:
-    """Write and show what a check came to; the exit code."""
-    from aadm_workbench.atomic import write_atomically
-    from aadm_workbench.report.json import encode, encoded_report, write_report
+def _hand_over(
+    done: JobRun, remembered: str, job: Job, folder: Path, options: argparse.Namespace
+) -> tuple[int, MadeReport | None]:
+    """Write and show what a check came to; the exit code, and the report where it could be written.
 
-    from ..served_report import without_absolute_paths
-    from ..shown.terminal import say, show_json
+    ``remembered`` is what the journal knows of the report that an earlier run has written.
+    """
+    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.report.json import encode
+
+    from ..made_report import still_there, written
+    from ..shown.terminal import say
 
     if options.debug:
         for name, trace in done.traces.items():
             say(f"{name}: {trace}")
-    report = _with_setting(done.report, job)
-    report = report if options.absolute_paths else without_absolute_paths(report, job)
-    code, written = exit_code_of(column.verdict for column in report.columns), False
+    path = folder / "report.json"
+    basis = f"{done.basis}{' absolute' * options.absolute_paths}" if done.basis else ""
+    code, made = INTERNAL, still_there(remembered, basis, path)
+    served = _Served(done, job, options.absolute_paths)
     try:
-        write_report(report, folder / "report.json")
-        written = True
+        made = made or written(served.report, basis, path)
         write_atomically(folder / "timing.json", encode(done.seconds))
-        if not _write_reports(job, folder, options):
-            code = INTERNAL
+        code = made.exit_code if _write_reports(job, folder, options) else INTERNAL
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
         _complain(error, options)
-        code = INTERNAL
+    # What could not be read of the results was said just now.
+    with suppress(AadmError) if made is None else nullcontext():
+        _show(served, None if made is None else path, options)
+    if options.write_ifc and code != INTERNAL:
+        code = _write_model(job, folder, options) or code
+    return code, made
+
+
+@dataclass(frozen=True, eq=False)
+class _Served:
+    """The report of a run as it is handed over, made where it is needed."""
+
+    done: JobRun
+    job: Job
+    absolute_paths: bool
+
+    @cached_property
+    def report(self) -> JobReport:
+        from ..served_report import without_absolute_paths
+
+        report = _with_setting(self.done.report, self.job)
+        report.verdicts()  # once, before every text is looked at
+        return report if self.absolute_paths else without_absolute_paths(report, self.job)
+
+
+def _show(served: _Served, path: Path | None, options: argparse.Namespace) -> None:
+    """The report as JSON, or as a table with its ``path``, where it could be written."""
     if options.json:
-        show_json(encoded_report(report))
+        from aadm_workbench.report.json import encoded_report
+
+        from ..shown.terminal import show_json
+
+        show_json(encoded_report(served.report))
     elif not options.quiet and options.events != "-":
         from ..shown.verdict_table import show_verdicts
 
-        show_verdicts(report, folder / "report.json" if written else None, options.language or "en")
-    if options.write_ifc and code != INTERNAL:
-        return _write_model(report, job, folder, options) or code
-    return code
+        show_verdicts(served.report, path, options.language or "en")
 
 
 def _with_setting(report: JobReport, job: Job) -> JobReport:
@@ -217,7 +257,7 @@ def _write_reports(job: Job, folder: Path, options: argparse.Namespace) -> bool:
     return not written.failed
 
 
-def _write_model(report: JobReport, job: Job, folder: Path, options: argparse.Namespace) -> int:
+def _write_model(job: Job, folder: Path, options: argparse.Namespace) -> int:
     """Write the model with the results; 0 where that went well."""
     from aadm_workbench.report.read import read_report
 

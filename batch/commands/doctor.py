@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import argparse
 import platform
+import re
 import shutil
 import sys
 from collections.abc import Sequence
@@ -27,6 +28,14 @@ EXAMPLE = """\
 examples:
   aadm doctor
   aadm doctor --json"""
+_SYSTEM_LIBRARY = re.compile(r"(\S+\.so[.\d]*): cannot open shared object file")
+_DEBIAN = {
+    "libusb-1.0.so.0": "libusb-1.0-0",
+    "libGL.so.1": "libgl1",
+    "libgomp.so.1": "libgomp1",
+    "libX11.so.6": "libx11-6",
+}
+"""Packages of Debian and Ubuntu that hold what Open3D and the cameras' packages load."""
 _FREECAD = ("freecadcmd", "FreeCADCmd", "freecad", "FreeCAD")
 
 
@@ -62,19 +71,29 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _examined(package: Package) -> Finding:
-    problem = ""
+    problem, system = "", ""
     try:
         # Installed is not enough: a missing system library shows only here.
         import_module(package.module)
     except ModuleNotFoundError as error:
         problem = "not installed" if error.name == package.module else f"cannot be loaded: {error}"
     except (ImportError, OSError) as error:
-        problem = f"cannot be loaded: {error}"
+        problem, system = _not_loaded(error)
     found = next((known for name in (package.pip_name, *package.others) if (known := _version(name))), None)
-    remedy = package.install if problem == "not installed" else ""
+    remedy = package.install if problem == "not installed" else system
     if package.module == "mitsuba" and not problem:
         problem, remedy = _without_llvm()
     return Finding(package.module, found, package.needed_for, not package.extra, problem, remedy)
+
+
+def _not_loaded(error: ImportError | OSError) -> tuple[str, str]:
+    """What keeps an installed package from being loaded, and what mends it: of a system library its Debian package."""
+    missing = _SYSTEM_LIBRARY.match(str(error))
+    if missing is None:
+        return f"cannot be loaded: {error}", ""
+    debian = _DEBIAN.get(missing[1])
+    remedy = f"apt-get install {debian}" if debian else f"the system's package that holds {missing[1]}"
+    return f"the system library {missing[1]} is missing", remedy
 
 
 def _without_llvm() -> tuple[str, str]:

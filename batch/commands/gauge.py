@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
     from ..shown.terminal import show, show_json
 
     require_packages(["html"] if options.html else [])
-    captures = [capture for path in options.captures for capture in _captures(path, options)]
+    captures = [capture for path in options.captures for capture in captures_in(path, options)]
     if len(captures) < 2:
         raise ReportError(Reason("gauge.no_captures", count=len(captures)))
     found = gauge_study(captures, np.random.default_rng(_SEED))
@@ -86,7 +86,8 @@ def run(options: argparse.Namespace) -> int:
     return exit_code_of(found.verdicts)
 
 
-def _captures(path: Path, options: argparse.Namespace) -> Iterator[Capture]:
+def captures_in(path: Path, options: argparse.Namespace) -> Iterator[Capture]:
+    """The captures of a job, which is checked here, or of a report; ``by`` of the options says whose they are."""
     from aadm_workbench.calibration.gauge.captures import Capture
     from aadm_workbench.report.read import read_report
 
@@ -106,7 +107,9 @@ def _checked(path: Path, options: argparse.Namespace) -> list[JobReport]:
     reports = []
     for job in captures_of(read_job(path)):
         with ShownCheck(Events(None), quiet=options.quiet or options.json) as shown:
-            reports.append(run_job(job, RunOptions(), shown).report)
+            report = run_job(job, RunOptions(), shown).report
+            # The columns are looked at again and again, so they are all made at once.
+            reports.append(replace(report, columns=tuple(report.columns)))
     return reports
 
 

@@ -40,8 +40,8 @@ _FILTER = (
     "alone), outliers=N (of 24 neighbours), and in pixels rings=0..3, fatten=N, gaps=N, median=N, gaussian=SIGMA"
 )
 _SITE = (
-    "what the site did, again for each: rough, keyed (feet), spalls, taped-spalls, proud-rings, plugs, burrs, caps, "
-    "kinks, leans, two-heights; of the foot's own section off-size, askew, pattern-beside, bowed, warped, "
+    "what the site did, again for each: rough, keyed (feet), spalls, tapes, taped-spalls, proud-rings, plugs, burrs, "
+    "caps, kinks, leans, two-heights; of the foot's own section off-size, askew, pattern-beside, bowed, warped, "
     "broken-corners, broken-edges"
 )
 _SLIP = (

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
 
@@ -14,15 +14,18 @@ from aadm_workbench.scan.file import LARGEST_FILE_BYTES
 from ..runner.exact_json import to_exact_json
 
 _CHUNK_BYTES = 1 << 20  # bounds the memory, not the time
+_TICK_NS = 2_500_000_000  # FAT counts in two seconds; no other file system counts more coarsely
+_LOOKS_DIGITS = 32  # 128 bits: no two alike by chance
 
 
-def task_key(task: ColumnTask, program: str) -> str:
-    """Hash of what a column's report follows from: program, settings, profile, design, and the bytes of its files.
+def order_key(task: ColumnTask, program: str) -> str:
+    """Hash of what a column's report follows from but for its files: program, settings, profile, design, camera.
 
-    Where the files lie is not in it, so a job may be moved; a file that cannot be read counts as what it is.
+    Where the job lies is not in it, so a job may be moved.
     """
     said = (
-        task.column,
+        # Its own design is the task's already.
+        replace(task.column, design=None),
         task.design,
         task.settings,
         task.units,
@@ -30,11 +33,62 @@ def task_key(task: ColumnTask, program: str) -> str:
         task.depth_scale_mm,
         task.no_design,
         task.others,
+        task.learned,
+        task.learned_notes,
     )
-    found = hashlib.sha256(f"{program}\n{to_exact_json(said)}\n".encode(errors="surrogatepass"))
+    return hashlib.sha256(f"{program}\n{to_exact_json(said)}\n".encode(errors="surrogatepass")).hexdigest()
+
+
+def task_key(task: ColumnTask, order: str) -> str:
+    """Hash of all that a column's report follows from: its :func:`order_key`, and the bytes of its files.
+
+    Where the files lie is not in it; a file that cannot be read counts as what it is.
+    """
+    found = hashlib.sha256(f"{order}\n".encode())
     for name in task.column.files():
         found.update(f"{content_hash(task.path_of(name))}\n".encode())
     return found.hexdigest()
+
+
+@dataclass(frozen=True)
+class Looks:
+    """What the files of a column look like from outside: a hash, and when one of them was changed last, ns.
+
+    ``hash`` is empty where a file is missing.
+    """
+
+    hash: str
+    changed_ns: int = 0
+
+    def tell_at(self, now_ns: int) -> bool:
+        """Whether what looks the same later is the same: no file may be changed again within that tick of its clock."""
+        return self.hash != "" and self.changed_ns < now_ns - _TICK_NS
+
+
+def looks(task: ColumnTask, order: str) -> Looks:
+    """The :func:`order_key` of a column, and name, place, size and both times of its files, without reading them.
+
+    Where a file is written to, the system sets the second time (``ctime``), which no program can set back; only who
+    sets the clock, or writes to the disk below its file system, can.
+    """
+    found = hashlib.sha256(f"{order}\n".encode())
+    changed_ns = 0
+    try:
+        for name in task.column.files():
+            for path, inside in _files_of(task.path_of(name)):
+                status = path.stat()
+                times = (status.st_mtime_ns, status.st_ctime_ns)
+                changed_ns = max(changed_ns, *times)
+                place = (status.st_dev, status.st_ino, status.st_size)
+                found.update(f"{name}\n{inside}\n{place} {times}\n".encode(errors="surrogatepass"))
+    except (OSError, ValueError):
+        return Looks("")
+    return Looks(found.hexdigest()[:_LOOKS_DIGITS], changed_ns)
+
+
+def _files_of(path: Path) -> Iterable[tuple[Path, str]]:
+    """A file, or the files of a folder, with their names in it."""
+    return _inside(path) if path.is_dir() else ((path, ""),)
 
 
 def content_hash(path: Path) -> str:
@@ -74,7 +128,7 @@ def read_for_shipping(task: ColumnTask) -> tuple[ShippedFile, ...]:
     for name in task.column.files():
         path = task.path_of(name)
         try:
-            for file, inside in _inside(path) if path.is_dir() else [(path, "")]:
+            for file, inside in _files_of(path):
                 if file.is_file() and file.stat().st_size <= left_bytes:
                     shipped.append(ShippedFile(name, inside, file.read_bytes()))
                     left_bytes -= len(shipped[-1].content)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 import tomllib
+from typing import TypeAlias
 
-from .table import KeyPath
+KeyPath: TypeAlias = tuple[str | int, ...]
+"""Keys and, inside arrays, indices: ``("columns", 1, "id")``."""
 
 _BLANK = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
 _STRING = re.compile(r'"""(?s:\\.|[^\\])*?"{3,5}(?!")|\'\'\'(?s:.)*?\'{3,5}(?!\')|"(?:\\.|[^"\\\n])*"|\'[^\'\n]*\'')

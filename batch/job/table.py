@@ -8,14 +8,14 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from aadm_workbench.errors import JobError, did_you_mean
 
 from ..shown.printable import steering_character
 
-KeyPath: TypeAlias = tuple[str | int, ...]
-"""Keys and, inside arrays, indices: ``("columns", 1, "id")``."""
+if TYPE_CHECKING:
+    from .lines import KeyPath
 
 LONGEST_TEXT = 4096
 """Longest path that Linux takes."""

@@ -37,7 +37,7 @@ class Certificates:
         """The server's certificate (DER) and its key (PEM, for its owner alone); made where there are none."""
         certificate, key = self.folder / "own" / "certificate.der", self.folder / "own" / "key.pem"
         if certificate.exists() != key.exists():
-            raise AadmError.because("link.halved", folder=certificate.parent)
+            raise AadmError.because("command.link_halved", folder=certificate.parent)
         if not key.exists():
             _make(certificate, key)
         return certificate, key

@@ -55,7 +55,7 @@ class ModbusLink:
         try:
             await self._server.serve_forever(background=True)
         except (OSError, RuntimeError) as error:  # pymodbus keeps the reason to itself
-            raise AadmError.because("link.port", where=self.where) from error
+            raise AadmError.because("command.link_port", where=self.where) from error
 
     async def show(self, snapshot: Snapshot, heartbeat: int) -> None:
         """Show a snapshot to whoever reads next."""

@@ -94,13 +94,13 @@ class MqttLink:
         try:
             client.connect(self._host, self._port, _KEEPALIVE_S)
         except OSError as error:
-            raise AadmError.because("link.silent", address=f"{self._host}:{self._port}", why=error) from error
+            raise AadmError.because("command.link_silent", address=f"{self._host}:{self._port}", why=error) from error
         client.loop_start()
         _wait_for(refused)
         if not refused or refused[0]:
             client.loop_stop()
             why = refused[0] if refused else "no answer"
-            raise AadmError.because("link.refused", address=f"{self._host}:{self._port}", why=why)
+            raise AadmError.because("command.link_refused", address=f"{self._host}:{self._port}", why=why)
         self._client, self._topic = client, topic
 
 
@@ -127,7 +127,7 @@ def _address(broker: str, encrypted: bool) -> tuple[str, int]:
     found = re.fullmatch(r"(\[[0-9A-Fa-f:]+\]|[^:\s/]+)(?::(\d{1,5}))?", broker)
     port = int(found[2] or (_TLS_PORT if encrypted else _PLAIN_PORT)) if found else 0
     if found is None or not 0 < port < 2**16:
-        raise AadmError.because("link.no_broker", broker=broker)
+        raise AadmError.because("command.link_no_broker", broker=broker)
     return found[1].strip("[]"), port
 
 
@@ -138,7 +138,7 @@ def _context(folder: Path) -> ssl.SSLContext:
         if (folder / "certificate.pem").exists():
             context.load_cert_chain(folder / "certificate.pem", folder / "key.pem")
     except (OSError, ssl.SSLError) as error:
-        raise AadmError.because("link.authority", folder=folder, why=error) from error
+        raise AadmError.because("command.link_authority", folder=folder, why=error) from error
     return context
 
 

@@ -60,7 +60,7 @@ class OpcUaLink:
         try:
             await server.start()
         except OSError as error:
-            raise AadmError.because("link.not_listening", where=self.where, why=error.strerror) from error
+            raise AadmError.because("command.link_not_listening", where=self.where, why=error.strerror) from error
         self.listening.set()
 
     async def show(self, snapshot: Snapshot, heartbeat: int) -> None:

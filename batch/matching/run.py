@@ -69,7 +69,7 @@ def run_match(job: Job, options: RunOptions, started: Callable[[int], Callable[[
             raise JobError.because("command.nothing_to_match", job=job.source)
         finished = started(len(tasks))
         found: dict[int, MeasuredColumn] = {}
-        with opened_pool(options.pool, tasks, None, read_for_shipping, lambda text: None) as pool:
+        with opened_pool(options.pool, len(tasks), job, None, read_for_shipping, lambda text: None) as pool:
             for place, outcome in work_through(tasks, pool, measure_task, lost_measurement, Unwatched()):
                 found[place] = outcome
                 finished(outcome.id)

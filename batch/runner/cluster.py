@@ -78,8 +78,10 @@ def remote_cluster(
     distributed = load_distributed()
     dask = import_module("dask")
     security = None if certificates is None else _security(distributed, address, certificates)
-    if security is None and address.startswith("tls://") and not dask.config.get("distributed.comm.tls.ca-file", None):
-        raise JobError.because("run.tls_asked", address=address)
+    if security is None and address.startswith("tls://"):
+        if not dask.config.get("distributed.comm.tls.ca-file", None):
+            raise JobError.because("run.tls_asked", address=address)
+        _try(distributed.Security(), address, "those of Dask's configuration")
     with _messages_to(log), dask.config.set({"distributed.comm.retry.count": 2}):
         try:
             client = distributed.Client(address, timeout=_CONNECT_S, set_as_default=False, security=security)
@@ -96,8 +98,8 @@ def remote_cluster(
 
 def _security(distributed: Any, address: str, certificates: Certificates) -> Any:
     """What Dask needs to know of certificates, once they were tried on the scheduler."""
-    parts = urlsplit(address if "://" in address else f"tls://{address}")
-    if parts.scheme != "tls":
+    address = address if "://" in address else f"tls://{address}"
+    if not address.startswith("tls://"):
         raise JobError.because("run.tls_address", address=address)
     for file in (certificates.authority, certificates.certificate, certificates.key):
         if file is not None and not file.is_file():
@@ -108,14 +110,20 @@ def _security(distributed: Any, address: str, certificates: Certificates) -> Any
         tls_client_cert=str(certificates.certificate),
         tls_client_key=None if certificates.key is None else str(certificates.key),
     )
+    names = ", ".join(str(file) for file in vars(certificates).values() if file is not None)
+    _try(security, address, names)
+    return security
+
+
+def _try(security: Any, address: str, files: str) -> None:
+    """Try the certificates of ``files`` on a scheduler, before Dask does so again and again."""
     try:
         context = security.get_connection_args("client")["ssl_context"]
     except (OSError, ValueError) as error:
-        names = ", ".join(str(file) for file in vars(certificates).values() if file is not None)
         reason = getattr(error, "reason", None) or error
-        raise JobError.because("run.tls_unusable", files=names, why=reason) from error
+        raise JobError.because("run.tls_unusable", files=files, why=reason) from error
+    parts = urlsplit(address)
     _try_certificates(parts.hostname or "", parts.port, address, context)
-    return security
 
 
 def _try_certificates(host: str, port: int | None, address: str, context: ssl.SSLContext) -> None:

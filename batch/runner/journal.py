@@ -1,9 +1,9 @@
 """The journal of a check: each column's result, on the disk as soon as it is there.
 
 DIR/journal.jsonl holds one line of JSON for each column that was begun (``{"began": ID}``) and for each that was
-finished (a :class:`~.record.Record`). Lines are only added, by one process, each in one write; what a killed process
-leaves at the end, half a line, is cut off by the next. After a power failure the last second may be missing, and is
-checked again.
+finished (a :class:`~.record.Record`), and a last one that says of which report it is. Lines are only added, by one
+process, each in one write; what a killed process leaves at the end, half a line, is cut off by the next. After a
+power failure the last second may be missing, and is checked again.
 """
 
 from __future__ import annotations
@@ -26,9 +26,10 @@ from .record import Record, read_record
 NAME = "journal.jsonl"
 PREVIOUS_NAME = "journal.previous.jsonl"
 _FIRST_LINE = b'{"aadm_journal":1}\n'
-_LAST_LINE = b'{"finished":true}\n'
+_FINISHED = b'{"finished":'
 _STOPPED_LINE = b'{"stopped":true}\n'
 _SECONDS_BETWEEN_FLUSHES = 1.0  # so much work is lost at most in a power failure
+_LONGEST_LAST_BYTES = 4096  # of the line that ends a journal: two hashes and some numbers
 _PIECE_BYTES = 2**20  # bounds the memory, not the time
 
 LONGEST_LINE_BYTES = 2**26
@@ -59,7 +60,9 @@ class Journal:
         self.path = folder / NAME
         self._places: dict[str, tuple[int, int]] = {}
         self._keys: dict[str, str] = {}
+        self._seen: dict[str, str] = {}
         self._begun: set[str] = set()
+        self.finished = ""
         self.put_aside = False
         try:
             if resume:
@@ -80,6 +83,18 @@ class Journal:
     def keys(self) -> dict[str, str]:
         """The key of each column whose result is there and may be used again."""
         return {name: key for name, key in self._keys.items() if key}
+
+    def seen(self, name: str) -> str:
+        """What the files of a column looked like when the result that was kept was made from them; empty for none."""
+        return self._seen.get(name, "")
+
+    @property
+    def now_ns(self) -> int:
+        """When a line was added last, by the clock of the file system."""
+        try:
+            return os.fstat(self._file).st_mtime_ns
+        except OSError as error:
+            raise self._wrong(error) from error
 
     @property
     def interrupted(self) -> set[str]:
@@ -125,9 +140,9 @@ class Journal:
             raise AadmError.because("run.journal_changed", file=self.path)
         return record
 
-    def finish(self) -> None:
-        """Note that every column was checked and the report is written."""
-        self._append(_LAST_LINE)
+    def finish(self, what: str = "") -> None:
+        """Note that every column was checked and the report is written; ``what`` is read back as ``finished``."""
+        self._append(_FINISHED + json.dumps(what).encode() + b"}\n")
         self.flush()
 
     def stop(self) -> None:
@@ -166,8 +181,9 @@ class Journal:
         # A link is no journal of ours: it is replaced.
         with suppress(FileNotFoundError, UnsafeFileError), open(open_to_read(self.path), "rb") as stream:  # noqa: PTH123
             size = os.fstat(stream.fileno()).st_size
-            stream.seek(max(0, size - len(_LAST_LINE)))
-            if stream.read(len(_LAST_LINE)) != _LAST_LINE and size > len(_FIRST_LINE):
+            stream.seek(max(0, size - _LONGEST_LAST_BYTES))
+            last = stream.read(_LONGEST_LAST_BYTES).rstrip(b"\n").rpartition(b"\n")[2]
+            if not last.startswith(_FINISHED) and size > len(_FIRST_LINE):
                 with looked_up(self.path) as (name, folder):
                     previous = Path(name).with_name(PREVIOUS_NAME)
                     os.replace(name, previous, src_dir_fd=folder, dst_dir_fd=folder)
@@ -194,6 +210,7 @@ class Journal:
         raise AadmError.because("run.journal_long", file=self.path, most=MOST_LINES)
 
     def _read_line(self, line: bytes, place: int) -> None:
+        self.finished = ""
         record = read_record(line)
         if record is not None:
             self._note(record, place, len(line))
@@ -206,10 +223,13 @@ class Journal:
             began = json.loads(line)
             if isinstance(began, dict) and isinstance(began.get("began"), str):
                 self._begun.add(began["began"])
+            elif isinstance(began, dict) and isinstance(began.get("finished"), str):
+                self.finished = began["finished"]
 
     def _note(self, record: Record, place: int, size: int) -> None:
         self._places[record.id] = (place, size)
         self._keys[record.id] = record.key
+        self._seen[record.id] = record.seen
 
     def _wrong(self, error: OSError) -> AadmError:
         if isinstance(error, UnsafeFileError):
@@ -223,6 +243,8 @@ class Unkept:
 
     keys: Mapping[str, str] = MappingProxyType({})
     interrupted: frozenset[str] = frozenset()
+    finished = ""
+    now_ns = 0
 
     def __init__(self) -> None:
         self._records: dict[str, Record] = {}
@@ -233,6 +255,10 @@ class Unkept:
     def add(self, record: Record) -> None:
         """Keep a result."""
         self._records[record.id] = record
+
+    def seen(self, name: str) -> str:
+        """Nothing: what was kept is of this very run."""
+        return ""
 
     def record(self, name: str) -> Record:
         """The result of a column."""

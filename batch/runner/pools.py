@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from importlib.util import find_spec
 from pathlib import Path
@@ -17,7 +17,7 @@ from aadm_workbench.errors import AadmError
 from aadm_workbench.own_files import open_to_write, remove
 
 if TYPE_CHECKING:
-    from aadm_workbench.inspection.tasks import ColumnTask
+    from aadm_workbench.inspection.job import Job
 
     from ..job.inputs import ShippedFile
     from .cluster import Certificates
@@ -51,6 +51,8 @@ class PoolOptions:
         Limit of each worker; None for an even share of the machine.
     seconds
         Limit of each column; None for ``SECONDS_PER_COLUMN``.
+    job_file, job_sha256
+        The job's file and its hash, by which a worker shows that it sees the same files; None where it need not.
     apart
         Whether not to check in this process, where that can be avoided: a column may be what ended the one before.
     """
@@ -62,6 +64,13 @@ class PoolOptions:
     seconds: float | None = None
     apart: bool = False
     certificates: Certificates | None = None
+    job_file: Path | None = None
+    job_sha256: str = ""
+
+    def of_job(self, job: Job) -> PoolOptions:
+        """The same for the columns of a job."""
+        path = job.folder.absolute() / Path(job.source).name
+        return replace(self, job_file=path, job_sha256=job.sha256)
 
     @property
     def is_limited(self) -> bool:
@@ -113,14 +122,14 @@ def open_pool(
 
         processes = min(options.processes or cores(), columns)
         memory_bytes = options.memory_bytes or memory_per_worker(processes)
-        terms = Terms(folder, log_folder, memory_bytes, seconds)
+        terms = Terms(folder, log_folder, memory_bytes, seconds, options.job_file, options.job_sha256)
         with local_pool(processes, terms, memory_bytes, log_folder, ship=chosen_ship, log=log) as here:
             yield here
         return
     from .cluster import remote_cluster
     from .dask_pool import DaskPool
 
-    terms = Terms(folder, log_folder, options.memory_bytes, seconds)
+    terms = Terms(folder, log_folder, options.memory_bytes, seconds, options.job_file, options.job_sha256)
     with remote_cluster(options.scheduler, log, options.certificates) as cluster:
         there = DaskPool(cluster, terms, ship=chosen_ship, say=say, log=log)
         with closing(there):
@@ -146,18 +155,19 @@ def _is_for_here(options: PoolOptions, columns: int, say: Callable[[str], None])
 @contextmanager
 def opened_pool(
     options: PoolOptions,
-    tasks: Sequence[ColumnTask],
+    columns: int,
+    job: Job,
     folder: Path | None,
     ship: Callable[[Any], tuple[ShippedFile, ...]],
     say: Callable[[str], None],
 ) -> Iterator[Pool | None]:
-    """As :func:`open_pool`; what workers write goes into a folder, or is forgotten with them."""
+    """As :func:`open_pool`, for columns of a job; what workers write goes into a folder, or is forgotten with them."""
     with ExitStack() as stack:
         scratch = _scratch(stack, folder)
         log = (lambda line: None) if folder is None else WorkersLog(folder).write
-        job_folder = tasks[0].folder if tasks else Path()
+        options, job_folder = options.of_job(job), job.folder.absolute()
         yield stack.enter_context(
-            open_pool(options, len(tasks), job_folder, ship=ship, say=say, log=log, log_folder=scratch)
+            open_pool(options, columns, job_folder, ship=ship, say=say, log=log, log_folder=scratch)
         )
 
 

@@ -18,8 +18,8 @@ from aadm_workbench.model import ColumnReport, Verdict
 
 from ..job.inputs import ShippedFile, read_for_shipping, task_key
 from .exact_json import from_exact_json, to_exact_json
+from .packed import pack, unpack
 
-_REPORT = ',"report":'
 _CHECKSUM = ',"crc32":"'
 
 
@@ -35,9 +35,12 @@ class Record:
         Hash of all that its report follows from; empty for a report that may come out differently the next time (an
         error: a file may have been missing, a process killed).
     report
-        The :class:`~aadm_workbench.model.ColumnReport`, as exact JSON.
+        The :class:`~aadm_workbench.model.ColumnReport`, as exact JSON, packed.
     seconds, where
         As of a :class:`~aadm_workbench.inspection.column.ColumnOutcome`.
+    seen
+        What the files looked like from outside while they were read (:class:`~..job.inputs.Looks`); empty where that
+        says nothing.
     """
 
     id: str
@@ -47,13 +50,14 @@ class Record:
     report: str
     seconds: dict[str, float] = field(default_factory=dict)
     where: str = ""
+    seen: str = ""
 
     @classmethod
     def of(cls, outcome: ColumnOutcome, key: str) -> Record:
         """What is to be kept of an outcome."""
         report = outcome.report
         kept_key = "" if report.verdict is Verdict.ERROR else key
-        text = to_exact_json(report)
+        text = pack(to_exact_json(report))
         return cls(report.id, kept_key, report.verdict, report.goes_on, text, outcome.seconds, outcome.where)
 
     def column(self) -> ColumnReport:
@@ -64,7 +68,7 @@ class Record:
         ValueError
             Where another version wrote it.
         """
-        return from_exact_json(ColumnReport, self.report)
+        return from_exact_json(ColumnReport, unpack(self.report))
 
     def line(self) -> bytes:
         """The record as one line of JSON, its checksum at its end."""
@@ -75,9 +79,10 @@ class Record:
             "goes_on": self.goes_on,
             "seconds": self.seconds,
             "where": self.where,
+            "seen": self.seen,
+            "report": self.report,
         }
-        text = to_exact_json(head)[:-1] + _REPORT + self.report
-        content = text.encode(errors="surrogatepass")
+        content = to_exact_json(head)[:-1].encode(errors="surrogatepass")
         return content + f'{_CHECKSUM}{zlib.crc32(content):08x}"}}\n'.encode()
 
 
@@ -87,18 +92,15 @@ def read_record(line: bytes) -> Record | None:
     if not mark or rest != f'{zlib.crc32(content):08x}"}}\n'.encode():
         return None
     try:
-        text = content.decode(errors="surrogatepass")
-        head, mark_of_report, report = text.partition(_REPORT)
-        values = json.loads(head + "}")
-        record = Record(report=report, **values) if mark_of_report else None
+        record = Record(**json.loads(content.decode(errors="surrogatepass") + "}"))
     except (ValueError, TypeError, RecursionError):
         return None
-    return record if record is not None and _is_sound(record) else None
+    return record if _is_sound(record) else None
 
 
 def _is_sound(record: Record) -> bool:
     """Whether each value is of its kind: a checksum can be calculated by anybody."""
-    texts = (record.id, record.key, record.verdict, record.goes_on, record.where)
+    texts = (record.id, record.key, record.verdict, record.goes_on, record.where, record.seen, record.report)
     seconds: object = record.seconds
     return all(isinstance(text, str) for text in texts) and (
         isinstance(seconds, dict) and all(isinstance(value, int | float) for value in seconds.values())
@@ -109,11 +111,11 @@ def _is_sound(record: Record) -> bool:
 class CheckOrder:
     """A column to be checked unless its key is still ``known``, the one of a result that was kept.
 
-    ``program`` is the key of the program that asks; a worker has the same one.
+    ``order`` is the key of all but its files, by the program that asks; a worker is the same one.
     """
 
     task: ColumnTask
-    program: str
+    order: str
     known: str = ""
 
     def at(self, places: Mapping[str, Path]) -> CheckOrder:
@@ -123,7 +125,7 @@ class CheckOrder:
 
 def fill_order(order: CheckOrder) -> Record | None:
     """Check a column; None where nothing that its result follows from has changed."""
-    key = task_key(order.task, order.program)
+    key = task_key(order.task, order.order)
     return None if key == order.known else Record.of(inspect_column(order.task), key)
 
 

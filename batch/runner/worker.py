@@ -15,7 +15,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import IO, Any
 
-from ..job.inputs import ShippedFile, unpack
+from ..job.inputs import ShippedFile, content_hash, unpack
 from ..program import difference, program_versions
 from .engine import Death
 from .machine import is_in_one_thread
@@ -45,6 +45,9 @@ class Terms:
     ----------
     folder
         Of the job; a worker that does not see it needs its inputs shipped.
+    job_file, job_sha256
+        The job file, and the hash of its bytes: a folder may be there and empty, where a disk is not mounted, or be
+        another machine's own.
     memory_bytes
         Limit of what a worker may hold; None for no limit.
     seconds
@@ -57,6 +60,13 @@ class Terms:
     log_folder: Path
     memory_bytes: int | None = None
     seconds: float | None = None
+    job_file: Path | None = None
+    job_sha256: str = ""
+
+    def are_seen(self) -> bool:
+        """Whether this process sees the job's folder, with the same job file in it."""
+        is_there = self.folder.is_dir()
+        return is_there and (self.job_file is None or content_hash(self.job_file) == self.job_sha256)
 
     def is_over(self, worked_s: float) -> bool:
         """Whether a column that was worked on for so long is over its time."""
@@ -104,7 +114,7 @@ def introduce(terms: Terms) -> Introduction:
         host=socket.gethostname(),
         log=_log_path,
         versions=program_versions(),
-        sees_job=terms.folder.is_dir(),
+        sees_job=terms.are_seen(),
         one_thread=is_in_one_thread(),
     )
 
@@ -125,7 +135,8 @@ def objection(known: Introduction, terms: Terms, *, ships: bool) -> str:
     if not known.one_thread:
         return "it calculates in several threads; start it with its nanny, as dask worker does"
     if not known.sees_job and not ships:
-        return f"it does not see {terms.folder}; share that folder with it, or add --ship-inputs"
+        what = terms.folder if terms.job_file is None else f"{terms.job_file} as it is here"
+        return f"it does not see {what}; share that folder with it, or add --ship-inputs"
     return ""
 
 

@@ -13,8 +13,10 @@ from .terminal import new_table, verdict_text
 if TYPE_CHECKING:
     from rich.table import Table
 
+    from aadm_workbench.assembly.matching.reversal import Reversal
     from aadm_workbench.calibration.learn.learn import Learned
     from aadm_workbench.calibration.learn.verify import Checked
+    from aadm_workbench.calibration.reversal import ColumnReversal
     from aadm_workbench.model import Measure
 
 _PER_MILLION = 1e6  # of relative figures: what a metre gains in micrometres
@@ -61,4 +63,28 @@ def verified_table(checks: Sequence[Checked]) -> Table:
     table = new_table("Figure", "Off", "Limit", "Verdict", numbers=("Off", "Limit"))
     for one in checks:
         table.add_row(one.name, f"{one.value:+.5f}", f"{one.limit:.5f}", verdict_text(one.verdict))
+    return table
+
+
+def reversal_tables(each: Sequence[ColumnReversal]) -> Iterator[Table]:
+    """One line for each group, then the part's own offsets and the bend of the first capture, where it shows."""
+    numbers = ("Captures", "Bend, mm", "u", "Stated u")
+    table = new_table("Column", "Group", *numbers, "Not told", "Verdict", numbers=numbers)
+    for one in each:
+        cells: tuple[str, ...] = ("–",) * 4
+        if one.found is not None:
+            lengths = (one.found.largest_mm, one.found.u_mm, one.found.stated_u_mm)
+            cells = (*(f"{length:.3f}" for length in lengths), ", ".join(one.found.untold) or "–")
+        table.add_row(one.column, one.kind.plural, str(one.captures), *cells, verdict_text(one.verdict))
+    yield table
+    for one in each:
+        if one.found is not None and one.found.shown:
+            yield _bend_table(one, one.found)
+
+
+def _bend_table(one: ColumnReversal, found: Reversal) -> Table:
+    numbers = ("Part x", "Part y", "Bend x", "Bend y")
+    table = new_table(f"{one.column}, mm", *numbers, numbers=numbers)
+    for label, part, bend in zip(one.labels, found.part, found.bias[0], strict=True):
+        table.add_row(label, *(f"{value:+.3f}" for value in (*part, *bend)))
     return table

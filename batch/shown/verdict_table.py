@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -43,7 +43,7 @@ def verdict_table(report: JobReport, language: Language = "en") -> Table:
     return table
 
 
-def worst_first(columns: tuple[ColumnReport, ...]) -> list[ColumnReport]:
+def worst_first(columns: Sequence[ColumnReport]) -> list[ColumnReport]:
     """Columns by verdict, the worst first; those of one verdict in the order of the job."""
     return sorted(columns, key=lambda column: WORST_FIRST.index(column.verdict))
 

@@ -18,6 +18,8 @@ def test_a_floor_in_chaos_is_a_floor_in_peace(tmp_path: Path) -> None:
     assert chaos.not_noticed == []
     assert chaos.processes_killed == 2
     assert chaos.harm == []
+    assert {"full disk", "dead scheduler", "empty mount"} == {*chaos.faults.said, *chaos.faults.untried}
+    assert [text for promised, text in chaos.faults.said.values() if not promised] == []
     assert min(chaos.strangers.links, chaos.strangers.pipes) > 0
     assert len(set(chaos.corrupt)) == 2
     # The calm check and the last one: some columns fail or are errors.

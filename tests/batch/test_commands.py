@@ -1,5 +1,6 @@
 """design, extract, profiles, doctor and the virtual camera, each by what it prints and how it ends."""
 
+import importlib
 import json
 import sys
 from dataclasses import replace
@@ -99,7 +100,7 @@ def test_design_of_one_column(model: list[dict[str, Any]], capsys: Output) -> No
     assert main(["design", "m.ifc", "--column", "C-302"]) == 2
     assert "has no column called 'C-302'" in capsys.readouterr().err
     assert main(["design", "m.ifc", "--column", "IfcWall", "--sleeves", "IfcPipe"]) == 11
-    assert model[-1] == {"columns": "IfcWall", "sleeves": "IfcPipe", "rebars": None}
+    assert model[-1] == {"columns": "IfcWall", "sleeves": "IfcPipe", "rebars": None, "units": "mm"}
     assert "no column with grouting sleeves in its foot; it holds 3 IfcWall" in capsys.readouterr().err
 
 
@@ -237,6 +238,32 @@ def test_doctor_names_the_extra_of_what_is_missing(capsys: Output, monkeypatch: 
     monkeypatch.setattr("aadm_workbench.errors.PACKAGES", known)
     assert main(["doctor"]) == 0
     assert "pip install 'aadm-workbench[formats]'" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("library", "remedy"),
+    [
+        ("libusb-1.0.so.0", "apt-get install libusb-1.0-0"),
+        ("libfoo.so.7", "the system's package that holds libfoo.so.7"),
+    ],
+)
+def test_doctor_blames_the_system_for_its_library(
+    capsys: Output, monkeypatch: pytest.MonkeyPatch, library: str, remedy: str
+) -> None:
+    """The package is there: nobody is told to install it again."""
+
+    def loaded(name: str) -> Any:
+        if name == "open3d":
+            raise OSError(f"{library}: cannot open shared object file: No such file or directory")
+        return importlib.import_module(name)
+
+    known = tuple(package for package in PACKAGES if not package.extra or package.module == "open3d")
+    monkeypatch.setattr("aadm_workbench.errors.PACKAGES", known)
+    monkeypatch.setattr("batch.commands.doctor.import_module", loaded)
+    assert main(["doctor", "--json"]) == 0
+    (found,) = (one for one in printed_json(capsys)["packages"] if one["package"] == "open3d")
+    assert found["problem"] == f"the system library {library} is missing"
+    assert found["remedy"] == remedy
 
 
 def test_simulate_without_the_ray_caster(tmp_path: Path, capsys: Output, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ import pytest
 from aadm_workbench.errors import AadmError
 from aadm_workbench.inspection import column
 from aadm_workbench.inspection.tasks import ColumnTask
+from batch.job import inputs
 from batch.main import main
 from batch.runner import record
 from batch.runner.journal import Journal
@@ -214,3 +216,105 @@ def test_a_read_only_folder(job: Path, capsys: pytest.CaptureFixture[str]) -> No
     (job.parent / "out").mkdir(mode=0o500)
     assert check(job, "out") == 2
     assert "nothing can be written there" in capsys.readouterr().err
+
+
+def untouched(monkeypatch: pytest.MonkeyPatch) -> list[Path]:
+    """Files that are read to be compared; what was written a moment ago counts as old."""
+    monkeypatch.setattr(inputs, "_TICK_NS", 0)
+    seen: list[Path] = []
+    real = inputs.content_hash
+
+    def content_hash(path: Path) -> str:
+        seen.append(path)
+        return real(path)
+
+    monkeypatch.setattr(inputs, "content_hash", content_hash)
+    return seen
+
+
+@pytest.mark.usefixtures("exact_extraction")
+def test_files_that_look_as_they_did_are_not_read(job: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    only = ["--only", "C-0", "C-2", "C-3"]
+    seen = untouched(monkeypatch)
+    check(job, "out", *only)
+    report, before = content(job, "out"), (tmp_path / "out" / "report.json").stat()
+    seen.clear()
+    checked = counted(monkeypatch)
+    assert check(job, "out", "--resume", *only) == 0
+    assert (seen, checked) == ([], [])
+    # Nothing has changed, so the report stands as it was written.
+    assert (tmp_path / "out" / "report.json").stat().st_mtime_ns == before.st_mtime_ns
+    check(job, "out", "--resume", "--verify", *only)
+    assert {path.name for path in seen} >= {"C-0.ply", "C-2.ply", "C-3.ply"}
+    assert (checked, content(job, "out")) == ([], report)
+
+
+@pytest.mark.usefixtures("exact_extraction")
+def test_a_file_that_was_falsified_is_noticed(job: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Of the same size, and the time of its last change set back."""
+    untouched(monkeypatch)
+    check(job, "out")
+    scan = tmp_path / "C-2.ply"
+    status, content_before = scan.stat(), scan.read_bytes()
+    scan.write_bytes(content_before[:-4] + bytes([content_before[-4] ^ 1]) + content_before[-3:])
+    os.utime(scan, ns=(status.st_atime_ns, status.st_mtime_ns))
+    checked = counted(monkeypatch)
+    check(job, "out", "--resume")
+    assert "C-2" in checked
+    checked.clear()
+    # Below the file system even the system's own time can be set back: then --verify tells.
+    as_before = Journal(tmp_path / "out", resume=True).seen("C-2")
+    scan.write_bytes(content_before)
+    real = inputs.looks
+    blind = lambda task, order: replace(real(task, order), hash=as_before)  # noqa: E731
+    monkeypatch.setattr(
+        "batch.runner.run.looks", lambda task, order: (blind if task.column.id == "C-2" else real)(task, order)
+    )
+    check(job, "out", "--resume")
+    assert "C-2" not in checked
+    check(job, "out", "--resume", "--verify")
+    assert "C-2" in checked
+
+
+@pytest.mark.usefixtures("exact_extraction")
+def test_a_file_that_changes_while_it_is_read_is_read_again(
+    job: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    untouched(monkeypatch)
+    real = record.inspect_column
+
+    def inspect_column(task: ColumnTask) -> column.ColumnOutcome:
+        found = real(task)
+        if task.column.id == "C-2":
+            (tmp_path / "C-2.ply").write_bytes((tmp_path / "C-3.ply").read_bytes() + b"\n")
+        return found
+
+    with monkeypatch.context() as patch:
+        patch.setattr(record, "inspect_column", inspect_column)
+        check(job, "out")
+    checked = counted(monkeypatch)
+    check(job, "out", "--resume")
+    assert "C-2" in checked
+    assert "C-3" not in checked
+
+
+@pytest.mark.usefixtures("exact_extraction")
+@pytest.mark.parametrize("harm", ["changed", "missing", "other limits", "other columns"])
+def test_a_report_that_no_longer_holds_is_written_again(
+    job: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, harm: str
+) -> None:
+    only = ["--only", "C-0", "C-2"]
+    untouched(monkeypatch)
+    check(job, "out", *only)
+    report = tmp_path / "out" / "report.json"
+    if harm == "changed":
+        report.write_bytes(report.read_bytes().replace(b'"pass"', b'"fail"'))
+    elif harm == "missing":
+        report.unlink()
+    elif harm == "other limits":
+        job.write_text(job.read_text("utf-8") + "\n[capture]\noperator = 'Li'\n", "utf-8")
+    else:
+        only = ["--only", "C-2", "C-3"]
+    check(job, "out", "--resume", *only)
+    check(job, "anew", *only)
+    assert content(job, "out") == content(job, "anew")

@@ -1,6 +1,7 @@
 """A scheduler and two workers as processes of their own, as docs/overnight.md has them started: the same report."""
 
 import contextlib
+import hashlib
 import json
 import os
 import shutil
@@ -15,10 +16,14 @@ from pathlib import Path
 import psutil
 import pytest
 
-from aadm_workbench.errors import JobError
+from aadm_workbench.errors import AadmError, JobError
 from batch.main import main
+from batch.runner import cluster as cluster_of_dask
+from batch.runner.dask_pool import DaskPool
 from batch.runner.engine import Unwatched, work_through
 from batch.runner.pools import PoolOptions, open_pool
+from batch.runner.worker import Terms
+from benchmarks.faults import address_in
 
 from .conftest import WriteJob, column_text
 from .killers import Chore, do, give_up
@@ -33,13 +38,12 @@ class Cluster:
     address: str
     workers: list[subprocess.Popen[bytes]]
     folder: Path
+    scheduler: subprocess.Popen[bytes]
 
 
-@pytest.fixture(scope="module")
-def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
-    """A scheduler on a free port, and two workers with their nannies."""
-    pytest.importorskip("distributed")
-    folder = tmp_path_factory.mktemp("cluster")
+@contextlib.contextmanager
+def running_cluster(folder: Path, count: int) -> Iterator[Cluster]:
+    """A scheduler on a free port, and some workers with their nannies."""
     root = Path(__file__).resolve().parents[2]
     environment = {**os.environ, "PYTHONPATH": str(root)}
     started: list[subprocess.Popen[bytes]] = []
@@ -52,19 +56,26 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
         return process
 
     said = folder / "scheduler.json"
-    start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(said))
-    until = time.monotonic() + 30.0
-    while not said.exists() and time.monotonic() < until:
-        time.sleep(0.05)
-    address = json.loads(said.read_text())["address"]
-    workers = [start("worker", address, "--nthreads", "1", "--no-dashboard") for _ in range(2)]
-    yield Cluster(address, workers, folder)
-    for process in reversed(started):
-        process.send_signal(signal.SIGTERM)
-    for process in started:
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            process.wait(10)
-        process.kill()
+    try:
+        start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(said))
+        address = address_in(said, 60.0)
+        workers = [start("worker", address, "--nthreads", "1", "--no-dashboard") for _ in range(count)]
+        yield Cluster(address, workers, folder, started[0])
+    finally:
+        for process in reversed(started):
+            process.send_signal(signal.SIGTERM)
+        for process in started:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(10)
+            process.kill()
+
+
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    """A scheduler and two workers."""
+    pytest.importorskip("distributed")
+    with running_cluster(tmp_path_factory.mktemp("cluster"), 2) as running:
+        yield running
 
 
 @pytest.fixture
@@ -106,6 +117,63 @@ def test_a_worker_that_does_not_see_the_scans_gets_none(cluster: Cluster, tmp_pa
         with pytest.raises(JobError, match=r"no worker can be used: .+it does not see .+nowhere.+add --ship-inputs"):
             list(work_through(chores, pool, do, give_up, Unwatched()))
     assert len(said) == 2
+
+
+def test_a_worker_that_sees_an_empty_folder_gets_none(cluster: Cluster, tmp_path: Path) -> None:
+    """The folder of the job is there, but the disk is not mounted, or it is the worker's own folder of that name."""
+    file = tmp_path / "job.toml"
+    sha256 = hashlib.sha256(b"schema = 1").hexdigest()
+    options = PoolOptions(scheduler=cluster.address, job_file=file, job_sha256=sha256)
+
+    def outcomes() -> list[tuple[int, str]]:
+        pool = open_pool(options, 1, tmp_path, ship=lambda _: (), say=print, log=lambda _: None, log_folder=tmp_path)
+        with pool as there:
+            return list(work_through([Chore("one", "work", tmp_path)], there, do, give_up, Unwatched()))
+
+    said = r"no worker can be used: .+it does not see .+job\.toml as it is here; share that folder"
+    with pytest.raises(JobError, match=said):
+        outcomes()
+    file.write_bytes(b"schema = 2")
+    with pytest.raises(JobError, match=said):
+        outcomes()
+    file.write_bytes(b"schema = 1")
+    assert outcomes() == [(0, "one done")]
+
+
+class LostClient:
+    """A client of Dask whose scheduler is gone: it knows of itself, and of no workers."""
+
+    def scheduler_info(self, n_workers: int) -> dict[str, str]:
+        return {"type": "Scheduler", "id": "none"}
+
+
+def test_a_client_that_has_lost_its_scheduler_says_so(tmp_path: Path) -> None:
+    lost = cluster_of_dask.Cluster(LostClient(), cluster_of_dask.RemoteWorkers(LostClient()))
+    with pytest.raises(AadmError, match="the scheduler of Dask is gone; look at its own messages"):
+        DaskPool(lost, Terms(tmp_path, tmp_path), ship=None, say=print, log=print)
+
+
+def test_a_scheduler_that_dies_in_mid_run_is_said_to_be_gone(tmp_path: Path, job: Path) -> None:
+    """What was kept is kept, the exit code is that of a check that could not go on, and it goes on elsewhere."""
+    pytest.importorskip("distributed")
+    here = report(job, "here")
+    folder = tmp_path / "cluster"
+    folder.mkdir()
+    out = job.parent / "there"
+    with running_cluster(folder, 1) as running:
+        words = ["check", str(job), "--out", str(out), "--scheduler", running.address, "--quiet"]
+        root = Path(__file__).resolve().parents[2]
+        process = subprocess.Popen([sys.executable, "-m", "batch", *words], cwd=root, stderr=subprocess.PIPE, text=True)
+        journal = out / "journal.jsonl"
+        while process.poll() is None and not (journal.exists() and b'"key"' in journal.read_bytes()):
+            time.sleep(0.002)
+        running.scheduler.kill()
+        _, said = process.communicate(timeout=120)
+    assert "the scheduler of Dask is gone; look at its own messages" in said
+    assert process.returncode == 70
+    assert "repeat the command with --resume" in said
+    assert "Traceback" not in said
+    assert report(job, "there", "--resume") == here
 
 
 def test_a_worker_that_dies_is_named_by_its_signal(cluster: Cluster, job: Path) -> None:

@@ -1,11 +1,13 @@
 """``aadm stack``: from report.json and a model to tables, JSON, a page and an exit code."""
 
+import csv
 import hashlib
 import json
 import re
 from pathlib import Path
 from typing import Any
 
+import openpyxl
 import pypdfium2
 import pytest
 
@@ -77,6 +79,28 @@ def test_the_report_of_a_job_with_stack_shows_the_tower(folder: Path, tmp_path: 
     without = (tmp_path / "without" / "report.html").read_text(encoding="utf-8")
     assert "setting-out" not in without
     assert drawn[0] not in without
+
+
+def test_workbook_and_table_hold_the_tower(folder: Path, tmp_path: Path) -> None:
+    """What ``aadm stack --json`` says of the next storey's bars stands in both, as numbers."""
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    report["job"]["stack"] = "braced = true\n"
+    (tmp_path / "report.json").write_text(json.dumps(report), encoding="utf-8")
+    words = (str(tmp_path / "report.json"), "--xlsx", "--csv", "--model", str(folder / "demo.ifc"), "--quiet")
+    assert main(["report", *words]) == 0
+    book = openpyxl.load_workbook(tmp_path / "report.xlsx")
+    assert "set_pose = [-2.76, -0.42, 0.000]" in [cell.value for cell in book["Tower"]["D"]]
+    sheet = [[cell.value for cell in row] for row in book["Setting out"].rows]
+    with (tmp_path / "setting-out.csv").open(encoding="utf-8-sig", newline="") as stream:
+        lines = list(csv.DictReader(stream))
+    assert len(lines) == len(sheet) - 1 >= 2
+    for line, row in zip(lines, sheet[1:], strict=True):
+        numbers = [float(line[name]) for name in ("dx_mm", "dy_mm", "height_mm", "turn_deg", "u_mm")]
+        assert [row[0], row[2]] == [line["column"], line["set_as"]]
+        assert row[3:8] == pytest.approx(numbers)
+    assert main(["report", str(folder / "report.json"), *words[1:], "--out", str(tmp_path / "without")]) == 0
+    assert "Tower" not in openpyxl.load_workbook(tmp_path / "without" / "report.xlsx").sheetnames
+    assert not (tmp_path / "without" / "setting-out.csv").exists()
 
 
 def test_a_model_that_cannot_be_read_costs_the_beams_alone(folder: Path, tmp_path: Path) -> None:

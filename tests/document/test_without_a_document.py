@@ -64,6 +64,12 @@ def test_files_that_are_no_reports_or_scans_get_a_sentence(freecad: Any) -> None
         "open_scan.insert(str(folder / 'broken.ply'), document.Name)\n"
         "column = api.describe(document, 'L-1', {'centres': [[0, 0], [90, 0], [0, 90]], 'sleeve_diameter': 26.0})\n"
         "open_scan.insert(str(folder / 'broken.ply'), document.Name)\n"
+        "from aadm_workbench.document.asking import LANGUAGES\n"
+        "from aadm_workbench.report.words.reasons import in_both_languages\n"
+        "LANGUAGES[:] = [lambda sentence: in_both_languages(sentence).zh]  # as a Chinese window does\n"
+        "open_report.insert(str(folder / 'nowhere.json'), document.Name)\n"
+        "open_scan.insert(str(folder / 'broken.ply'), document.Name)\n"
+        "LANGUAGES.clear()\n"
         "for call in (lambda: api.check(column), lambda: api.add_scan(column, folder / 'x.ply', 'sleeves'),\n"
         "             lambda: api.add_scan(column, folder / 'broken.ply', 'feet'),\n"
         "             lambda: api.report_of(document), lambda: api.sample(document)):\n"
@@ -76,6 +82,7 @@ def test_files_that_are_no_reports_or_scans_get_a_sentence(freecad: Any) -> None
     assert all(len(sentence) > 15 for sentence in result["said"].values())
     assert "Traceback" not in result["printed"]
     assert "broken.ply" in result["printed"]
+    assert "nowhere.json：无法读取（" in result["printed"]
 
 
 def test_examples_of_the_api_run(freecad: Any, repository: Path) -> None:

@@ -17,6 +17,7 @@ pytestmark = pytest.mark.freecad
 
 COMMANDS = [
     "AADM_About",
+    "AADM_Camera",
     "AADM_CaptureScan",
     "AADM_CheckAll",
     "AADM_CheckColumn",

@@ -1,6 +1,8 @@
 """Reading report.json back: what it refuses, and that it says where and what to do."""
 
+import copy
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +11,7 @@ import pytest
 from aadm_workbench.errors import ReportError
 from aadm_workbench.report.json import encoded_report
 from aadm_workbench.report.read import read_report
+from tests.report.typed import typed
 
 
 def written(folder: Path, text: str | bytes) -> Path:
@@ -62,6 +65,17 @@ def test_half_a_character_is_no_reason_to_fail(floor: dict[str, Any], tmp_path: 
     floor["columns"][1]["id"] = "\U0001f3d7"
     read = read_report(written(tmp_path, json.dumps(floor)))
     assert [column.id for column in read.columns[:2]] == ["C-?", "\U0001f3d7"]
+
+
+def test_keys_of_later_versions_are_no_reason_to_refuse(floor: dict[str, Any], tmp_path: Path) -> None:
+    """What is added to a schema does not break those who read it; what they know is as it was."""
+    before = typed(copy.deepcopy(floor))
+    point = floor["columns"][0]["sleeves"]["points"][0]
+    for entry in (floor, floor["job"], floor["columns"][0], floor["columns"][0]["sleeves"], point):
+        entry["of_a_later_version"] = "new" if entry is floor["job"] else {"deep": [1, None]}
+    (tmp_path / "report.json").write_text(json.dumps(floor), encoding="utf-8")
+    read = read_report(tmp_path / "report.json")
+    assert encoded_report(replace(read, job=before.job)) == encoded_report(before)
 
 
 def test_missing_file(tmp_path: Path) -> None:

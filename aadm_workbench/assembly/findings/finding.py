@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
 from aadm_workbench.assembly.matching.match import Match
@@ -24,6 +25,7 @@ from aadm_workbench.model import (
     Verdict,
     worst,
 )
+from aadm_workbench.model.made import changed
 
 NOT_MEASURED = ("mirrored", "swapped", "turn_contradicted", "other_column", "sleeves_by_design")
 """What was to be measured was not scanned, or not measured; all else that holds back leaves a verdict open."""
@@ -121,53 +123,56 @@ class SeenGroup:
 class _Use:
     """One file of one group of one column."""
 
-    column: int
     group: str
     source: str
     sha256: str
 
 
-def with_same_scans(columns: Sequence[ColumnReport]) -> tuple[ColumnReport, ...]:
+@dataclass(frozen=True)
+class _Shared:
+    """A file that is used more than once: by which columns, their ids by their number, and in which groups of each."""
+
+    ids: dict[int, str]
+    uses: dict[int, list[_Use]]
+
+    def others(self, number: int) -> str:
+        """The first of the other columns, and how many more there are."""
+        first = [name for other, name in islice(self.ids.items(), _NAMED + 1) if other != number][:_NAMED]
+        more = len(self.ids) - 1 - len(first)
+        return ", ".join(first) + (f", … (+{more})" if more else "")
+
+
+def with_same_scans(columns: Sequence[ColumnReport]) -> Sequence[ColumnReport]:
     """The columns of a job, each with a finding where a scan of it was used elsewhere too."""
-    uses = [use for number, column in enumerate(columns) for use in _uses(number, column)]
-    by_hash: dict[str, list[_Use]] = {}
-    for use in uses:
-        by_hash.setdefault(use.sha256, []).append(use)
-    twice = {key: same for key, same in by_hash.items() if len(same) > 1}
-    if not twice:
-        return tuple(columns)
-    return tuple(held_back(column, _findings(number, columns, twice)) for number, column in enumerate(columns))
+    by_hash: dict[str, _Shared] = {}
+    for number, column in enumerate(columns):
+        for use in _uses(column):
+            shared = by_hash.setdefault(use.sha256, _Shared({}, {}))
+            shared.ids[number] = column.id
+            shared.uses.setdefault(number, []).append(use)
+    twice: dict[int, list[_Shared]] = {}
+    for shared in by_hash.values():
+        for number, own in shared.uses.items():
+            if len(shared.uses) > 1 or len(own) > 1:
+                twice.setdefault(number, []).append(shared)
+    return changed(columns, lambda number, column: held_back(column, _findings(number, twice.get(number, ()))))
 
 
-def _listed(names: Sequence[str]) -> str:
-    """The first of some columns, and how many more there are."""
-    more = f", … (+{len(names) - _NAMED})" if len(names) > _NAMED else ""
-    return ", ".join(names[:_NAMED]) + more
-
-
-def _uses(number: int, column: ColumnReport) -> Iterator[_Use]:
+def _uses(column: ColumnReport) -> Iterator[_Use]:
     for name, group in (("sleeves", column.sleeves), ("rebars", column.rebars)):
         if isinstance(group, GroupReport):
             files = zip(group.source.split(", "), group.sha256.split(", "), strict=False)
-            yield from (_Use(number, name, source, sha256) for source, sha256 in files if sha256)
+            yield from (_Use(name, source, sha256) for source, sha256 in files if sha256)
 
 
-def _findings(number: int, columns: Sequence[ColumnReport], twice: dict[str, list[_Use]]) -> list[Finding]:
+def _findings(number: int, twice: Sequence[_Shared]) -> list[Finding]:
     found = []
-    for same in twice.values():
-        own = [use for use in same if use.column == number]
-        others = list(dict.fromkeys(columns[use.column].id for use in same if use.column != number))
-        if own and others:
-            use = own[0]
-            found.append(
-                make_finding(
-                    "same_scan_twice.columns",
-                    [use.group],
-                    group=use.group,
-                    source=use.source,
-                    others=_listed(others),
-                )
-            )
+    for shared in twice:
+        own = shared.uses[number]
+        if len(shared.uses) > 1:
+            use, others = own[0], shared.others(number)
+            said = {"group": use.group, "source": use.source, "others": others}
+            found.append(make_finding("same_scan_twice.columns", [use.group], **said))
         if len(own) > 1:
             about = list(dict.fromkeys(use.group for use in own))
             found.append(make_finding("same_scan_twice.column", about, source=own[0].source))

@@ -39,8 +39,8 @@ TAKES_BACK = ("scale_differs", "other_column", "swapped", "gaps_filled")
 another column, or of the other group, lie on this one by chance; how far filled edges were moved nobody knows."""
 
 OPENS_TRIAL = "common_lean"
-"""Of all sleeves and all bars alike: places within a plane are as they were; leans, and with them the room in the
-sleeves, are not."""
+"""Of all sleeves and of all bars: places within a plane are as they were; leans, and with them the room in the sleeves,
+are not, as long as it is open whether they are the camera's."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +137,8 @@ def without_spoilt(report: ColumnReport, findings: Sequence[Finding], checks: Se
         What the verdict of the column counts: ``sleeves``, ``rebars``, ``trial``.
     """
     reason = {name: one.text for one in findings if one.code in TAKES_BACK for name in one.about}
-    sheared = [one.text for one in findings if one.code == OPENS_TRIAL and len(one.about) > 1]
+    leaning = [one for one in findings if one.code == OPENS_TRIAL]
+    sheared = [one.text for one in leaning] if len({name for one in leaning for name in one.about}) > 1 else []
     if not reason and not sheared:
         return report
     sleeves, rebars = (

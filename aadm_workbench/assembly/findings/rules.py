@@ -21,6 +21,7 @@ import numpy as np
 from aadm_workbench.assembly.findings.diameters import diameter_findings
 from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.findings.scale import scale_findings
+from aadm_workbench.assembly.findings.views import bend_findings, profile_findings
 from aadm_workbench.assembly.matching.match import FAR_FROM_DECLARED
 from aadm_workbench.assembly.pose.eopa import wrap
 from aadm_workbench.extract.copied_pixels import COPIED
@@ -60,6 +61,8 @@ def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Find
     found += scale_findings(groups)
     found += lean_findings(groups)
     found += filter_findings(groups)
+    found += bend_findings(groups)
+    found += profile_findings(groups)
     for group in groups:
         found += diameter_findings(group)
         found += exposed_length_findings(group, design.exposed_length_mm)

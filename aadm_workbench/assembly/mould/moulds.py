@@ -9,12 +9,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from aadm_workbench.assembly.mould.drift import CONFIDENCE, SharedDisplacement, cp_index, cpk_index, shared_displacement
 from aadm_workbench.assembly.tolerances import applicable_rules
 from aadm_workbench.model import (
+    Array,
     Capability,
     ColumnReport,
     GroupReport,
@@ -41,13 +43,16 @@ def assess_moulds(columns: Sequence[ColumnReport], profile: Profile) -> tuple[Mo
     Columns are of one mould where they have the same piece mark, or the same inline design. Moulds of fewer than three
     columns are left out, and feet whose orientation is ambiguous: it is open which of their sleeves is which.
     """
-    moulds: dict[object, list[tuple[ColumnReport, GroupReport]]] = {}
+    moulds: dict[object, list[_Foot]] = {}
+    first: dict[object, GroupReport] = {}
     for column in columns:
         foot = column.sleeves
         if foot is not None and foot.fit is not None and foot.fit.orientation != "ambiguous":
-            moulds.setdefault(_mould_of(column, foot), []).append((column, foot))
+            mould = _mould_of(column, foot)
+            moulds.setdefault(mould, []).append(_Foot.of(column, foot))
+            first.setdefault(mould, foot)
     rule = next(iter(applicable_rules(profile, "sleeve_position")[0]), None)
-    found = (_assess(feet, rule) for feet in moulds.values() if len(feet) >= FEWEST_COLUMNS)
+    found = (_assess(first[mould], feet, rule) for mould, feet in moulds.items() if len(feet) >= FEWEST_COLUMNS)
     return tuple(drift for drift in found if drift is not None)
 
 
@@ -57,24 +62,41 @@ def _mould_of(column: ColumnReport, foot: GroupReport) -> tuple[object, ...]:
     return None, column.size_mm, tuple(point.design_mm for point in foot.points)
 
 
-def _assess(feet: Sequence[tuple[ColumnReport, GroupReport]], rule: Rule | None) -> MouldDrift | None:
-    points = [foot.points for _, foot in feet]
-    every = np.array([[point.offset_mm is not None for point in row] for row in points])
+@dataclass(frozen=True, eq=False)
+class _Foot:
+    """What is needed of the n sleeves of a foot, in little memory: offsets (n, 2) mm and u (n,) mm, NaN without any."""
+
+    id: str
+    piece_mark: str | None
+    offsets: Array
+    u_mm: Array
+
+    @classmethod
+    def of(cls, column: ColumnReport, foot: GroupReport) -> _Foot:
+        points = foot.points
+        offsets = np.array([point.offset_mm or (np.nan, np.nan) for point in points])
+        u_mm = np.array([np.nan if point.offset_mm is None else point.u_mm or 0.0 for point in points])
+        return cls(column.id, column.piece_mark, offsets, u_mm)
+
+
+def _assess(first: GroupReport, feet: Sequence[_Foot], rule: Rule | None) -> MouldDrift | None:
+    """``first`` is the group of the first foot, whose labels and places are those of all."""
+    every = np.isfinite([foot.u_mm for foot in feet])
     often = np.flatnonzero(every.sum(axis=0) >= FEWEST_COLUMNS)
     if len(often) < 2:
         return None
     measured = every[:, often]
-    offsets = np.array([[row[k].offset_mm or (0.0, 0.0) for k in often] for row in points])
-    design = np.array([points[0][k].design_mm[:2] for k in often])
+    offsets = np.nan_to_num([foot.offsets[often] for foot in feet], nan=0.0)
+    design = np.array([first.points[k].design_mm[:2] for k in often])
     shared = shared_displacement(offsets, measured, design)
-    u_mm = [np.mean([row[k].u_mm or 0.0 for row in points if row[k].offset_mm is not None]) for k in often]
+    u_mm = [np.mean([foot.u_mm[k] for foot in feet if np.isfinite(foot.u_mm[k])]) for k in often]
     limit_mm, axis_mm, said = _axis_limit(rule)
     sleeves = tuple(
-        _sleeve(points[0][k].label, shared, index, float(u_mm[index]), axis_mm) for index, k in enumerate(often)
+        _sleeve(first.points[k].label, shared, index, float(u_mm[index]), axis_mm) for index, k in enumerate(often)
     )
     return MouldDrift(
-        piece_mark=feet[0][0].piece_mark,
-        columns=tuple(column.id for column, _ in feet),
+        piece_mark=feet[0].piece_mark,
+        columns=tuple(foot.id for foot in feet),
         p_value=shared.p_value,
         scatter_mm=shared.scatter_mm,
         limit_mm=limit_mm,

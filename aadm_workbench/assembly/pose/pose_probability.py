@@ -6,7 +6,8 @@ decided whether a pose meets all limits, distances and rooms over the ribs alike
 (:mod:`.smallest_common_disc`).
 
 That a pair stands like the others where it was hardly seen is likely, and no evidence: such a pair is named, and keeps
-the trial from passing.
+the trial from passing. So does one that is known worse than the others, where by its own measurement alone, and not by
+theirs, a pose is not sure to exist: a bar that was bent is seen worse, too.
 """
 
 from __future__ import annotations
@@ -40,6 +41,9 @@ _HOPELESS_SIGMAS = 8.0
 
 _SAFE_SIGMAS = 4.0  # of the root of both variances: the disc then holds all but one in nine million
 
+_WORSE = 4.0
+"""Times the usual variance of a pair: known half as well as the others, it was not seen as they were."""
+
 _GAP = 1e-4
 """Share to which a squared ratio has to be known: some hundred times finer than the spread of the draws."""
 
@@ -53,7 +57,8 @@ class Existence:
 
     ``contradicted``: the measured values themselves say that there is none. ``violated`` (n,) is the share of draws in
     which each pair breaks a limit at the best pose of the measured values. ``hardly_seen`` (n,): pairs that would not
-    hold their limit for sure even if their bar had been found in the very middle.
+    hold their limit for sure even if their bar had been found in the very middle, and pairs known worse than the others
+    that a pose would only be sure of because they are taken to stand like these.
     """
 
     probability: float
@@ -111,9 +116,21 @@ def existence_of_a_pose(
     far = (fit.ratio - 1.0) / _largest_u(pairs, fit)
     if np.isinf(fit.ratio) or far > _HOPELESS_SIGMAS:
         return Existence(0.0, np.where(hardly_seen, 1.0 - bounds, 0.0), contradicted, hardly_seen)
-    draws = _drawn(pairs, limits_mm, fit, generator)
-    probability, violated = _counted(draws, fit, samples)
-    return Existence(probability, np.where(hardly_seen, 1.0 - bounds, violated), contradicted, hardly_seen)
+    all_alike = np.zeros(len(pairs), dtype=bool)
+    probability, violated = _counted(_drawn(pairs, limits_mm, fit, all_alike, generator), fit, samples)
+    violated = np.where(hardly_seen, 1.0 - bounds, violated)
+    worse = _known_worse(pairs)
+    if probability >= PASS_PROBABILITY and worse.any() and not hardly_seen.any():
+        alone, broken = _counted(_drawn(pairs, limits_mm, fit, worse, generator), fit, samples)
+        if alone < PASS_PROBABILITY:
+            hardly_seen, violated = worse, np.where(worse, broken, violated)
+    return Existence(probability, violated, contradicted, hardly_seen)
+
+
+def _known_worse(pairs: Sequence[Pair]) -> BoolArray:
+    """Pairs (n,) whose centres are known much worse than is usual of the others."""
+    variances = np.array([0.0 if pair.covariance is None else np.trace(pair.covariance) for pair in pairs])
+    return np.asarray(variances > _WORSE * np.median(variances))
 
 
 def _granted(pairs: Sequence[Pair], limits_mm: Array, hardly_seen: BoolArray) -> tuple[tuple[Pair, ...], Array]:
@@ -173,8 +190,10 @@ def _counted(draws: Iterator[_Draws], fit: BestFit, samples: int) -> tuple[float
     return float(possible.mean()), np.array(violated)
 
 
-def _drawn(pairs: Sequence[Pair], limits_mm: Array, fit: BestFit, generator: np.random.Generator) -> Iterator[_Draws]:
-    """Draws of all gaps, as many at a time as true offsets are drawn."""
+def _drawn(
+    pairs: Sequence[Pair], limits_mm: Array, fit: BestFit, apart: BoolArray, generator: np.random.Generator
+) -> Iterator[_Draws]:
+    """Draws of all gaps, as many at a time as true offsets are drawn; pairs ``apart`` (n,) by their own measurement."""
     gaps, count = fit.gaps, len(pairs)
     start = start_pose(pairs, limits_mm, fit.yaw, fit.shift)
     vectors, turning = start.vectors_of(gaps.source, gaps.target)
@@ -182,7 +201,8 @@ def _drawn(pairs: Sequence[Pair], limits_mm: Array, fit: BestFit, generator: np.
     covariances = np.array([pair.covariance for pair in pairs])
     rooms_u_mm = np.array([pair.room_u_mm for pair in pairs])
     bars, sleeves = _bar_shifts(pairs), _sleeve_shifts(pairs)
-    for offsets in true_offsets(Measured(vectors[centres], turning[centres], covariances), generator):
+    measured = Measured(vectors[centres], turning[centres], covariances, apart)
+    for offsets in true_offsets(measured, generator):
         k = len(offsets)
         moved = (offsets - vectors[centres])[:, gaps.owner]
         bar, sleeve = bars.drawn(k, generator) @ turn(fit.yaw).T, sleeves.drawn(k, generator)

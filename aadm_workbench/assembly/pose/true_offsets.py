@@ -22,7 +22,7 @@ import numpy as np
 from scipy.special import gammainc, gammaincinv
 
 from aadm_workbench.assembly.matching.pattern_search import USUAL_SCATTER_MM
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, BoolArray
 
 CHAINS = 300
 """So many draws are made at once, each from the one before it."""
@@ -39,6 +39,7 @@ _PRIOR_POINTS = 1.0
 _USUAL_VARIANCE = 2.0 * USUAL_SCATTER_MM**2  # mm²: of a bar and its sleeve together, per axis
 
 _SMALLEST_VARIANCE = 0.05**2  # mm²: no pattern is cast to less than a twentieth
+_ANYTHING = 1e6  # mm²: a metre, of a pair that need not stand like the others
 _TINY = 1e-18  # keeps quotients finite
 
 _LEAST_LEAN = 0.1
@@ -50,11 +51,15 @@ _OF_A_MEDIAN = np.pi / 2.0
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """n offsets (n, 2) mm, how they change with a turn of the bars, (n, 2), and their covariances (n, 2, 2) mm²."""
+    """n offsets (n, 2) mm, how they change with a turn of the bars, (n, 2), and their covariances (n, 2, 2) mm².
+
+    ``apart`` (n,): pairs of which nothing is believed but their own measurement; they may stand off by anything.
+    """
 
     offsets: Array
     turning: Array
     covariances: Array
+    apart: BoolArray
 
     @property
     def by_pose(self) -> Array:
@@ -66,18 +71,18 @@ class Measured:
 
 def true_offsets(measured: Measured, generator: np.random.Generator) -> Iterator[Array]:
     """Draws of the true offsets, (k, n, 2) mm with k = :data:`CHAINS`, again and again."""
-    by_pose = measured.by_pose
+    by_pose, alike = measured.by_pose, ~measured.apart
     variance, weight = np.full(CHAINS, _first_variance(measured)), np.ones((CHAINS, len(measured.offsets)))
     sweep = 0
     while True:
-        own = variance[:, None] / weight
+        own = np.where(alike, variance[:, None] / weight, _ANYTHING)
         inverse = _inverse(own[..., None, None] * np.eye(2) + measured.covariances)
         pose = _drawn_pose(measured, by_pose, inverse, generator)
         moved = (pose @ by_pose.reshape(-1, 3).T).reshape(len(pose), -1, 2)
         scatter = _drawn_scatter(measured, moved, own, inverse, generator)
-        squares = (scatter**2).sum(axis=2)
+        squares = np.where(alike, (scatter**2).sum(axis=2), 0.0)
         weight = _drawn_weights(squares / variance[:, None], generator)
-        variance = _drawn_variance((weight * squares).sum(axis=1), squares.shape[1], generator)
+        variance = _drawn_variance((weight * squares).sum(axis=1), int(alike.sum()), generator)
         sweep += 1
         if sweep > _SETTLE:
             yield scatter - moved

@@ -19,7 +19,9 @@ from aadm_workbench.model import Array, BoolArray, FloatArray, Kind, Measure, Pl
 SIDES = ("right", "top", "left", "bottom")
 """Of the picture, counter-clockwise from its right."""
 
-_REACH_PITCHES = 6.0  # behind an edge: three rings of pixels, twice
+REACH_PITCHES = 6.0
+"""Behind an edge: three rings of pixels, twice."""
+
 _CURL_PITCHES = (0.3, 1.5)  # behind an edge: as far as an edge with a blur of half a pixel reaches
 _ON_SURFACE_MM = 1.5  # a curl of half a millimetre is still surface, the wall behind it is not for long
 _FEWEST = 30  # lines of sight on a side: a mean of fewer is noise
@@ -52,27 +54,27 @@ def _capture(capture: PlateCapture, plate: Plate, centres: Array) -> dict[Kind, 
     for kind in Kind:
         mine = [k for k, place in enumerate(capture.place) if plate.places[place].kind is kind]
         height_mm = float(np.median(capture.height_mm[mine]))
-        lines = _lines(capture, height_mm)
+        lines = lines_over(capture, height_mm)
         outside = 1.0 if kind is Kind.SLEEVE else -1.0
         rows = []
         for k in mine:
             radius = plate.places[capture.place[k]].diameter_mm / 2.0
-            window = capture.window(height_mm, centres[k], radius + _REACH_PITCHES * capture.pitch_mm)
+            window = capture.window(height_mm, centres[k], radius + REACH_PITCHES * capture.pitch_mm)
             seen = lines[0][window], lines[1][window]
-            rows.append(_about(seen, centres[k], radius, outside, capture.pitch_mm))
+            rows.append(about_edge(seen, centres[k], radius, outside, capture.pitch_mm))
         behind, direction, height = (np.concatenate(parts) for parts in zip(*rows, strict=True))
         found[kind] = {side: _figures(behind, direction, height, number) for number, side in enumerate(SIDES)}
     return found
 
 
-def _lines(capture: PlateCapture, height_mm: float) -> tuple[Array, FloatArray]:
+def lines_over(capture: PlateCapture, height_mm: float) -> tuple[Array, FloatArray]:
     """Where lines of sight meet a plane over the face (h, w, 2), and how far over it what they found lies (h, w)."""
     plane = Plane(capture.face.normal, capture.face.offset + height_mm)
     meets = sight_on_plane(capture.scan, plane) @ face_axes(plane)[:2].T
     return meets, plane.height(capture.scan.points.astype(np.float64))
 
 
-def _about(
+def about_edge(
     lines: tuple[Array, FloatArray], centre: Array, radius: float, outside: float, pitch_mm: float
 ) -> tuple[Array, Array, Array]:
     """Of the lines of sight about one edge: pitches behind it, direction of its normal (rad), height over it."""
@@ -80,7 +82,7 @@ def _about(
     x, y = meets[..., 0] - centre[0], meets[..., 1] - centre[1]
     distance = np.hypot(x, y)
     behind = outside * (distance - radius) / pitch_mm
-    near = np.abs(behind) < _REACH_PITCHES
+    near = np.abs(behind) < REACH_PITCHES
     return behind[near], np.arctan2(y[near], x[near]), height[near]
 
 
@@ -93,7 +95,7 @@ def _figures(behind: Array, direction: Array, height: Array, side: int) -> Array
     surface = np.abs(height) < _ON_SURFACE_MM
     within, beyond = behind > 0.0, behind < 0.0
     curled = surface & (behind > _CURL_PITCHES[0]) & (behind < _CURL_PITCHES[1])
-    lost = _REACH_PITCHES * float(np.mean(~surface[within]))
-    overhang = _REACH_PITCHES * float(np.mean(surface[beyond]))
+    lost = REACH_PITCHES * float(np.mean(~surface[within]))
+    overhang = REACH_PITCHES * float(np.mean(surface[beyond]))
     curl = float(np.mean(height[curled])) if curled.sum() >= _FEWEST else np.nan
     return np.array([lost, overhang, curl])

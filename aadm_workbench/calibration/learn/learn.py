@@ -12,7 +12,9 @@ import numpy as np
 from aadm_workbench.calibration.learn.capture import PlateCapture
 from aadm_workbench.calibration.learn.edges import Side, edges_of
 from aadm_workbench.calibration.learn.face import SeenFace, seen_face
+from aadm_workbench.calibration.learn.losses import Losses, losses_of
 from aadm_workbench.calibration.learn.stretch import Stretches, mean_of, stretches_of
+from aadm_workbench.calibration.learn.witness import apart_mm, by_discs, mixed, shares_of
 from aadm_workbench.calibration.plate.plate import Plate
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array, Kind, LearnedEdges, Measure, Reason
@@ -48,6 +50,7 @@ class Learned:
     lengths: Lengths
     noise_grows: Measure | None
     """Power of the distance with which noise grows; None with one distance."""
+    projector_mm: tuple[float, float] = (0.0, 0.0)
 
     @property
     def bend_mm(self) -> Array:
@@ -68,6 +71,7 @@ def learned(captures: Sequence[PlateCapture], plate: Plate) -> Learned:
     """
     if len(captures) < FEWEST_CAPTURES:
         raise ScanError(Reason("calibration.few_captures", count=len(captures), fewest=FEWEST_CAPTURES))
+    captures, discs = _with_discs(captures, plate)
     stretches = stretches_of(captures, plate)
     true = [capture.flat - left for capture, left in zip(captures, stretches.left_mm, strict=True)]
     pitch_mm = float(np.mean([capture.pitch_mm for capture in captures]))
@@ -77,6 +81,9 @@ def learned(captures: Sequence[PlateCapture], plate: Plate) -> Learned:
             stretches.spread[kind],
             stretches.scatter_mm[kind] / pitch_mm,
             _size(captures, plate, kind),
+            discs.losses.lost[kind],
+            discs.shares[kind],
+            discs.apart_mm / pitch_mm,
         )
         for kind in Kind
     }
@@ -90,7 +97,29 @@ def learned(captures: Sequence[PlateCapture], plate: Plate) -> Learned:
         faces,
         _lengths(captures, plate),
         _growth(captures, faces),
+        discs.losses.projector_mm,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Discs:
+    """What discs add to the fit of all: what is lost at edges, their shares, what all centres may be off, mm."""
+
+    losses: Losses
+    shares: dict[Kind, float]
+    apart_mm: float
+
+
+def _with_discs(captures: Sequence[PlateCapture], plate: Plate) -> tuple[list[PlateCapture], _Discs]:
+    """Captures with centres drawn to discs, as far as that makes them scatter less."""
+    first = stretches_of(captures, plate)
+    true = [capture.flat - left for capture, left in zip(captures, first.left_mm, strict=True)]
+    losses = losses_of(captures, plate, true)
+    discs = [by_discs(capture, plate, losses) for capture in captures]
+    both = first, stretches_of(discs, plate)
+    shares = shares_of(captures, discs, both, plate)
+    found = _Discs(losses, shares, apart_mm(captures, discs, both, plate))
+    return [mixed(*pair, shares, plate) for pair in zip(captures, discs, strict=True)], found
 
 
 def _of_kind(capture: PlateCapture, plate: Plate, kind: Kind) -> Array:

@@ -31,6 +31,7 @@ def profile_of(found: Learned, plate: Plate, serial: str, settings: str, date: s
         found.edges,
         plate.sha256,
         len(found.captures),
+        found.projector_mm,
     )
 
 

@@ -29,7 +29,7 @@ _ROUNDS = 4  # of weights: they change by less than a hundredth afterwards
 
 @dataclass(frozen=True, eq=False)
 class Stretches:
-    """Of each kind: ``mean`` over captures, ``spread`` (what one capture differs by), ``scatter_mm`` per axis.
+    """Of each kind: ``mean`` over captures, ``spread`` (what one capture differs by, as few tell it), ``scatter_mm``.
 
     ``apart`` is where pins are seen from holes beyond their places, x and y as the camera's, mm. ``left_mm`` (n, 2) are
     residuals of all centres, by capture.
@@ -53,9 +53,13 @@ def mean_of(values: Array, floor: float = 0.0) -> Measure:
     count = len(values)
     if count < 2:
         raise ValueError("one capture tells no uncertainty")
-    wider = float(stats.t.ppf((1.0 + _COVERED) / 2.0, count - 1)) / _USUAL
-    u = wider * float(np.std(values, ddof=1)) / math.sqrt(count)
+    u = wider_for(count - 1) * float(np.std(values, ddof=1)) / math.sqrt(count)
     return Measure(float(np.mean(values)), math.hypot(u, floor))
+
+
+def wider_for(freedom: int) -> float:
+    """By how much a standard deviation with so few degrees of freedom is too small for 95 % of a normal law."""
+    return float(stats.t.ppf((1.0 + _COVERED) / 2.0, freedom)) / _USUAL
 
 
 def stretches_of(captures: Sequence[PlateCapture], plate: Plate) -> Stretches:
@@ -67,7 +71,7 @@ def stretches_of(captures: Sequence[PlateCapture], plate: Plate) -> Stretches:
         alone = np.array([fit.shared[place] for fit in one_by_one])
         of_places = together.u_places[place]
         found[kind] = Measure(float(together.shared[place]), mean_of(alone, of_places).u)
-        spread[kind] = math.hypot(float(np.std(alone, ddof=1)), of_places)
+        spread[kind] = math.hypot(wider_for(len(alone) - 1) * float(np.std(alone, ddof=1)), of_places)
     sides = np.array([fit.shared[2:4] for fit in one_by_one])
     apart = tuple(Measure(float(together.shared[2 + axis]), mean_of(sides[:, axis]).u) for axis in (0, 1))
     return Stretches(found, spread, together.scatter_mm, (apart[0], apart[1]), together.left_mm)

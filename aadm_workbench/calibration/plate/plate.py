@@ -34,7 +34,7 @@ ALUMINIUM_PER_K = 23.8e-6
 REFERENCE_C = 20.0
 """Temperature that lengths refer to: ISO 1."""
 
-_HOLES = range(8, 33, 4)  # a ring with a side of three to nine; fewer have no corner without a pin
+_HOLES = range(12, 33, 4)  # a ring with a side of four to nine; fewer leave room for three pins, which tell no turn
 
 
 @dataclass(frozen=True, slots=True)

@@ -133,11 +133,11 @@ def camera_work(file: Path) -> Work:
     return Work(("ask", "question.json", "answer.json"), {"question.json": question}, "answer.json")
 
 
-def save_job(columns: Sequence[Any], job: Path) -> None:
+def save_job(columns: Sequence[Any], job: Path, profile: str = "") -> None:
     """Write the job of these columns; where there is one, what the document does not know of is kept.
 
     A job that says the same already stays as it is, with its comments. Designs that are those of a model's file name
-    that file; others are written beside the job.
+    that file; others are written beside the job. ``profile`` is the file of what was learned of the camera.
 
     Raises
     ------
@@ -152,7 +152,7 @@ def save_job(columns: Sequence[Any], job: Path) -> None:
             job.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(designs, design_text(columns).encode())
         named = designs.name if model is None else seen_from(model, job.parent)
-        table = job_table(columns, named, job.parent, earlier)
+        table = job_table(columns, named, job.parent, earlier, profile)
         if table != earlier:
             job.parent.mkdir(parents=True, exist_ok=True)
             write_atomically(job, job_toml(table).encode())

@@ -10,9 +10,9 @@ import FreeCAD
 
 from aadm_workbench.document.asking import JOB_PANELS
 from aadm_workbench.document.column import make_column
+from aadm_workbench.document.display.import_hook import import_hook
 from aadm_workbench.document.display.messages import complain
 from aadm_workbench.document.groups import columns_in
-from aadm_workbench.document.import_hook import import_hook
 from aadm_workbench.document.job.toml import read_job_table
 
 translate = FreeCAD.Qt.translate

@@ -28,7 +28,11 @@ _UPS = ("up", "sleeves_up", "rebars_up")
 
 
 def job_table(
-    columns: Sequence[Any], model: str, folder: Path | None = None, earlier: Mapping[str, Any] | None = None
+    columns: Sequence[Any],
+    model: str,
+    folder: Path | None = None,
+    earlier: Mapping[str, Any] | None = None,
+    profile: str = "",
 ) -> Table:
     """The values of a job that checks columns of one document.
 
@@ -40,6 +44,8 @@ def job_table(
         Where the job will lie: paths below it are written as seen from there, others whole; None: all whole.
     earlier
         A job that this one takes the place of; what the document knows nothing of is kept.
+    profile
+        File of what was learned of the camera, for scans with intrinsics; empty: what ``earlier`` says, else none.
 
     Raises
     ------
@@ -56,7 +62,8 @@ def job_table(
     table["model"] = {**{key: one for key, one in _dict(kept.get("model")).items() if key != "path"}, "path": model}
     camera = _camera(scans, first)
     if camera:
-        table["camera"] = {**_dict(kept.get("camera")), **camera}
+        learned = {"profile": seen_from(profile, folder)} if profile else {}
+        table["camera"] = {**_dict(kept.get("camera")), **camera, **learned}
     known = {str(one["id"]): one for one in kept.get("columns", ())}
     entries = [_entry(column, folder, known.get(column.ColumnId, {})) for column in columns]
     if earlier is not None:

@@ -7,8 +7,8 @@ from typing import Any
 
 import FreeCAD
 
+from aadm_workbench.document.display.import_hook import import_hook
 from aadm_workbench.document.display.messages import tell
-from aadm_workbench.document.import_hook import import_hook
 from aadm_workbench.document.report.annotate import show_report
 from aadm_workbench.document.report.file import load_report
 from aadm_workbench.document.undo_step import undo_step

@@ -56,6 +56,9 @@ _USUAL_GAP_PITCHES = 2.0  # one to two pixels lie between a top and what passed 
 # tuned when they were made; on which scans is not recorded
 _SHARP_MOUTH_VIEW, _ERODED_MOUTH_VIEW = (-0.08, 0.14), (-0.60, 0.40)
 _SHARP_TOP_VIEW, _BENT_TOP_VIEW, _ERODED_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33), (-0.80, 0.15)  # docs/method.md, 2.4
+PARTS_VIEW_MM = {_MOUTHS: _SHARP_MOUTH_VIEW[1], _TOPS: _SHARP_TOP_VIEW[1]}
+"""What chamfers, bores and ribs do along the view, mm per unit of slope: no plate tells, whatever is known of edges."""
+
 _ERODED_MOUTH_BASE_PITCHES = 0.45  # a ring: taken where the projector lights the wall, and not in its shadow
 _ERODED_MOUTH_OWN_PITCHES = 0.22  # half rims stand on fewer points, and on fewer points of the bore
 _RADIUS_U_PITCHES = 0.15  # of a radius where no ring is lost

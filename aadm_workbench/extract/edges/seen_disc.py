@@ -171,7 +171,7 @@ def sight_lines_on_face(patches: Patches) -> SightLines | None:
     """Crossings with the plane that the patches lie in; None for clouds, whose lost pixels nobody knows."""
     if patches.seen_x is None or patches.seen_y is None or patches.eye is None:
         return None
-    return SightLines(patches.seen_x, patches.seen_y, patches.height, _slopes(patches.eye))
+    return SightLines(patches.seen_x, patches.seen_y, patches.height, slopes_of(patches.eye))
 
 
 def sight_lines_on_tops(patches: Patches, normal: Array, offset: Array, height: FloatArray) -> SightLines | None:
@@ -184,9 +184,9 @@ def sight_lines_on_tops(patches: Patches, normal: Array, offset: Array, height: 
     falling_x, falling_y = patches.seen_x - eye[:, :1], patches.seen_y - eye[:, 1:2]
     fall = falling_x * tilt[:, :1] + falling_y * tilt[:, 1:2] - eye[:, 2:] * tilt[:, 2:]
     share = -over[:, None] / np.where(np.abs(fall) < 1e-6, np.float32(-1e-6), fall)
-    return SightLines(eye[:, :1] + falling_x * share, eye[:, 1:2] + falling_y * share, height, _slopes(patches.eye))
+    return SightLines(eye[:, :1] + falling_x * share, eye[:, 1:2] + falling_y * share, height, slopes_of(patches.eye))
 
 
-def _slopes(eye: Array) -> Array:
+def slopes_of(eye: Array) -> Array:
     """Slope (k, 2) of the line of sight at each place: from the foot point of the eye (k, 3) to the place."""
     return np.asarray(-eye[:, :2] / np.maximum(np.abs(eye[:, 2:]), 1e-9))

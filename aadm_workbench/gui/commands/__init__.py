@@ -9,6 +9,7 @@ COMMANDS = MappingProxyType(
         "AADM_SampleDesign": ("sample_design", "SampleDesign"),
         "AADM_ImportScan": ("import_scan", "ImportScan"),
         "AADM_CaptureScan": ("capture_scan", "CaptureScan"),
+        "AADM_Camera": ("camera_proof", "CameraProof"),
         "AADM_CheckColumn": ("check_column", "CheckColumn"),
         "AADM_CheckAll": ("check_all", "CheckAll"),
         "AADM_RunJob": ("run_job", "RunJob"),

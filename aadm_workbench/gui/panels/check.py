@@ -28,7 +28,7 @@ from aadm_workbench.gui.language import in_language
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, is_there, show_panel
 from aadm_workbench.gui.result_table import ResultTable
 from aadm_workbench.gui.sentences import sentences
-from aadm_workbench.gui.settings import most_points
+from aadm_workbench.gui.settings import camera_profile, most_points
 from aadm_workbench.gui.view_camera import active_view, zoom_to
 from aadm_workbench.private.answers import ReadScan
 
@@ -70,6 +70,8 @@ class CheckPanel(WorkingPanel):
         form.addRow(translate("AADM_Check", "Method"), self.method)
         form.addRow(translate("AADM_Check", "Tolerances"), self.tolerances)
         form.addRow(translate("AADM_Check", "Decision"), self.decision)
+        if profile := camera_profile():
+            form.addRow(translate("AADM_Check", "Camera profile"), QtGui.QLabel(Path(profile).name, toolTip=profile))
         self.layout.addLayout(form)
         self.show_scans = QtGui.QPushButton(translate("AADM_Check", "Show its scans"))
         self.show_scans.setToolTip(translate("AADM_Check", "Reads the points of its scans into the view"))
@@ -100,7 +102,7 @@ class CheckPanel(WorkingPanel):
                 self.column.Method = self.method.currentText()
                 self.column.Tolerances = self.tolerances.currentText().strip()
                 self.column.Decision = self.decision.currentText()
-            self.have_done(check_work(self.column), self._take)
+            self.have_done(check_work(self.column, camera_profile()), self._take)
 
     def _take(self, report: Mapping[str, Any]) -> None:
         with undo_step(self.column.Document, translate("AADM_Check", "Check column")):

@@ -186,7 +186,7 @@ class CheckAllPanel(WorkingPanel):
         for column in columns:
             for cloud in column.Scans:
                 check_unchanged(cloud)
-        save_job(columns, job)
+        save_job(columns, job, settings.camera_profile())
         out = job.with_name(f"{job.stem}-report")
         method = columns[0].Method
         arguments = ["check", str(job), "--out", str(out), "--json", "--method", method, "--language", language()]

@@ -32,8 +32,8 @@ SENTENCES: dict[str, Sentence] = {
         "标定板的 {count} 个孔只见到 {found} 个：整块板须在画面内",
     ),
     "calibration.holes": Sentence(
-        "{count} holes make no square ring with pins between them: take 8, 12, 16 … up to {most}",
-        "{count} 个孔不能排成中间有销的方环：请取 8、12、16……至多 {most}",
+        "{count} holes make no square ring with pins between them: take 12, 16, 20 … up to {most}",
+        "{count} 个孔不能排成中间有销的方环：请取 12、16、20……至多 {most}",
     ),
     "calibration.no_camera_serial": Sentence(
         "the camera's profile: whether it is that of this camera is not known, a serial number is missing in "
@@ -55,6 +55,12 @@ SENTENCES: dict[str, Sentence] = {
     "calibration.no_plate": Sentence(
         "this is no plate.toml ({why}); draw one with aadm camera plate",
         "这不是 plate.toml（{why}）；请用 aadm camera plate 绘制",
+    ),
+    "calibration.no_reversal": Sentence(
+        "nothing was captured twice: {count} captures have no column's sleeves or rebars in common. Name two jobs or "
+        "reports on the same columns, the camera turned by half a turn or moved across in between",
+        "没有被采集两次的构件：{count} 次采集中没有同一柱的套筒或钢筋。请给出同一批柱的两个任务或报告，"
+        "其间相机转动半圈或横移",
     ),
     "calibration.no_profile": Sentence(
         "this is no profile of a camera ({why}); make one with aadm camera learn",

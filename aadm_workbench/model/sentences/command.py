@@ -1,4 +1,4 @@
-"""What the commands say of what they are asked for."""
+"""What the commands say of what they are asked for, of links and virtual cameras, and of what is not installed."""
 
 from __future__ import annotations
 
@@ -117,5 +117,64 @@ SENTENCES: dict[str, Sentence] = {
     "command.no_bars": Sentence("the design of {column} has no bars", "{column} 的设计中没有钢筋"),
     "command.no_sleeves": Sentence(
         "{label} has no grouting sleeves in its foot face. {why}", "{label} 的柱底没有灌浆套筒。{why}"
+    ),
+    "command.link_authority": Sentence(
+        "{folder}: needs ca.pem, the broker's authority ({why})", "{folder}：需要 ca.pem，即代理的根证书（{why}）"
+    ),
+    "command.link_halved": Sentence(
+        "{folder}: holds one of certificate.der and key.pem; both are needed, or none",
+        "{folder}：certificate.der 与 key.pem 只有其一；须两者都有，或都没有",
+    ),
+    "command.link_no_broker": Sentence(
+        "{broker}: is no broker; write HOST or HOST:PORT", "{broker}：不是 MQTT 代理地址；请写 HOST 或 HOST:PORT"
+    ),
+    "command.link_not_listening": Sentence(
+        "{where}: cannot listen ({why}); is the port taken?", "{where}：无法监听（{why}）；端口是否已被占用？"
+    ),
+    "command.link_port": Sentence(
+        "{where}: cannot listen; is the port taken, or below 1024?",
+        "{where}：无法监听；端口是否已被占用，或小于 1024？",
+    ),
+    "command.link_refused": Sentence(
+        "{address}: the MQTT broker refuses the connection ({why:word})", "{address}：MQTT 代理拒绝连接（{why:word}）"
+    ),
+    "command.link_silent": Sentence(
+        "{address}: the MQTT broker does not answer ({why})", "{address}：MQTT 代理没有应答（{why}）"
+    ),
+    "command.twin_case": Sentence(
+        "{id} ({story}) came out as {verdict:word}, {goes_on:word}: change the seed or the case",
+        "{id}（{story}）的结果为{verdict:word}、{goes_on:word}：请改变种子或该算例",
+    ),
+    "command.twin_filter": Sentence(
+        "--filter {word}: there is no filter {name}; there are {known}",
+        "--filter {word}：没有滤波 {name}；可用的有 {known}",
+    ),
+    "command.twin_filter_number": Sentence(
+        "--filter {word}: {name} wants {kind:word} after an equals sign",
+        "--filter {word}：{name} 的等号后应为{kind:word}",
+    ),
+    "command.twin_filter_range": Sentence(
+        "--filter {word}: {name} goes from 0 to {most:g}", "--filter {word}：{name} 的范围为 0 至 {most:g}"
+    ),
+    "command.twin_site": Sentence(
+        "--site {name}: no site does that; there are {known}", "--site {name}：没有这种现场情况；可用的有 {known}"
+    ),
+    "command.twin_slip": Sentence(
+        "--slip {name}: there is no such slip; there are {known}", "--slip {name}：没有这种差错；可用的有 {known}"
+    ),
+    "command.twin_stands": Sentence("the column stands", "柱已就位"),
+    "command.twin_undecided": Sentence(
+        "the controller decided nothing within {within_s:g} s", "控制器在 {within_s:g} s 内没有作出决定"
+    ),
+    "command.missing": Sentence(
+        "{needed_for:word} needs the package {package}, which is not installed. Install it with: {install}",
+        "{needed_for:word}需要软件包 {package}，但未安装。安装命令：{install}",
+    ),
+    "command.missing.private": Sentence(
+        "{needed_for:word} needs the package {package}, which is not installed. FreeCAD's private environment "
+        "lacks it: repair that in About AADM and doctor, or name in the settings an aadm of your own that has it "
+        "({install})",
+        "{needed_for:word}需要软件包 {package}，但未安装。FreeCAD 的私有环境中缺少它：请在“关于 AADM "
+        "与环境诊断”中修复，或在设置中指定已装有它的 aadm（{install}）",
     ),
 }

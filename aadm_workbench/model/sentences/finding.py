@@ -5,6 +5,13 @@ from __future__ import annotations
 from aadm_workbench.model.sentences import Sentence
 
 SENTENCES: dict[str, Sentence] = {
+    "finding.camera_bends": Sentence(
+        "views of the {group:word} differ by what turns with the camera: it bends its picture by up to {bend_mm:.2f} "
+        "mm (u {u_mm:.2f} mm), more than the stated uncertainty of {stated_u_mm:.2f} mm leaves open. Take the "
+        "intrinsics and the lens correction that belong to this camera, have it calibrated, or learn a profile of it",
+        "{group:word}的各视图之间存在随相机转动的差异：相机使图像畸变达 {bend_mm:.2f} mm（u {u_mm:.2f} mm），"
+        "超出所给不确定度 {stated_u_mm:.2f} mm 的范围。请采用该相机自己的内参和镜头校正，送检标定，或学习其相机档案",
+    ),
     "finding.common_lean.camera": Sentence(
         "all sleeves lean by {sleeves_deg:.1f}° and all bars by {rebars_deg:.1f}° towards the same side of their "
         "images: the principal point of the camera (cx, cy in [camera]) is not that of these scans, or the image "
@@ -125,6 +132,13 @@ SENTENCES: dict[str, Sentence] = {
         "{limit_mm:g} mm, unverified)",
         "整组套筒在截面内偏离设计位置 {dx_mm:+.1f}、{dy_mm:+.1f} mm（±{U_mm:.1f} mm），转角 {turn_deg:+.2f}°："
         "按钢筋就位后，柱侧面将反向偏移同样的量（限值 {limit_mm:g} mm，未核实）",
+    ),
+    "finding.profile_differs": Sentence(
+        "at the edges of the {group:word} this camera does not do what the profile of [camera] says: they are seen "
+        "{off_pixels:+.1f} pixels off. Another camera, other settings or filters than it was learned with: name the "
+        "right profile, or learn it anew",
+        "在{group:word}边缘，该相机的表现与 [camera] 中的相机档案不符：边缘偏离 {off_pixels:+.1f} 像素。"
+        "可能是另一台相机，或设置、滤波与学习时不同：请指定正确的档案，或重新学习",
     ),
     "finding.same_scan_twice.column": Sentence(
         "one file is named twice for this column ({source}): one of its scans is missing",

@@ -1,4 +1,4 @@
-"""Why a body of an IFC model could not be evaluated."""
+"""Why a body of a model could not be evaluated, or makes no sense."""
 
 from __future__ import annotations
 
@@ -66,4 +66,22 @@ SENTENCES: dict[str, Sentence] = {
         "#{id} 以点裁剪 {type}，无法求值",
     ),
     "geometry.turns": Sentence("#{id} {type} goes around {turns:g} times", "#{id} {type} 绕了 {turns:g} 圈"),
+    "geometry.unsound_body": Sentence("a body of it has no extent, or lies nowhere", "某实体没有范围，或不在任何位置"),
+    "geometry.unsound_far": Sentence("it lies beyond all maps", "位于任何地图之外"),
+    "geometry.unsound_left_out": Sentence(
+        "{type} {called} was left out, wholly or in part: {why}",
+        "{type} {called} 全部或部分未采用：{why}",
+    ),
+    "geometry.unsound_more": Sentence("{count} more elements were left out", "另有 {count} 个构件未采用"),
+    "geometry.unsound_no_area": Sentence("its profile has no area", "其截面没有面积"),
+    "geometry.unsound_no_corner": Sentence(
+        "a face of it names a corner that is not in its list of points",
+        "某面所指的角点不在其点表中",
+    ),
+    "geometry.unsound_no_depth": Sentence("its extrusion has no depth", "其拉伸没有深度"),
+    "geometry.unsound_no_faces": Sentence("it has no faces", "没有面"),
+    "geometry.unsound_no_line": Sentence("it is swept along a line without length", "沿没有长度的线扫掠"),
+    "geometry.unsound_placement": Sentence("its placement makes no sense", "其定位没有意义"),
+    "geometry.unsound_size": Sentence("its {what} is {size_mm:g} mm", "其 {what} 为 {size_mm:g} mm"),
+    "geometry.unsound_turned_no_area": Sentence("what it turns has no area", "所旋转的截面没有面积"),
 }

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from aadm_workbench.model import JobReport, Verdict
 from aadm_workbench.report.bcf.findings import Finding
 from aadm_workbench.report.column_view import declared_up
-from aadm_workbench.report.words.labels import Language, Phrase, phrase
+from aadm_workbench.report.words.labels import Language, Phrase, phrase, profile_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
 _TITLE_LENGTH = 200  # a line in the lists of viewers; the description has all
@@ -62,7 +62,7 @@ def description_of(finding: Finding, report: JobReport, language: Language) -> s
     ]
     said.append(_joined(phrase("ui.goes_on"), phrase(f"verdict.{column.goes_on}")))
     title = report.profile.title or report.profile.name
-    said.append(_joined(phrase("ui.profile"), Phrase(title, title)))
+    said.append(_joined(phrase("ui.profile"), profile_words(report.profile.name, title)))
     for kind, group in column.groups.items():
         said.append(_joined(phrase(f"ui.{kind.plural}"), Phrase(group.source, group.source)))
     also = [in_both_languages(one.text) for one in column.findings if not one.holds_back]

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from aadm_workbench.model import Array, ColumnReport, GridAxis
-from aadm_workbench.report.drawing.layout import Layout, box_of
+from aadm_workbench.report.drawing.layout import Layout, box_of, width_of_label
 from aadm_workbench.report.drawing.sketch import Label, Link, Point, Polyline, Shape, Sketch, rectangle
 from aadm_workbench.report.words.labels import SIGN
 
@@ -17,6 +17,8 @@ WIDTH = 1000.0
 _MARGIN = 70.0  # about the columns: tags of the axes
 _EDGE = 26.0  # between the end of an axis and the edge: its name
 _SMALLEST, _LARGEST = 12.0, 44.0  # of a column's square: still clicked, and not larger than its name needs
+_LONGEST_NAME = 16  # letters: as wide as two squares
+_SMALLEST_NAME = 5.0  # 2 mm high on A4; where that is too wide a click says the name
 _HIGHEST = 620.0  # of the drawing: a long floor leaves room on the page
 
 
@@ -76,7 +78,8 @@ def _placed(columns: Sequence[ColumnReport], anchors: dict[str, str], axes: Sequ
     height = span[1] * scale + 2 * _MARGIN
     inset = (WIDTH - span[0] * scale) / 2.0
     at = [(inset + (x - low[0]) * scale, _MARGIN + (y - low[1]) * scale) for x, y in places]
-    half = min(_LARGEST, max(_SMALLEST, 0.3 * _nearest(at))) / 2.0
+    apart = _nearest(at)
+    half = min(_LARGEST, max(_SMALLEST, 0.3 * apart)) / 2.0
     frame = (WIDTH, height)
 
     def placed(mm: Point) -> Point:
@@ -85,7 +88,7 @@ def _placed(columns: Sequence[ColumnReport], anchors: dict[str, str], axes: Sequ
     lines = [(axis.tag, placed(axis.start_mm), placed(axis.end_mm)) for axis in axes]
     shapes: list[Shape] = [*(_axis_lines(lines, frame) if lines else _grid_lines(columns, at))]
     for column, place in zip(columns, at, strict=True):
-        shapes.append(_column(column, place, half, anchors))
+        shapes.append(_column(column, place, half, anchors, apart))
     return Sketch(WIDTH, height, tuple(shapes))
 
 
@@ -106,23 +109,33 @@ def _tiles(columns: Sequence[ColumnReport], anchors: dict[str, str]) -> Sketch:
     rows = -(-len(columns) // in_row)
     height = rows * 90.0
     shapes = [
-        _column(column, (step * (k % in_row + 0.5), height - 90.0 * (k // in_row) - 38.0), 20.0, anchors)
+        _column(column, (step * (k % in_row + 0.5), height - 90.0 * (k // in_row) - 38.0), 20.0, anchors, step)
         for k, column in enumerate(columns)
     ]
     return Sketch(WIDTH, height, tuple(shapes))
 
 
-def _column(column: ColumnReport, at: Point, half: float, anchors: dict[str, str]) -> Link:
-    verdict = column.verdict
+def plan_verdict(column: ColumnReport) -> str:
+    """The sign of a column in the plan: what passed but was never tried on its bars has no tick, for it must wait."""
+    return "not_assessed" if column.verdict == "pass" and column.goes_on != "pass" else column.verdict
+
+
+def _column(column: ColumnReport, at: Point, half: float, anchors: dict[str, str], room: float) -> Link:
+    """Its square with its sign, and its name where that fits between its neighbours, which are ``room`` away."""
+    verdict = plan_verdict(column)
     low, high = (at[0] - half, at[1] - half), (at[0] + half, at[1] + half)
-    size = min(15.0, max(8.0, half * 0.8))
-    name = column.id if len(column.id) <= 16 else f"{column.id[:15]}…"
-    shapes = (
+    shapes: list[Shape] = [
         rectangle(low, high, f"fill-{verdict}"),
         Label(at, SIGN[verdict], half * 1.4, "text", bold=True),
-        Label((at[0], at[1] - half - size * 0.75), name, size, "text-fail" if verdict == "fail" else "text", bold=True),
-    )
-    return Link(anchors[column.id], column.id, shapes)
+    ]
+    name = column.id if len(column.id) <= _LONGEST_NAME else f"{column.id[: _LONGEST_NAME - 1]}…"
+    size = min(15.0, max(8.0, half * 0.8), 0.95 * room / width_of_label(name, 1.0, bold=True))
+    if size >= _SMALLEST_NAME:
+        style = "text-fail" if verdict == "fail" else "text"
+        said = Label((at[0], at[1] - half - size * 0.75), name, round(size, 1), style, bold=True)
+        left, foot, right, head = box_of(said)
+        shapes = [rectangle((left, foot), (right, head), "paper"), *shapes, said]  # axes run behind names
+    return Link(anchors[column.id], column.id, tuple(shapes))
 
 
 def _axis_lines(lines: Sequence[tuple[str, Point, Point]], frame: Point) -> Iterator[Shape]:

@@ -32,6 +32,7 @@ STYLES: dict[str, Style] = {
     "limit": Style("#8b97a3", None, 0.5, (1.6, 1.4)),
     "axis": Style("#b3bcc4", None, 0.6, (4.0, 2.0)),
     "guide": Style("#8b97a3", None, 0.5),
+    "paper": Style(None, "#ffffff"),
     "ink": Style(INK, INK, 0.9),
     "pass": Style(COLOUR["pass"], COLOUR["pass"], 1.2),
     "fail": Style(COLOUR["fail"], COLOUR["fail"], 1.6),

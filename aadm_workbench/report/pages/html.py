@@ -20,7 +20,7 @@ from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import SUMMED, JobReport, MouldDrift, Verdict
 from aadm_workbench.report.column_view import advice_notes, column_facts, trial_facts, window_text
 from aadm_workbench.report.drawing.mould import mould_sketch
-from aadm_workbench.report.drawing.plan import Plan, floor_plans
+from aadm_workbench.report.drawing.plan import Plan, floor_plans, plan_verdict
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.hoist import headline
 from aadm_workbench.report.pages.crew import crew_advice, in_steps
@@ -32,7 +32,15 @@ from aadm_workbench.report.sheets.numbers import number_text, signed
 from aadm_workbench.report.sheets.sheets import MOULD, mould_rows, profile_table
 from aadm_workbench.report.sheets.tables import Heading, Row, narrowed
 from aadm_workbench.report.tower import TowerShown
-from aadm_workbench.report.words.labels import Language, Phrase, all_words, phrase, resource_folder, verdict_words
+from aadm_workbench.report.words.labels import (
+    Language,
+    Phrase,
+    all_words,
+    phrase,
+    profile_words,
+    resource_folder,
+    verdict_words,
+)
 from aadm_workbench.report.words.reasons import in_both_languages
 
 _LATER = {"policy": "(the policy)", "style": "(the style)"}
@@ -136,7 +144,8 @@ def _context(report: JobReport, language: Language) -> dict[str, Any]:
         "not_yet_line": phrase("headline.not_yet", number=len(by_state["not_yet"])),
         "yes_line": phrase("headline.yes", number=len(by_state["yes"])),
         "plans": _plans(report, found),
-        "legend": [name for name in _VERDICTS if any(one.column.verdict == name for one in found)],
+        "limits": profile_words(report.profile.name, report.profile.title),
+        "legend": [name for name in _VERDICTS if any(plan_verdict(one.column) == name for one in found)],
         "moulds": [_mould(mould, language) for mould in report.mould_drift],
         "profile": profile_table(report),
         "inputs": _inputs(report),

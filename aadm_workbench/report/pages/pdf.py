@@ -27,7 +27,17 @@ from aadm_workbench.report.pages.pdf_tower import setting_out_blocks, tower_bloc
 from aadm_workbench.report.sheets.sheets import MOULD, mould_rows, profile_table
 from aadm_workbench.report.sheets.tables import narrowed
 from aadm_workbench.report.tower import TowerShown
-from aadm_workbench.report.words.labels import COLOUR, FAINT, MOVE, Language, Phrase, all_words, phrase, verdict_words
+from aadm_workbench.report.words.labels import (
+    COLOUR,
+    FAINT,
+    MOVE,
+    Language,
+    Phrase,
+    all_words,
+    phrase,
+    profile_words,
+    verdict_words,
+)
 from aadm_workbench.report.words.reasons import in_both_languages
 
 _MARGIN = 14.0 * MM  # printers reach as far
@@ -102,9 +112,8 @@ def _ends_well(found: list[Page]) -> bool:
 def _front(report: JobReport, found: list[Finding], title: str, language: Language) -> Iterator[Block]:
     yield paragraph(title, WIDTH, 17.0, bold=True, outline=0, bookmark="top")
     said = " · ".join(f"{_named(key, language)}: {value}" for key, value in report.capture.items() if value)
-    yield paragraph(
-        " · ".join(part for part in (said, report.profile.title) if part), WIDTH, 8.0, colour=FAINT, after=8.0
-    )
+    limits = profile_words(report.profile.name, report.profile.title).in_language(language)
+    yield paragraph(" · ".join(part for part in (said, limits) if part), WIDTH, 8.0, colour=FAINT, after=8.0)
     bad = any(finding.hoist.state == "no" for finding in found)
     said = headline(report).in_language(language)
     yield paragraph(said, WIDTH, 20.0, bold=True, colour=COLOUR["fail" if bad else "pass"], after=2.0)

@@ -27,6 +27,7 @@ A4 = (210.0 * MM, 297.0 * MM)
 
 _BOLD_STROKE = 0.028  # of the size: letters are drawn with an outline of that width, since the font has no bold cut
 _QUARTER = 0.5522847498  # of the radius: a Bezier curve with this handle is a quarter of a circle to 0.03 %
+_NUMBER_AT_MOST = 8  # letters: a million numbers are hardly ever alike, and not kept
 _PACKING = 3  # of zlib: an eighth more bytes than at its usual 6, in half of the time
 
 
@@ -70,7 +71,7 @@ class Letters:
         self._bold, self._colour = bold, colour
         self._in_force: tuple[int, float] | None = None
         if bold:
-            self._written.append(f"{_paint(colour)} RG 2 Tr")
+            self._written.append(f"[] 0 d {_paint(colour)} RG 2 Tr")
 
     def put(self, x: float, y: float, text: str, size: float) -> None:
         """A text of printable signs, its base line at (x, y)."""
@@ -103,20 +104,30 @@ _Part: TypeAlias = tuple[int, str, str]
 """Number of a subset of the font, its name in the page, and escaped bytes in it."""
 
 
-def _encoded(canvas: Any, text: str) -> list[_Part]:
-    """A text in the subsets of the font that the document has so far."""
+def _encoded(canvas: Any, text: str) -> tuple[_Part, ...]:
+    """A text in the subsets of the font that the document has so far; what is no mere number is kept."""
+    kept: dict[str, tuple[_Part, ...]] = canvas.__dict__.setdefault("aadm_texts", {})
+    found = kept.get(text)
+    if found is None:
+        found = _in_subsets(canvas, text)
+        if len(text) > _NUMBER_AT_MOST:
+            kept[text] = found
+    return found
+
+
+def _in_subsets(canvas: Any, text: str) -> tuple[_Part, ...]:
     known: dict[str, _Part] = canvas.__dict__.setdefault("aadm_signs", {})
     try:
         signs = [known[sign] for sign in text]
     except KeyError:
         signs = [known.setdefault(sign, _sign(canvas, sign)) for sign in text]
     first = signs[0]
-    if all([sign[0] == first[0] for sign in signs]):
-        return [(first[0], first[1], "".join([sign[2] for sign in signs]))]
-    return [
+    if text.isascii():
+        return ((first[0], first[1], "".join([sign[2] for sign in signs])),)
+    return tuple(
         (subset, name, "".join([sign[2] for sign in group]))
         for (subset, name), group in groupby(signs, key=lambda sign: sign[:2])
-    ]
+    )
 
 
 def _sign(canvas: Any, sign: str) -> _Part:
@@ -227,10 +238,10 @@ def _draw(canvas: Any, shape: Shape) -> None:
     if isinstance(shape, Circle):
         canvas.addLiteral(f"{look} {_round(shape)} {_painted(stroked=bool(style.stroke), filled=bool(style.fill))}")
         return
-    filled = style.fill is not None
-    way = f"{_way(shape.points, closed=shape.closed)} {_painted(stroked=True, filled=filled and shape.closed)}"
+    stroked, filled = style.stroke is not None, style.fill is not None
+    way = f"{_way(shape.points, closed=shape.closed)} {_painted(stroked=stroked, filled=filled and shape.closed)}"
     if shape.head > 0.0:
-        way += f" {_way(arrowhead(shape), closed=True)} {_painted(stroked=True, filled=filled)}"
+        way += f" {_way(arrowhead(shape), closed=True)} {_painted(stroked=stroked, filled=filled)}"
     canvas.addLiteral(f"{look} {way}")
 
 

@@ -56,6 +56,7 @@ def _repair(column: ColumnReport, width: float, language: Language) -> Iterator[
     repair = column.repair
     if repair is None:
         return
+    yield paragraph("", width, 3.0, after=2.0)
     yield paragraph(phrase("ui.repair").in_language(language), width, 10.0, bold=True, colour="#0b4a80", keep=True)
     yield paragraph(in_both_languages(repair.advice).in_language(language), width, 9.5, bold=True, indent=8.0)
     if repair.subject_to not in repair.advice:

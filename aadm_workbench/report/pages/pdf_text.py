@@ -59,8 +59,13 @@ def printable(text: str) -> str:
 
 def width_of(text: str, size: float) -> float:
     """Width of one line, pt."""
+    return _width_in_thousandths(text) * size / 1000.0
+
+
+@lru_cache(KEPT_TEXTS)
+def _width_in_thousandths(text: str) -> float:
     widths = _widths()
-    return sum([widths[sign] for sign in text]) * size / 1000.0
+    return sum([widths[sign] for sign in text])
 
 
 @cache

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from aadm_workbench.atomic import write_atomically
@@ -25,6 +25,7 @@ from aadm_workbench.report.sheets.tables import (
     point_rows,
     spacing_rows,
 )
+from aadm_workbench.report.tower import TowerShown
 
 HEADINGS = (
     "column",
@@ -45,6 +46,8 @@ HEADINGS = (
     "reason",
 )
 
+SETTING_OUT = ("column", "grid", "set_as", "dx_mm", "dy_mm", "height_mm", "turn_deg", "u_mm", "against")
+
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
@@ -59,13 +62,33 @@ def write_csv(report: JobReport, path: Path) -> None:
     write_atomically(path, csv_content(report, worst_first(report)))
 
 
+def write_setting_out(tower: TowerShown, path: Path) -> None:
+    """Write setting-out.csv, whole or not at all: where the next storey will find the bars of these columns.
+
+    Offsets are in the axes of the plan (x to the right), of the column where it has no place in one; ``u_mm`` is k = 1.
+
+    Raises
+    ------
+    AadmError
+        Where the file cannot be written.
+    """
+    lines = (
+        (line.id, line.grid, line.set_as.en, *line.offset_mm, line.height_mm, line.turn_deg, line.u_mm, line.against.en)
+        for line in tower.setting_out
+    )
+    write_atomically(path, _content(SETTING_OUT, lines))
+
+
 def csv_content(report: JobReport, columns: Iterable[ColumnReport]) -> bytes:
     """The bytes of report.csv, with these columns of the report."""
+    return _content(HEADINGS, (line for column in columns for line in _lines(report, column)))
+
+
+def _content(headings: Sequence[str], rows: Iterable[Row]) -> bytes:
     text = io.StringIO(newline="")
     writer = csv.writer(text)
-    writer.writerow(HEADINGS)
-    for column in columns:
-        writer.writerows([_inert(cell) for cell in row] for row in _lines(report, column))
+    writer.writerow(headings)
+    writer.writerows([_inert(cell) for cell in row] for row in rows)
     return text.getvalue().encode("utf-8-sig", errors="replace")
 
 

@@ -16,6 +16,7 @@ from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import JobReport
 from aadm_workbench.report.sheets.sheets import job_tables
 from aadm_workbench.report.sheets.tables import Cell, CellKind, Table
+from aadm_workbench.report.tower import TowerShown, tower_tables
 from aadm_workbench.report.words.labels import HEAD, SIGN, Language, phrase, rule_words, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
@@ -43,8 +44,8 @@ _FORBIDDEN_IN_SHEET_NAMES = str.maketrans(dict.fromkeys("[]:*?/\\", " "))
 _LONGEST_CELL = 32_767  # characters of a cell, Excel's own bound
 
 
-def write_xlsx(report: JobReport, path: Path, language: Language = "en") -> None:
-    """Write report.xlsx, whole or not at all.
+def write_xlsx(report: JobReport, path: Path, language: Language = "en", *, tower: TowerShown | None = None) -> None:
+    """Write report.xlsx, whole or not at all; with two sheets more where the job asks for the ``tower``.
 
     Raises
     ------
@@ -69,7 +70,7 @@ def write_xlsx(report: JobReport, path: Path, language: Language = "en") -> None
     title = phrase("ui.title").in_language(language)
     book.set_properties({"title": f"{title}: {report.job['name']}", "created": _CREATED})
     sheets = _Sheets(book, language)
-    for table in job_tables(report, language):
+    for table in (*job_tables(report, language), *(tower_tables(tower, language) if tower else ())):
         sheets.add(table)
     sheets.add_about(report)
     book.close()

@@ -67,6 +67,12 @@ def rule_words(name: str) -> Phrase:
     return all_words().get(f"rule.{name}", Phrase(name, name))
 
 
+def profile_words(name: str, title: str) -> Phrase:
+    """The title of a tolerance profile; that of a profile of people's own stays as it is, whatever its name."""
+    known = all_words().get(f"profile.{name}")
+    return known if known is not None and known.en == title else Phrase(title, title)
+
+
 def verdict_words(verdict: str, language: Language) -> str:
     """A verdict as people read it: ``✗ fail``."""
     return f"{SIGN[verdict]} {all_words()[f'verdict.{verdict}'].in_language(language)}"

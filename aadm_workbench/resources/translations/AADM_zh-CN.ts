@@ -208,6 +208,189 @@
   </message>
  </context>
  <context>
+  <name>AADM_Camera</name>
+  <message>
+   <source>A plate with holes like sleeves and pins like bars, for a workshop to make.</source>
+   <translation>一块带有套筒状孔和钢筋状销的标定板，交由车间加工。</translation>
+  </message>
+  <message>
+   <source>Camera profile</source>
+   <translation>相机档案</translation>
+  </message>
+  <message>
+   <source>Camera profile…</source>
+   <translation>相机档案…</translation>
+  </message>
+  <message>
+   <source>Capture</source>
+   <translation>采集</translation>
+  </message>
+  <message>
+   <source>Captures</source>
+   <translation>采集</translation>
+  </message>
+  <message>
+   <source>Captures of the plate</source>
+   <translation>标定板的采集</translation>
+  </message>
+  <message>
+   <source>Checks use no profile of a camera.</source>
+   <translation>检查不使用相机档案。</translation>
+  </message>
+  <message>
+   <source>Checks use {file}</source>
+   <translation>检查使用 {file}</translation>
+  </message>
+  <message>
+   <source>Choose captures…</source>
+   <translation>选择采集…</translation>
+  </message>
+  <message>
+   <source>Choose the capture of the plate.</source>
+   <translation>请选择标定板的采集。</translation>
+  </message>
+  <message>
+   <source>Choose the captures of the plate.</source>
+   <translation>请选择标定板的各次采集。</translation>
+  </message>
+  <message>
+   <source>Choose the file that the profile is written to.</source>
+   <translation>请选择相机档案要写入的文件。</translation>
+  </message>
+  <message>
+   <source>Choose the folder to write into.</source>
+   <translation>请选择要写入的文件夹。</translation>
+  </message>
+  <message>
+   <source>Choose the plate.toml of the plate, on the page Learn.</source>
+   <translation>请在“学习”页选择标定板的 plate.toml。</translation>
+  </message>
+  <message>
+   <source>Choose the plate.toml of the plate.</source>
+   <translation>请选择标定板的 plate.toml。</translation>
+  </message>
+  <message>
+   <source>Choose the profile of the camera.</source>
+   <translation>请选择相机档案。</translation>
+  </message>
+  <message>
+   <source>Date</source>
+   <translation>日期</translation>
+  </message>
+  <message>
+   <source>Depth step</source>
+   <translation>深度步长</translation>
+  </message>
+  <message>
+   <source>Draw the plate</source>
+   <translation>绘制标定板</translation>
+  </message>
+  <message>
+   <source>Draws a plate for a workshop, learns a camera from captures of it, verifies it before a shift</source>
+   <translation>绘制供车间加工的标定板，由其采集学习相机，并在班前核验</translation>
+  </message>
+  <message>
+   <source>Folder</source>
+   <translation>文件夹</translation>
+  </message>
+  <message>
+   <source>Holes</source>
+   <translation>孔数</translation>
+  </message>
+  <message>
+   <source>Intrinsics</source>
+   <translation>内参</translation>
+  </message>
+  <message>
+   <source>Learn</source>
+   <translation>学习</translation>
+  </message>
+  <message>
+   <source>Learn the camera</source>
+   <translation>学习相机</translation>
+  </message>
+  <message>
+   <source>One capture before the shift. Plate, intrinsics and date are those of Learn.</source>
+   <translation>班前采集一次。标定板、内参和日期取自“学习”页。</translation>
+  </message>
+  <message>
+   <source>Pins, diameter</source>
+   <translation>销直径</translation>
+  </message>
+  <message>
+   <source>Pitch</source>
+   <translation>间距</translation>
+  </message>
+  <message>
+   <source>Plate</source>
+   <translation>标定板</translation>
+  </message>
+  <message>
+   <source>Profile</source>
+   <translation>档案</translation>
+  </message>
+  <message>
+   <source>Profile to write</source>
+   <translation>要写入的档案</translation>
+  </message>
+  <message>
+   <source>Serial number</source>
+   <translation>序列号</translation>
+  </message>
+  <message>
+   <source>Settings</source>
+   <translation>设置</translation>
+  </message>
+  <message>
+   <source>Six to twelve captures of the whole plate: two distances, tilted up to 5°, turned by quarter turns.</source>
+   <translation>采集整块标定板六至十二次：两种距离，倾斜不超过 5°，依次转动四分之一圈。</translation>
+  </message>
+  <message>
+   <source>Their diameter</source>
+   <translation>孔径</translation>
+  </message>
+  <message>
+   <source>Use no profile</source>
+   <translation>不使用档案</translation>
+  </message>
+  <message>
+   <source>Verify</source>
+   <translation>核验</translation>
+  </message>
+  <message>
+   <source>Verify the camera</source>
+   <translation>核验相机</translation>
+  </message>
+  <message>
+   <source>Written: {folder}</source>
+   <translation>已写入：{folder}</translation>
+  </message>
+  <message>
+   <source>not given</source>
+   <translation>未给出</translation>
+  </message>
+  <message>
+   <source>of bars</source>
+   <translation>钢筋的伸缩</translation>
+  </message>
+  <message>
+   <source>plate.pdf, plate.dxf, plate.step and plate.toml are in</source>
+   <translation>plate.pdf、plate.dxf、plate.step 和 plate.toml 位于</translation>
+  </message>
+  <message>
+   <source>scale</source>
+   <translation>比例</translation>
+  </message>
+  <message>
+   <source>stretch of sleeves</source>
+   <translation>套筒的伸缩</translation>
+  </message>
+  <message>
+   <source>{count} captures, from {near:.0f} to {far:.0f} mm</source>
+   <translation>{count} 次采集，距离 {near:.0f} 至 {far:.0f} mm</translation>
+  </message>
+ </context>
+ <context>
   <name>AADM_Capture</name>
   <message>
    <source>Capture</source>
@@ -246,6 +429,10 @@
   <message>
    <source>Against the design</source>
    <translation>与设计比较</translation>
+  </message>
+  <message>
+   <source>Camera profile</source>
+   <translation>相机档案</translation>
   </message>
   <message>
    <source>Check</source>

@@ -151,6 +151,32 @@ def test_a_pair_that_was_hardly_seen_never_makes_a_pass_or_a_fail(build: Any, sq
     assert report.collisions == ()
 
 
+@pytest.mark.parametrize(
+    ("off_mm", "u_mm", "verdict"),
+    [(3.1, 0.1, Verdict.PASS), (3.1, 0.15, Verdict.PASS), (0.0, 0.7, Verdict.PASS), (3.1, 0.7, Verdict.INCONCLUSIVE)],
+)
+def test_no_pass_rests_on_a_bar_seen_worse_standing_like_the_others(
+    off_mm: float, u_mm: float, verdict: Verdict, build: Any, square: Array
+) -> None:
+    """R5 was found 3.1 mm further out; known as the others are, a pose is sure to suit it, known to 0.7 mm it is not.
+
+    That the others stand off by 1.9 mm makes it likely all the same: the probability says so, and the verdict waits.
+    """
+    design = build.column(square)
+    out = square[:, :2] / np.hypot(square[:, 0], square[:, 1])[:, None]
+    bars = 1.9 * out * np.where(np.arange(12) % 3 == 0, -1.0, 1.0)[:, None]
+    bars[4] = off_mm * out[4]
+    sleeves, rebars = build.moved(design.sleeves, 0 * bars, 0.1), build.moved(design.rebars, bars, 0.1)
+    sleeves[4], rebars[4] = build.moved(design.sleeves, 0 * bars, u_mm)[4], build.moved(design.rebars, bars, u_mm)[4]
+    report = try_assembly(design, sleeves, rebars, CN, np.random.default_rng(0))
+    assert report.verdict is verdict
+    assert (report.probability or 0.0) >= 0.95
+    if verdict is Verdict.INCONCLUSIVE:
+        assert len(report.rescan) == 1
+        assert report.rescan[0] in {"R5", "S5"}
+        assert any("what was hardly seen does not pass" in reason for reason in report.reasons)
+
+
 def test_clearances_are_limits_of_the_pose_as_well(build: Any, square: Array) -> None:
     """One tight sleeve: the minimax pose touches, a pose a little aside does not, and that one is shown."""
     design = build.column(square, sleeve_mm=36.0)

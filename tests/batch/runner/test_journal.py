@@ -12,6 +12,7 @@ from aadm_workbench.errors import AadmError
 from aadm_workbench.inspection.column import ColumnOutcome
 from aadm_workbench.model import ColumnReport, Verdict
 from batch.runner.journal import PREVIOUS_NAME, Journal
+from batch.runner.packed import unpack
 from batch.runner.record import Record, read_record
 
 
@@ -42,7 +43,8 @@ def test_a_record_comes_back_from_its_line() -> None:
     one = record("C-1")
     line = one.line()
     assert line.count(b"\n") == 1
-    assert json.loads(line)["report"]["id"] == "C-1"
+    assert json.loads(line)["id"] == "C-1"
+    assert json.loads(unpack(json.loads(line)["report"]))["id"] == "C-1"
     again = read_record(line)
     assert again is not None
     assert (again.id, again.key, again.verdict, again.seconds, again.where) == (
@@ -106,10 +108,24 @@ def test_an_unfinished_journal_is_put_aside(tmp_path: Path) -> None:
     assert journal.put_aside
     assert (tmp_path / PREVIOUS_NAME).read_bytes() == content
     journal.add(record("C-2"))
-    journal.finish()
+    journal.finish("of a report")
     journal.close()
+    resumed = Journal(tmp_path, resume=True)
+    assert resumed.finished == "of a report"
+    resumed.close()
     again = Journal(tmp_path, resume=False)
     assert not again.put_aside
+    again.close()
+
+
+def test_what_was_finished_is_so_no_more_once_a_column_was_begun(tmp_path: Path) -> None:
+    journal = Journal(tmp_path, resume=False)
+    journal.add(record("C-1"))
+    journal.finish("of a report")
+    journal.began("C-2")
+    journal.close()
+    again = Journal(tmp_path, resume=True)
+    assert again.finished == ""
     again.close()
 
 

@@ -3,6 +3,7 @@
 import re
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from rich.cells import cell_len
@@ -20,7 +21,7 @@ from aadm_workbench.model import (
     Verdict,
 )
 from batch.shown.terminal import show
-from batch.shown.verdict_table import summary_line, verdict_table, worst_comparison
+from batch.shown.verdict_table import show_verdicts, summary_line, verdict_table, worst_comparison
 
 
 def point(label: str, deviation_mm: float | None, verdict: Verdict, reason: str = "") -> PointResult:
@@ -167,3 +168,11 @@ def test_what_has_a_sign_is_shown_with_it(capsys: pytest.CaptureFixture[str]) ->
     spacing = SpacingResult(("S1", "S2"), 80.0, 82.5, 2.5, None, (-2.0, 2.0), Verdict.FAIL)
     column = ColumnReport("C-1", Verdict.FAIL, Verdict.PASS, ("too far",), sleeves=group((), (spacing,)))
     assert "+2.50 / 2 mm" in lines(capsys, column)[1]
+
+
+def test_no_report_is_named_that_was_not_written(capsys: pytest.CaptureFixture[str]) -> None:
+    report = job()
+    show_verdicts(report, Path("out") / "report.json")
+    assert f"Report: {Path('out') / 'report.json'}" in capsys.readouterr().out
+    show_verdicts(report, None)
+    assert "Report:" not in capsys.readouterr().out

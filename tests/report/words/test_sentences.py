@@ -271,7 +271,7 @@ AMID = {
 """Beside others these read like the beginning of another sentence."""
 
 
-IN_NO_REPORT = {"command", "document", "jobfile", "link", "profile", "report", "twin"}
+IN_NO_REPORT = {"command", "document", "jobfile", "report"}
 """Errors that end a command: nothing else is said beside them."""
 
 

@@ -1,0 +1,64 @@
+"""What is packed comes back to the last sign, and what others have made for it does no harm."""
+
+import base64
+import json
+import zlib
+
+import numpy as np
+import pytest
+
+from batch.runner.packed import LONGEST_TEXT_BYTES, pack, unpack
+
+
+def deflated(content: bytes) -> str:
+    """A part of a packed text, without the words that reports have in common."""
+    return base64.b85encode(zlib.compress(content)).decode()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "{}",
+        json.dumps({"a": [0.1, 1 / 3, -2e-300, 5e-324, 1e16, 123456789.123456789, 0, -0.0, 1e22]}),
+        # What looks like a number and is none, or is another one: a digit too many, a zero behind the last.
+        '"1.2345678900" 1.234567890123456789 -0.00000000000 12.3456789012e5 "9.87654321098-1.23456789012"',
+        json.dumps('层 \x01 \udc80 \\ " \n'),
+        "层 \udc80",
+    ],
+)
+def test_texts_come_back(text: str) -> None:
+    packed = pack(text)
+    assert packed.isascii()
+    assert not set('"\\') & set(packed)
+    assert unpack(packed) == text
+
+
+def test_numbers_come_back_bit_by_bit() -> None:
+    rng = np.random.default_rng(11)
+    bits = rng.integers(0, 2**63, 5000, dtype=np.uint64) | rng.integers(0, 2, 5000, dtype=np.uint64) << np.uint64(63)
+    values = bits.view(np.float64)
+    values = np.concatenate([values[np.isfinite(values)], rng.normal(0.0, 300.0, 5000)])
+    again = json.loads(unpack(pack(json.dumps(values.tolist()))))
+    assert np.array_equal(np.array(again).view(np.uint64), values.view(np.uint64))
+
+
+def test_what_was_not_packed_here_is_refused() -> None:
+    words, numbers = pack("[0.123456789012, 2]").split(" ")
+    assert unpack(f"{words} {numbers}") == "[0.123456789012, 2]"
+    far_too_long = deflated(bytes(LONGEST_TEXT_BYTES + 1))
+    for broken in (
+        "",
+        words,
+        f"{words} ",
+        f"{words[:-5]} {numbers}",
+        f"{words} {numbers} {numbers}",
+        f"{words} {deflated(b'')}",
+        f"{words} {deflated(bytes(16))}",
+        f"{words} {deflated(bytes(7))}",
+        f"{words} {far_too_long}",
+        f"{far_too_long} {numbers}",
+        '" \\',
+    ):
+        with pytest.raises(ValueError, match=r"."):
+            unpack(broken)
