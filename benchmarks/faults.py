@@ -99,6 +99,17 @@ def _over(folder: Path) -> list[str] | None:
     return words if tried and tried.returncode == 0 else None
 
 
+def address_in(file: Path, seconds: float) -> str:
+    """The address that a scheduler writes into a file once it is there; the file may be there before its content."""
+    until = time.monotonic() + seconds
+    while True:
+        with contextlib.suppress(OSError, ValueError):
+            return str(json.loads(file.read_text("utf-8"))["address"])
+        if time.monotonic() > until:
+            raise TimeoutError(f"no scheduler within {seconds:.0f} s")
+        time.sleep(_POLL_S)
+
+
 @contextlib.contextmanager
 def _cluster(folder: Path, before_worker: list[str]) -> Iterator[tuple[str, subprocess.Popen[bytes]]]:
     """The address of a scheduler of Dask with one worker, and its process; ``before_worker`` starts the worker."""
@@ -120,10 +131,7 @@ def _cluster(folder: Path, before_worker: list[str]) -> Iterator[tuple[str, subp
     dask = [sys.executable, "-m", "dask"]
     try:
         start(*dask, "scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(said))
-        until = time.monotonic() + _START_S
-        while not said.exists() and time.monotonic() < until:
-            time.sleep(_POLL_S)
-        address = json.loads(said.read_text("utf-8"))["address"]
+        address = address_in(said, _START_S)
         start(*before_worker, *dask, "worker", address, "--nthreads", "1", "--no-dashboard")
         yield address, started[0]
     finally:

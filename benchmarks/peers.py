@@ -156,10 +156,9 @@ def skimage_ellipses(mask: Mask, on_plane: Callable[[Array], Array], is_foot: bo
         if (turns < 0) is is_foot and len(contour) >= _FEWEST:
             flat = on_plane(contour[:, ::-1])
             middle = flat.mean(axis=0)
-            model = EllipseModel()
-            if model.estimate(flat - middle):
-                x, y, a, b, _ = model.params
-                yield middle + np.array([x, y]), 2.0 * a, 2.0 * b
+            model = EllipseModel.from_estimate(flat - middle)  # from scikit-image 0.26 on; false where there is none
+            if model:
+                yield middle + np.array(model.center), *(2.0 * np.array(model.axis_lengths)).tolist()
 
 
 def own(method: str) -> Find:

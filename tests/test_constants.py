@@ -15,7 +15,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 FOLDERS = ("aadm_workbench", "batch")
-MEASURING = ("aadm_workbench/extract", "aadm_workbench/assembly")
+MEASURING = ("aadm_workbench/extract", "aadm_workbench/assembly", "aadm_workbench/hoisting")
 """Where a number inside a function decides what is measured or judged."""
 SAYS_ITSELF = {"array", "eye", "ones", "zeros"}  # of noughts and ones: a direction, a matrix that does nothing
 

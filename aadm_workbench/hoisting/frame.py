@@ -145,6 +145,7 @@ def _sampled(points: FloatArray) -> tuple[Array, Array | None]:
 def _lens_of(sample: Array, pixels: Array) -> tuple[float, float, float, float] | None:
     """The pinhole lens of an organised cloud; None where its pixels do not follow one."""
     ahead = sample[:, 2] > 0
+    # one point in a hundred may be astray
     if ahead.mean() < 0.99:
         return None
     lens = []
@@ -166,11 +167,13 @@ def _facing_along(about_eye: Array) -> Array | None:
     if np.linalg.norm(forward) < 0.5:
         return None
     forward /= np.linalg.norm(forward)
+    # what looks ahead by so much looks through a camera's own axes
     if forward[2] > np.cos(np.radians(30.0)):
         forward = np.array([0.0, 0.0, 1.0])  # a cloud in camera axes keeps them
     tangent = np.tan(np.arccos(np.clip(np.quantile(seen @ forward, 0.01), -1.0, 1.0)))
     if not 0.0 < tangent < _WIDEST_TANGENT:
         return None
+    # 26 degrees from straight along y, where there is no down in the picture
     down = np.array([0.0, 1.0, 0.0]) if abs(forward[1]) < 0.9 else np.array([0.0, 0.0, -1.0])
     right = np.cross(down, forward)
     right /= np.linalg.norm(right)
@@ -183,6 +186,7 @@ def _laid_out(scan: Scan, eye: Array, rotation: Array) -> HoistingFrame:
     local = ((flat - eye.astype(flat.dtype)) @ rotation.T.astype(flat.dtype)).astype(np.float32)
     local = local[np.isfinite(local).all(axis=1) & (local[:, 2] > 0)]
     plan = local[:, :2] / local[:, 2:]
+    # one in a thousand may fly
     low, high = np.quantile(plan[:: max(1, len(plan) // _SAMPLE)], [0.001, 0.999], axis=0)
     kept = _within(plan, low - 0.01, high + 0.01)
     local, plan = local[kept], plan[kept]
@@ -204,9 +208,13 @@ def _within(plan: FloatArray, low: Array, high: Array) -> BoolArray:
 
 def _focal_of(plan: FloatArray, low: Array, high: Array) -> float:
     """Focal length, pixels, of an image whose pixels are as dense as the points in the fullest part of the view."""
+    # cells along the longer side: of some pixels each
     cells = np.floor((plan - low) / (high - low).max() * 200.0).astype(np.int64)
+    # more than cells: no two share a number
     counts = np.unique(cells[:, 0] * 100_003 + cells[:, 1], return_counts=True)[1]
     full = float(np.percentile(counts, 90))
+    # the cells from above
     focal = 200.0 * np.sqrt(full) / float((high - low).max())
+    # with the margin of 0.01 at either side
     largest = np.sqrt(_RASTER_PIXELS / float(np.prod(high - low + 0.02)))
     return float(min(focal, largest))

@@ -112,6 +112,7 @@ def _worth(found: list[PlanarPlacement]) -> list[PlanarPlacement]:
 
 
 def _elsewhere(one: PlanarPlacement, other: PlanarPlacement) -> bool:
+    # patterns look alike at 90 degrees and less often at 60: a third of that is scatter
     return bool(abs(wrap(one.yaw - other.yaw)) > np.radians(20.0))
 
 

@@ -172,6 +172,7 @@ def _searched(frame: HoistingFrame, column: _Column) -> Found | str:
     if isinstance(face, NoFace):
         return face.reason
     rebar_places = _places(design.rebars)
+    # half a pattern more, and what the column may hang aside of its bars while a camera still sees both
     reach_mm = 1.5 * float(np.hypot(*np.ptp(rebar_places, axis=0))) + 200.0
     bars = find_bars(frame, face, bar_mm, reach_mm)
     if not len(bars.centres):
@@ -268,6 +269,10 @@ def _bars(frame: HoistingFrame, found: Found, foot: FootFit, column: _Column) ->
     starts = np.full((len(rebars), 2), np.nan)
     is_found = laid.matched >= 0
     starts[is_found] = tops[laid.matched[is_found], :2]
+    if found.earlier is not None:  # what it did not show then begins where its pattern had it
+        last = found.earlier
+        places = axes.local(last.axes.to_frame(np.nan_to_num(last.bars.tops, nan=float(np.median(tops[:, 2])))))
+        starts[~is_found] = places[~is_found, :2]
     pose = _refined_pose(laid, _places(rebars), starts)
     pattern = _pattern(rebars, column.rebars_before, column.settings.scatter_mm)
     top_mm, diameter_mm = float(np.median(tops[:, 2])), column.diameter_mm(Kind.REBAR)

@@ -20,6 +20,7 @@ from aadm_workbench.model import (
     HoistingReport,
     Profile,
     Reason,
+    Repair,
     Rule,
     Scan,
     Vector2,
@@ -59,7 +60,7 @@ def report_pairs(
     rule = _rule(profile)
     pairs = tuple(_pair(frame, design, hung, found, k, rule, decision, reason) for k in range(len(design.sleeves)))
     keys = _keys(found.sleeves)
-    correction = correction_of(hung, found, rule, [sleeve.label for sleeve in design.sleeves])
+    correction = correction_of(hung, found, rule, design)
     tilt = float(np.degrees(np.arccos(np.clip(found.to_bars[2] @ hung.face.axes[2], -1.0, 1.0))))
     report = HoistingReport(
         source=scan.source,
@@ -70,7 +71,7 @@ def report_pairs(
         verdict=_verdict(pairs, rule, reason),
         pairs=pairs,
         correction=correction,
-        reasons=_reasons(pairs, rule, reason),
+        reasons=_reasons(pairs, rule, reason, () if correction is None else correction.repairs),
         sha256=scan.sha256,
         method="refined",
         quality=_quality(hung),
@@ -129,7 +130,9 @@ def _verdict(pairs: Sequence[HoistingPair], rule: Rule | None, reason: str) -> V
     return Verdict.NOT_ASSESSED if rule is None else worst(pair.verdict for pair in pairs)
 
 
-def _reasons(pairs: Sequence[HoistingPair], rule: Rule | None, reason: str) -> tuple[str, ...]:
+def _reasons(
+    pairs: Sequence[HoistingPair], rule: Rule | None, reason: str, repairs: Sequence[Repair]
+) -> tuple[str, ...]:
     if reason:
         return (reason,)
     if rule is None:
@@ -153,7 +156,8 @@ def _reasons(pairs: Sequence[HoistingPair], rule: Rule | None, reason: str) -> t
         for pair in pairs
         if pair.verdict is Verdict.INCONCLUSIVE and pair not in inferred
     ]
-    return (*beyond, *unsure, *look_again(inferred))
+    bent = [Reason("hoisting.repair", label=one.label, dx_mm=one.dx_mm, dy_mm=one.dy_mm) for one in repairs]
+    return (*bent, *beyond, *unsure, *look_again(inferred))
 
 
 def key_labels(design: ColumnDesign, near: tuple[int, int]) -> tuple[str, str, str]:

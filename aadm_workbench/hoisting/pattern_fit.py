@@ -185,9 +185,9 @@ class System:
         self.normal[np.ix_(place, place)] += np.array([[1.0, -1.0], [-1.0, 1.0]]) / sigma**2
         self.gradient[place] += np.array([off, -off]) / sigma**2
 
-    def stepped(self, state: State) -> tuple[State, float]:
-        """The state after a step, and the longest part of the step, mm (turns over 100 mm)."""
-        step = -np.linalg.solve(self.normal, self.gradient)
+    def stepped(self, state: State, share: float = 1.0) -> tuple[State, float]:
+        """The state after a share of a step, and the longest part of the step, mm (turns over 100 mm)."""
+        step = -share * np.linalg.solve(self.normal, self.gradient)
         step[2] *= 100.0
         step = np.clip(step, -_LONGEST_STEP_MM, _LONGEST_STEP_MM)
         longest = float(np.abs(step).max())

@@ -69,8 +69,8 @@ def plan_camera(
     wanted_u_mm: float,
     near: tuple[int, int] = (-1, -1),
     sleeves: Sequence[str] | None = None,
-    exposed_mm: float = 120.0,
-    most_mm: float = 3000.0,
+    exposed_mm: float = 120.0,  # the shortest of the settings
+    most_mm: float = 3000.0,  # farther away no such camera measures
     before_mm: float | None = None,
 ) -> tuple[CameraPlan, tuple[View, ...]]:
     """Plan the frames for a column.
@@ -97,6 +97,7 @@ def plan_camera(
     The plan with the fewest frames, and every view from the first corner that sees all sleeves of interest.
     """
     wanted = tuple(sleeves) if sleeves else tuple(point.label for point in design.sleeves)
+    # a lens stands above the floor, if by little
     below = [value for value in _BELOW_MM if value < exposed_mm - 15.0] or [_BELOW_MM[0]]
     distances_mm = np.arange(*_DISTANCES_MM)
     distances_mm = distances_mm[distances_mm <= most_mm]
@@ -177,6 +178,7 @@ def _view(
     grazing = about[:, 2] / np.linalg.norm(about, axis=1)
     shown = _in_picture(mouths, eye, axes, camera, radius_mm)
     seen = shown & (grazing > _GRAZING_NONE)
+    # as much of a side as shows a bar
     tops = np.column_stack([rebars, np.full(len(rebars), -15.0)])
     bars = _in_picture(tops, eye, axes, camera, design.rebars[0].diameter_mm / 2)
     bars &= hidden_shares(rebars, eye[:2], design.rebars[0].diameter_mm / 2) < _HIDDEN_SHARE

@@ -42,6 +42,7 @@ def why_half(shown_here: BoolArray) -> str:
 def why_not_foot(face: FootFace, foot: FootFit, diameter_mm: float) -> str:
     """What speaks against the foot; empty where nothing does."""
     apart = np.hypot(*(face.mouths[:, None] - foot.centres[None]).transpose(2, 0, 1)).min(axis=1)
+    # openings are found to half their radius
     stray = int((apart > max(_RESIDUAL_MM, 0.6 * foot.radius_mm)).sum())
     if stray > max(1.0, _STRAY_SHARE * len(face.mouths)):
         return Reason("hoisting.stray", stray=stray)
@@ -88,6 +89,7 @@ def _absent(frame: HoistingFrame, hung: HungFit) -> tuple[int, int]:
     """How many of the bars that nothing hides show nothing or stand far off, and how many nothing hides."""
     bars = hung.bars
     eye = hung.axes.eye[:2]
+    # as much of a side as shows a bar
     in_view = _in_picture(frame, hung.axes.to_frame(np.column_stack([bars.tops[:, :2], _levels(bars) - 20.0])))
     clear = in_view & (hidden_shares(placed(bars.pose, bars.places), eye, bars.radius_mm) < _COVERED_SHARE)
     off_mm = np.hypot(*(bars.tops[:, :2] - placed(bars.pose, bars.places)).T)

@@ -37,6 +37,7 @@ from aadm_workbench.model.hoisting import (
     HoistingPair,
     HoistingReport,
     MovedSince,
+    Repair,
 )
 from aadm_workbench.model.measured import (
     AXES_UNKNOWN,
@@ -159,6 +160,7 @@ __all__ = [
     "PoseWindow",
     "Profile",
     "Reason",
+    "Repair",
     "RepairAction",
     "RepairReport",
     "RepairStep",

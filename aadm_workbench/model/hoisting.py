@@ -45,6 +45,15 @@ class CameraMove:
 
 
 @dataclass(frozen=True, slots=True)
+class Repair:
+    """How far a bar is to be bent to meet its sleeve once the column has been moved, in the bars' frame, mm."""
+
+    label: str
+    dx_mm: float
+    dy_mm: float
+
+
+@dataclass(frozen=True, slots=True)
 class Correction:
     """Displacement of the column: turned by yaw about its own axis, then moved by dx, dy, in the bars' frame.
 
@@ -52,7 +61,8 @@ class Correction:
     centroid of the design sleeve centres on its foot face. Of the pairs ``over``, named by their sleeves, it leaves the
     smallest largest distance; ``left_mm`` is the largest then left of all pairs, ``margin`` 1 minus its ratio to the
     limit. Pairs that are merely inferred from a pattern do not decide where the column goes. ``u_mm`` and ``u_yaw_deg``
-    are standard uncertainties of the move per axis and of the turn.
+    are standard uncertainties of the move per axis and of the turn. ``repairs`` are left to do where no move brings a
+    bar and the others to their sleeves together.
     """
 
     dx_mm: float
@@ -64,6 +74,7 @@ class Correction:
     u_yaw_deg: float | None = None
     camera: CameraMove | None = None
     over: tuple[str, ...] = ()
+    repairs: tuple[Repair, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

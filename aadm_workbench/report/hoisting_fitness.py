@@ -49,6 +49,7 @@ def fitness_of(state: Mapping[str, Any], now_s: float | None) -> Fitness:
     recorded = Reason("hoisting.recorded") if now_s is None else ""
     unmeasured, open_turn, contradicted = _not_measured(state), _not_oriented(state), _contradicted(state)
     rest: Sequence[Callable[[Mapping[str, Any]], str]] = (
+        _bent,
         _not_still,
         _not_seen,
         _tilted,
@@ -143,6 +144,17 @@ def _not_oriented(state: Mapping[str, Any]) -> str:
 
 def _contradicted(state: Mapping[str, Any]) -> str:
     return next((str(one.get("text")) for one in _entries(_frame(state).get("findings")) if one.get("holds_back")), "")
+
+
+def _bent(state: Mapping[str, Any]) -> str:
+    """A bar that no move brings to its sleeve together with the others, whatever the column does."""
+    correction = _frame(state).get("correction")
+    repairs = _entries(correction.get("repairs") if isinstance(correction, Mapping) else None)
+    for one in repairs:
+        dx_mm, dy_mm = number(one.get("dx_mm")), number(one.get("dy_mm"))
+        if dx_mm is not None and dy_mm is not None:
+            return Reason("hoisting.repair", label=str(one.get("label")), dx_mm=dx_mm, dy_mm=dy_mm)
+    return ""
 
 
 def _not_still(state: Mapping[str, Any]) -> str:

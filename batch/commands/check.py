@@ -11,7 +11,7 @@ import argparse
 import signal
 import threading
 from collections.abc import Iterator
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -188,7 +188,9 @@ def _hand_over(
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
         _complain(error, options)
-    _show(served, None if made is None else path, options)
+    # What could not be read of the results was said just now.
+    with suppress(AadmError) if made is None else nullcontext():
+        _show(served, None if made is None else path, options)
     if options.write_ifc and code != INTERNAL:
         code = _write_model(job, folder, options) or code
     return code, made

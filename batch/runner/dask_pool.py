@@ -41,6 +41,8 @@ from .worker import (
 _LAST_WORKER_S = 90.0
 """So long is waited for a worker where there is none."""
 
+# A client that has lost its scheduler lacks the key of its workers, too.
+_NO_ANSWER: tuple[type[BaseException], ...] = (*GONE, KeyError)
 _RESULT_S = 30.0  # a result is sent within a second: what has not come by then has gone with its worker
 _EXIT_S = 8.0  # a scheduler hears of a worker's end by its next heartbeats
 
@@ -233,9 +235,8 @@ class DaskPool:
 
     def _addresses(self) -> set[str]:
         try:
-            # A client that has lost its scheduler knows of no workers, and not even of that.
             return set(self._client.scheduler_info(n_workers=-1)["workers"])
-        except (*GONE, KeyError) as error:
+        except _NO_ANSWER as error:
             raise AadmError.because("run.scheduler_gone") from error
 
     def _dropped(self, worker: _Worker) -> list[Ended]:

@@ -7,7 +7,7 @@ report is the same.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -129,7 +129,7 @@ def run_job(
         for place in sorted(kept):
             follower.column(journal.record(plan.tasks[place].column.id), kept=True)
         left = [order for place, order in enumerate(orders) if place not in kept]
-        doubtful = {place for place, order in enumerate(left) if order.task.column.id in journal.interrupted}
+        doubtful = _places_of(journal.interrupted, left)
         pool = pools.open(len(left), apart=bool(doubtful))
         watcher = _Watcher(left, follower, journal)
         for place, record in work_through(left, pool, fill_order, give_up, watcher, doubtful):
@@ -165,6 +165,10 @@ def _orders(tasks: tuple[ColumnTask, ...], journal: Journal | Unkept) -> list[Ch
     """An order for each column."""
     program, known = program_key(), journal.keys
     return [CheckOrder(task, order_key(task, program), known.get(task.column.id, "")) for task in tasks]
+
+
+def _places_of(names: Collection[str], orders: Sequence[CheckOrder]) -> set[int]:
+    return {place for place, order in enumerate(orders) if order.task.column.id in names}
 
 
 def _look_as_they_did(orders: Sequence[CheckOrder], journal: Journal | Unkept) -> set[int]:

@@ -91,6 +91,7 @@ class Watcher:
         """Measure frames until the options say enough, and return the verdict on the last one."""
         if not self.options.present:
             self._folder.skip_present()
+        self.say(f"{self.task.column.id}: waiting for frames in {self._folder.folder}")
         began = monotonic()
         while not self._enough(monotonic() - began):
             if self._no_more_comes():

@@ -164,7 +164,7 @@ def test_watch_measures_new_frames_waits_for_unfinished_ones_and_skips_bad_ones(
     state = json.loads((frames / "aadm-state.json").read_text(encoding="utf-8"))
     assert code == 12  # the last frame was no picture
     assert "old.tiff" not in said
-    assert [line.partition(":")[0] for line in said.splitlines()] == ["a.tiff", "b.tiff", "c.tiff"]
+    assert [line.partition(":")[0] for line in said.splitlines()] == ["L-1", "a.tiff", "b.tiff", "c.tiff"]
     assert "still for 2 frames" in said
     assert (state["frames"], state["bad_frames"], state["frame"]["verdict"]) == (3, 1, "error")
     assert not list(frames.glob(".*"))

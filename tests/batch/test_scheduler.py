@@ -16,10 +16,14 @@ from pathlib import Path
 import psutil
 import pytest
 
-from aadm_workbench.errors import JobError
+from aadm_workbench.errors import AadmError, JobError
 from batch.main import main
+from batch.runner import cluster as cluster_of_dask
+from batch.runner.dask_pool import DaskPool
 from batch.runner.engine import Unwatched, work_through
 from batch.runner.pools import PoolOptions, open_pool
+from batch.runner.worker import Terms
+from benchmarks.faults import address_in
 
 from .conftest import WriteJob, column_text
 from .killers import Chore, do, give_up
@@ -54,10 +58,7 @@ def running_cluster(folder: Path, count: int) -> Iterator[Cluster]:
     said = folder / "scheduler.json"
     try:
         start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", str(said))
-        until = time.monotonic() + 60.0
-        while not said.exists() and time.monotonic() < until:
-            time.sleep(0.05)
-        address = json.loads(said.read_text())["address"]
+        address = address_in(said, 60.0)
         workers = [start("worker", address, "--nthreads", "1", "--no-dashboard") for _ in range(count)]
         yield Cluster(address, workers, folder, started[0])
     finally:
@@ -139,6 +140,19 @@ def test_a_worker_that_sees_an_empty_folder_gets_none(cluster: Cluster, tmp_path
     assert outcomes() == [(0, "one done")]
 
 
+class LostClient:
+    """A client of Dask whose scheduler is gone: it knows of itself, and of no workers."""
+
+    def scheduler_info(self, n_workers: int) -> dict[str, str]:
+        return {"type": "Scheduler", "id": "none"}
+
+
+def test_a_client_that_has_lost_its_scheduler_says_so(tmp_path: Path) -> None:
+    lost = cluster_of_dask.Cluster(LostClient(), cluster_of_dask.RemoteWorkers(LostClient()))
+    with pytest.raises(AadmError, match="the scheduler of Dask is gone; look at its own messages"):
+        DaskPool(lost, Terms(tmp_path, tmp_path), ship=None, say=print, log=print)
+
+
 def test_a_scheduler_that_dies_in_mid_run_is_said_to_be_gone(tmp_path: Path, job: Path) -> None:
     """What was kept is kept, the exit code is that of a check that could not go on, and it goes on elsewhere."""
     pytest.importorskip("distributed")
@@ -155,8 +169,8 @@ def test_a_scheduler_that_dies_in_mid_run_is_said_to_be_gone(tmp_path: Path, job
             time.sleep(0.002)
         running.scheduler.kill()
         _, said = process.communicate(timeout=120)
-    assert process.returncode == 70
     assert "the scheduler of Dask is gone; look at its own messages" in said
+    assert process.returncode == 70
     assert "repeat the command with --resume" in said
     assert "Traceback" not in said
     assert report(job, "there", "--resume") == here

@@ -1,19 +1,18 @@
 """A cluster with certificates: the same report with the right one, and an end at once with any other."""
 
-import json
 import os
 import signal
 import socket
 import subprocess
 import sys
 import threading
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from batch.main import main
+from benchmarks.faults import address_in
 
 from .certificates import write_certificates
 from .conftest import WriteJob, column_text
@@ -43,10 +42,7 @@ def cluster(pem: dict[str, Path], tmp_path_factory: pytest.TempPathFactory, repo
 
     try:
         start("scheduler", "--host", "tls://127.0.0.1", "--port", "0", "--no-dashboard", "--scheduler-file", said, *tls)
-        until = time.monotonic() + 30.0
-        while not said.exists() and time.monotonic() < until:
-            time.sleep(0.05)
-        address = json.loads(said.read_text())["address"]
+        address = address_in(said, 60.0)
         start("worker", address, "--nthreads", "1", "--no-dashboard", *tls)
         yield address
     finally:
@@ -99,8 +95,9 @@ def test_a_wrong_certificate_of_dasks_own_configuration_ends_it_at_once(
 ) -> None:
     dask = pytest.importorskip("dask")
     monkeypatch.setattr("distributed.Client", None)
-    client = {"cert": str(pem["stranger"]), "key": str(pem["stranger-key"])}
-    with dask.config.set({"distributed.comm.tls": {"ca-file": str(pem["ca"]), "client": client}}):
+    tls = "distributed.comm.tls"
+    client = {f"{tls}.client.cert": str(pem["stranger"]), f"{tls}.client.key": str(pem["stranger-key"])}
+    with dask.config.set({f"{tls}.ca-file": str(pem["ca"]), **client}):
         assert check(job, "f", cluster) == 2
     assert "does not take the certificate of --tls-cert" in capsys.readouterr().err
 

@@ -17,15 +17,19 @@ from tests import hoisting_scenes as scenes
 ALIKE_MM, NOISE_MM, DRAWS = 0.025, 0.01, 5
 
 
-def distances(depth: Array) -> Array:
+def measured(depth: Array) -> tuple[Array, Array]:
+    """Distances of all pairs, and the move."""
     scan = replace(scenes.usual().frame, depth=depth.astype(np.float32)).scan()
     report = measure_hoisting(scan, design_of(LAB), near=scenes.NEAR).report
-    return np.array([pair.distance_mm for pair in report.pairs])
+    move = report.correction
+    assert move is not None
+    return np.array([pair.distance_mm for pair in report.pairs]), np.array([move.dx_mm, move.dy_mm])
 
 
 def test_noise_of_a_hundredth_of_a_millimetre_moves_no_pair_by_more_than_a_fortieth() -> None:
     depth, rng = scenes.usual().frame.depth, np.random.default_rng(3)
-    plain = distances(depth)
+    plain, move = measured(depth)
     for _ in range(DRAWS):
-        noisy = distances(np.where(depth > 0, depth + rng.uniform(-NOISE_MM, NOISE_MM, depth.shape), 0.0))
+        noisy, other = measured(np.where(depth > 0, depth + rng.uniform(-NOISE_MM, NOISE_MM, depth.shape), 0.0))
         assert np.abs(noisy - plain).max() < ALIKE_MM
+        assert np.abs(other - move).max() < ALIKE_MM

@@ -21,6 +21,7 @@ from aadm_workbench.report.read import read_report
 from batch.main import main
 from batch.report_files import FORMATS, write_reports
 from batch.runner.journal import Journal
+from batch.runner.packed import pack
 from batch.runner.record import read_record
 from batch.runner.run import _column
 from tests.report.checked_floor import CASES, floor_report
@@ -148,6 +149,7 @@ JOURNALS: dict[str, bytes] = {
     "id of a wrong kind": FIRST + forged(SOUND | {"id": ["C-1"]}, "{}"),
     "seconds of a wrong kind": FIRST + forged(SOUND | {"seconds": [1]}, "{}"),
     "other keys": FIRST + forged(SOUND | {"more": 1}, "{}"),
+    "report that is not packed": FIRST + forged(SOUND, "{}"),
     "only zeros": bytes(100_000),
     "no line break": FIRST + b"x" * 100_000,
     "not UTF-8": FIRST + b'{"began":"\xff\xfe"}\n',
@@ -164,12 +166,13 @@ def test_journals_of_others_are_worth_nothing_but_harm_nobody(job: Path, name: s
 
 def test_a_result_that_makes_no_sense_is_said() -> None:
     """The checksum and the key are right, the report is none: who can forge that could forge a verdict."""
-    record = read_record(forged(SOUND, DEEP))
-    assert record is not None
-    with pytest.raises(ValueError, match="ColumnReport"):
-        record.column()
-    with pytest.raises(AadmError, match=r"C-1: its kept result cannot be used .+ check again without --resume"):
-        _column(record)
+    for report, said in ((pack(DEEP), "ColumnReport"), (pack("{}"), "ColumnReport"), ("nothing packed", ".")):
+        record = read_record(forged(SOUND, json.dumps(report)))
+        assert record is not None
+        with pytest.raises(ValueError, match=said):
+            record.column()
+        with pytest.raises(AadmError, match=r"C-1: its kept result cannot be used .+ check again without --resume"):
+            _column(record)
 
 
 def test_a_journal_of_too_many_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

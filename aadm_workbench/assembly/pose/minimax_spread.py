@@ -20,9 +20,14 @@ _LEAST_MM = 1e-6  # keeps quotients of exact points finite
 
 
 def minimax_covariance(
-    source: Array, target: Array, covariance: Array, pose: MinimaxPose, generator: np.random.Generator
+    source: Array,
+    target: Array,
+    covariance: Array,
+    pose: MinimaxPose,
+    generator: np.random.Generator,
+    limits_mm: Array | None = None,
 ) -> Array:
-    """Covariance (3, 3) of (x, y, turn), mm and radians, about the pose of equal limits.
+    """Covariance (3, 3) of (x, y, turn), mm and radians, about the pose.
 
     Parameters
     ----------
@@ -32,7 +37,10 @@ def minimax_covariance(
         (2n, 2n) mm² of the targets less the sources, rows as x and y of one after the other.
     generator
         Source of the draws.
+    limits_mm
+        (n,), as they were given there; all alike where they are not named.
     """
+    weights = np.ones(len(source)) if limits_mm is None else (float(np.min(limits_mm)) / limits_mm) ** 2
     centre = target.mean(axis=0)
     placed = source @ turn(pose.yaw).T + pose.shift - centre
     p, q = half_turn_vectors(placed, target - centre)
@@ -42,9 +50,9 @@ def minimax_covariance(
     size_mm = max(float(np.hypot(*p.T).max()), _LEAST_MM)
     stretch = float(np.sqrt((q**2).sum(axis=1).mean()))
     turning = np.broadcast_to(q / stretch, errors.shape)
-    found = smallest_common_disc(
-        (p - errors) / size_mm, turning, np.ones(len(source)), start=pose.multipliers, gap=_GAP
-    ).z * (size_mm * np.array([1.0 / stretch, 1.0, 1.0]))
+    found = smallest_common_disc((p - errors) / size_mm, turning, weights, start=pose.multipliers, gap=_GAP).z * (
+        size_mm * np.array([1.0 / stretch, 1.0, 1.0])
+    )
     # small turns, about the centre: the columns' own origin moves with them
     angle, about = 2.0 * found[:, 0], pose.shift - centre
     moved = found[:, 1:] + angle[:, None] * np.array([-about[1], about[0]])

@@ -21,6 +21,7 @@ from aadm_workbench.document.hoisting_state import (
 )
 from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.hoisting.picture import HoistingPicture
+from aadm_workbench.gui.hoisting.watch_bar import WatchBar
 from aadm_workbench.gui.language import in_language
 from aadm_workbench.gui.panels.file_line import FileLine
 from aadm_workbench.gui.resources import icon
@@ -51,7 +52,8 @@ class HoistingWindow(QtGui.QMainWindow):
         self.standing.currentIndexChanged.connect(lambda _: self._show())
         self.full = QtGui.QPushButton(translate("AADM_Hoisting", "Full screen"))
         self.full.setCheckable(True)
-        self.full.toggled.connect(lambda on: self.showFullScreen() if on else self.showNormal())
+        self.full.toggled.connect(self._fill_screen)
+        self.watch = WatchBar(self.folder.text)
         self.picture = HoistingPicture()
         head = QtGui.QHBoxLayout()
         head.addWidget(QtGui.QLabel(translate("AADM_Hoisting", "Folder")))
@@ -62,6 +64,7 @@ class HoistingWindow(QtGui.QMainWindow):
         self.setCentralWidget(middle)
         layout = QtGui.QVBoxLayout(middle)
         layout.addLayout(head)
+        layout.addWidget(self.watch)
         layout.addWidget(self.picture, 1)
         self.measurement: Measurement | None = None
         self.is_recorded = False
@@ -71,6 +74,20 @@ class HoistingWindow(QtGui.QMainWindow):
         self._timer.timeout.connect(self.look)
         self._timer.start()
         self._show()
+
+    def closeEvent(self, event: Any) -> None:
+        """A watch that was started here ends with the window."""
+        self._timer.stop()
+        self.watch.leave()
+        super().closeEvent(event)
+
+    def _fill_screen(self, fills: bool) -> None:
+        """All of the screen for what is read from afar, without what is set beforehand."""
+        self.watch.setVisible(not fills)
+        if fills:
+            self.showFullScreen()
+        else:
+            self.showNormal()
 
     def look(self) -> None:
         """Look for a newer measurement in the folder."""

@@ -27,7 +27,7 @@ from aadm_workbench.private.answers import ReadScan
 
 translate = FreeCAD.Qt.translate
 
-_ADDRESSES = ("gentl:FILE.cti#SERIAL", "gige://IP", "mecheye://IP", "replay:FOLDER")
+ADDRESSES = ("gentl:FILE.cti#SERIAL", "gige://IP", "mecheye://IP", "replay:FOLDER")
 _MM = "mm"  # what captures are written in, whatever the camera's own unit is
 
 
@@ -48,8 +48,8 @@ class CapturePanel(WorkingPanel):
         if column in self.columns:
             self.column.setCurrentIndex(self.columns.index(column))
         self.camera = QtGui.QLineEdit(settings.camera_address())
-        self.camera.setPlaceholderText(_ADDRESSES[1])
-        self.camera.setToolTip("\n".join(_ADDRESSES))
+        self.camera.setPlaceholderText(ADDRESSES[1])
+        self.camera.setToolTip("\n".join(ADDRESSES))
         self.kind = QtGui.QComboBox()
         self.kind.addItem(translate("AADM_Import", "sleeves (the foot)"), KINDS[0])
         self.kind.addItem(translate("AADM_Import", "rebars (the bars below)"), KINDS[1])
@@ -73,7 +73,7 @@ class CapturePanel(WorkingPanel):
             address, folder, column = self.camera.text().strip(), self.folder.text(), self._column()
             if not address:
                 raise CaptureError(
-                    translate("AADM_Capture", "Name a camera: {forms}.").format(forms=", ".join(_ADDRESSES))
+                    translate("AADM_Capture", "Name a camera: {forms}.").format(forms=", ".join(ADDRESSES))
                 )
             if not folder:
                 raise CaptureError(

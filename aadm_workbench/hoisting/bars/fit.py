@@ -38,10 +38,11 @@ _SETTLED_MM = 0.01  # a third of the uncertainty's floor below
 # with the scatter that the bars show, until all stay: a cap, and a tenth of the uncertainty's floor; ended before, it
 # tells where it began
 _LAST_ROUNDS, _STILL_MM = 12, 0.003
+_LAST_SHARE = 0.6  # of a step: the law is so steep inwards that whole ones go back and forth across its peak, for ever
 _INWARDS_MM = 1.0  # ribs only stand outwards: what lies farther inside of the core is a stray
 # of a window, evenly taken: half of them are the side's; where it is known already, fewer find 300 of them
 _PIXELS, _TRACKED_PIXELS = 4_000, 2_000
-_TAKEN = 1_500  # of these pixels: neighbours share their errors, but single ones are not to decide
+_TAKEN, _TRACKED_TAKEN = 1_500, 750  # of these pixels: neighbours share their errors, but single ones are not to decide
 _POINTS_MAX = 300  # points of a side tell as much as there are errors of their own among them
 _FEWEST = 40  # points of a side (a choice: ±30 % moves nothing on sound scans)
 # neighbouring points of a side share their errors: standard errors are this much larger; a choice: ±30 % changes what
@@ -135,8 +136,9 @@ def fit_bars(
         state.pooled[:], state.own[:, 2:] = before.state.pooled, before.state.own[:, 2:]
     if starts is not None:
         state.own[:, :2] = np.where(np.isfinite(starts), starts, state.own[:, :2])
-    pixels = _PIXELS if before is None else _TRACKED_PIXELS
-    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2, pixels) for centre in state.centres]
+    most = (_PIXELS, _TAKEN) if before is None else (_TRACKED_PIXELS, _TRACKED_TAKEN)
+    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2, most) for centre in state.centres]
+    # nothing pushes the side of a bar along the view: held at none
     sigma = np.tile([_LEAN_SIGMA, _LEAN_SIGMA, 1e-4, _OWN_RADIUS_MM], (len(sides), 1))
     believed = Believed(np.array([nominal_mm]), np.array([_RADIUS_SIGMA_MM]), sigma, np.zeros((len(sides), OWN - 2)))
     # how points scatter about cores is the bars', and not the frame's
@@ -147,7 +149,7 @@ def fit_bars(
     pattern = as_built(loosened(pattern, state), state, counts >= _FEWEST)
     for _ in range(_LAST_ROUNDS):
         system = _system(terms, pattern, believed, state)
-        state, step_mm = system.stepped(state)
+        state, step_mm = system.stepped(state, _LAST_SHARE)
         terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
         if step_mm < _STILL_MM:
             break
@@ -204,7 +206,7 @@ def _own_system(terms: Terms, believed: Believed, state: State) -> System:
 
 
 def _side(
-    frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float, most: int
+    frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float, most: tuple[int, int]
 ) -> _Side | None:
     """What is seen of a bar about a place; None where nothing is, or it is out of the picture."""
     reach = radius_mm + _BANDS_MM[0]
@@ -225,10 +227,10 @@ def _side(
     if (high - low < 3).any():
         return None
     # by what is not rounded, and from fixed rows and columns: which pixels are taken hangs on no hair's breadth
-    step = max(1, int(np.sqrt(np.prod(np.ptp(pixels, axis=0)) / most)))
+    step = max(1, int(np.sqrt(np.prod(np.ptp(pixels, axis=0)) / most[0])))
     low -= low % step
     points = frame.points[low[1] : high[1] : step, low[0] : high[0] : step]
-    nth = max(1, int(step**-2 * np.prod(np.ptp(pixels, axis=0)) / _TAKEN))
+    nth = max(1, int(step**-2 * np.prod(np.ptp(pixels, axis=0)) / most[1]))
     kept = _borne(points[..., 2]) & _every(nth, points)
     local = axes.local(points[kept].astype(np.float64))
     near = np.hypot(*(local[:, :2] - centre).T) < reach
@@ -249,6 +251,7 @@ def _every(nth: int, points: FloatArray) -> BoolArray:
 def _width(about: Array, view: Array) -> float:
     """How wide (mm) a strip of a bar is seen: points (n, 2) about its axis, looked at along ``view`` (n, 2)."""
     across = np.sort(about[::5, 1] * view[::5, 0] - about[::5, 0] * view[::5, 1])
+    # a twentieth at either end may fly
     beyond = len(across) // 20
     return float(across[-1 - beyond] - across[beyond])
 
@@ -266,6 +269,7 @@ def _top(heights: Array) -> float:
     """Height at which the side of a bar ends: the highest point that has its share of points just below it."""
     rising = np.sort(heights)
     counts = np.arange(len(rising)) - np.searchsorted(rising, rising - _TOP_BIN_MM)
+    # two fifths of what the side has at most heights: what flies above a top is less
     return float(rising[np.flatnonzero(counts >= 0.4 * np.median(counts))[-1]])
 
 
@@ -280,10 +284,12 @@ def _terms(sides: list[_Side | None], state: State, band_mm: float, law: Bracket
         distance = np.hypot(about[:, 0], about[:, 1])
         off = distance - state.pooled[0] - state.own[k, 5]
         facing = -np.einsum("ij,ij->i", about, side.view) > _FACING_COSINE * distance
+        # below the top's own edge, where pixels mix; inwards the band is narrower, for ribs only stand outwards
         used = np.flatnonzero((depth > 1.0) & (off > -max(_INWARDS_MM, 0.6 * band_mm)) & (off < band_mm) & facing)
         if len(used) < _FEWEST:
             continue
         width = _width(about[used], side.view[used]) / (2.0 * state.pooled[0])
+        # cubed: a strip of half the width holds its bar an eighth as firmly; a little keeps the equations whole
         trust = np.clip((width - _NARROWEST) / (_WIDE - _NARROWEST), 1e-4, 1.0) ** 3
         trusts.append(np.full(len(used), trust * min(1.0, _POINTS_MAX / len(used))))
         owners.append(np.full(len(used), k))
@@ -297,5 +303,5 @@ def _terms(sides: list[_Side | None], state: State, band_mm: float, law: Bracket
     pull = -law.slope(-residual) * np.concatenate(trusts or [np.empty(0)]) / _CORRELATION**2
     bend = np.abs(pull) / np.maximum(np.abs(residual), law.softness_mm)
     inwards = residual[(residual < 0) & (residual > -_INWARDS_MM)]
-    width_mm = TO_SIGMA * float(np.median(np.abs(inwards))) if len(inwards) > 20 else 0.15
+    width_mm = TO_SIGMA * float(np.median(np.abs(inwards))) if len(inwards) > _FEWEST // 2 else _NOISE_MM
     return Terms(own, pooled, pull, bend, owner), counts, width_mm

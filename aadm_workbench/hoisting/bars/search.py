@@ -76,6 +76,7 @@ def _floor(points: Array, centres: Array, top_mm: float, vertical: Array, diamet
     """Normal (3,) of the floor under the bars, in the axes of the foot face."""
     low = points[points[:, 2] < top_mm - _FLOOR_BELOW_MM]
     apart = np.hypot(*(low[:, None, :2] - centres[None]).transpose(2, 0, 1)).min(axis=1)
+    # beside a bar's own points and what flies about it
     low = low[apart > 1.5 * diameter_mm]
     if len(low) < _FLOOR_POINTS_MIN:
         return None
@@ -115,13 +116,17 @@ def _front(points: Array, eye: Array, radius_mm: float) -> tuple[Array, Array, f
     """Centre (2,) mm at the top, lean (2,) and top of a bar whose front is seen; None for anything else."""
     points = points[:: len(points) // _FITTED_MAX + 1]
     xy = points[:, :2]
+    # one point in a hundred may fly
     top_mm = float(np.quantile(points[:, 2], 0.99))
     away = np.median(xy, axis=0) - eye[:2]
     away /= np.linalg.norm(away)
     across = np.array([-away[1], away[0]])
+    # one in fifty at either side may fly
     side = np.quantile(xy @ across, [0.02, 0.98])
+    # 3 mm of ribs, noise and mixed pixels at either side
     if not _FRONT_SHARE * 2 * radius_mm < side[1] - side[0] < 2 * radius_mm + 6.0:
         return None
+    # where its front is nearest, but for the twentieth that may fly before it
     start = across * side.mean() + away * (float(np.quantile(xy @ away, 0.05)) + radius_mm)
     found = np.array([*start, 0.0, 0.0])
     up = (points[:, 2] - top_mm)[:, None]
@@ -137,4 +142,5 @@ def _front(points: Array, eye: Array, radius_mm: float) -> tuple[Array, Array, f
     fitting = np.abs(np.hypot(*(xy - found[:2] - found[2:] * up).T) - radius_mm) < _MISFIT_MM
     if fitting.mean() < _FITTING_SHARE:
         return None
+    # as above
     return found[:2], found[2:], float(np.quantile(points[fitting, 2], 0.99))

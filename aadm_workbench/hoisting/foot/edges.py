@@ -57,6 +57,7 @@ def _rays_of(
     length = np.hypot(view.slope[:, 0], view.slope[:, 1])
     direction = view.slope / length[:, None]
     climb = np.sqrt(np.maximum(1.0 - length**2, 1e-6)) / length
+    # a pixel more, and a fifth: the rays on both sides of the edge, wherever their grid lies
     used = np.abs(distance - radius_mm) < _EDGE_REACH_MM + 1.2 * pitch
     used &= sectors[sector_of(about)]
     along = np.einsum("ij,ij->i", about, direction)
@@ -94,17 +95,20 @@ def _sampling(view: MouthView, centre: Array, radius_mm: float, noise_mm: float)
         all_side, side_points = side * (ray @ direction) > 0, side * (point @ direction) > 0
         kept = []
         for low, high, label in (
+            # inside, clear of the edge; on the face, clear of chamfers and within what is viewed about a mouth
             (0.45 * radius_mm, 0.9 * radius_mm, behind),
-            (radius_mm + 1.5, radius_mm + 6.5, stopped),
+            (radius_mm + 1.5, radius_mm + 6.5, stopped),  # as above
         ):
             count = (all_side & (ray_distance > low) & (ray_distance < high)).sum()
             found = (side_points & label & (distance > low) & (distance < high)).sum()
             kept.append((found + 1.0) / (count + 2.0))
+        # twelve times: what differs by more is covered, and not sampled unlike
         ratios.append(float(np.clip(np.log(kept[0] / kept[1]), -2.5, 2.5)))
     return ratios[0], ratios[1]
 
 
 def typical_pitch_mm(rays: EdgeRays) -> float:
     """Distance between rays across the far rims of the mouths."""
+    # within 45 degrees of straight away
     away = np.einsum("ij,ij->i", rays.about, rays.direction) > 0.7 * np.hypot(rays.about[:, 0], rays.about[:, 1])
     return float(np.median(rays.pitch[away])) if away.any() else 2.0

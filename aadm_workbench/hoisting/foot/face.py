@@ -144,8 +144,9 @@ def _local_plane(points: Array, pixels: IntArray, left: BoolArray, rng: np.rando
 
 def _beside(pixels: IntArray, seed: IntArray, rng: np.random.Generator) -> IntArray:
     """For each seed another of the points (n,), within some rows and columns of it: points come row by row."""
+    # of the sample: some centimetres of a face that is seen flat, wider than high
     rows = np.searchsorted(pixels[:, 0], pixels[seed, 0] + rng.integers(-12, 13, len(seed)))
-    columns = pixels[seed, 1] + rng.integers(-40, 41, len(seed))
+    columns = pixels[seed, 1] + rng.integers(-40, 41, len(seed))  # as above
     begin = np.clip(rows, 0, len(pixels) - 1)
     key = pixels[:, 0] * 1_000_000 + pixels[:, 1]
     place = np.searchsorted(key, pixels[begin, 0] * 1_000_000 + columns)
@@ -162,7 +163,9 @@ def _with_mouths(
     middle = np.median(flat[:, :2], axis=0)
     origin = origin + middle @ axes[:2]
     low = np.quantile(pixels, 0.01, axis=0).astype(int) * stride
+    # one in a hundred at either end may belong to something else
     high = (np.quantile(pixels, 0.99, axis=0).astype(int) + 1) * stride
+    # a twentieth more: mouths at the rim of the foot
     margin = np.maximum((high - low) // 20, 2 * stride)
     low, high = np.maximum(low - margin, 0), np.minimum(high + margin, frame.shape)
     step = _steps(frame, axes, origin, low, high)
@@ -177,6 +180,7 @@ def _with_mouths(
     crossing = eye[:2].astype(np.float32) + (local[:, :2] - eye[:2].astype(np.float32)) * scale[:, None]
     # what a camera scatters grows with the distance squared
     noise_mm = plane.residual_mm * (region[:, 2] / np.float32(np.median(on_plane[:, 2]))) ** 2
+    # 4.5 standard deviations: fewer than one of 200,000 points of the face itself
     behind_mm = np.maximum(4.5 * noise_mm, max(_BEHIND_MM, _BEHIND_SHARE * diameter_mm))
     on_face = np.abs(height) < behind_mm
     through = (height > behind_mm) & (height < _DEEPEST * diameter_mm)
@@ -187,6 +191,7 @@ def _with_mouths(
     away = mouths - eye[:2]
     distance = np.linalg.norm(away, axis=1)[:, None]
     climb = np.abs(eye[2]) / distance
+    # never more than a mouth has
     missing = np.minimum(0.5 * float(np.median(behind_mm)) / climb, 0.4 * diameter_mm)
     mouths = mouths + missing * away / distance
     return FootFace(axes, origin, mouths, plane.residual_mm)
@@ -199,6 +204,7 @@ def _measured_plane(plane: Plane, region: FloatArray, axes: Array, origin: Array
     near = region[np.abs(region @ plane.normal.astype(np.float32) - np.float32(plane.offset)) < band_mm]
     if len(near) < _FEWEST:
         return plane, axes, origin
+    # refined_plane looks 2.5 times as far
     plane = refined_plane(near[:: len(near) // _MEASURED_ON + 1].astype(np.float64), plane, band_mm / 2.5)
     return plane, face_axes(plane), origin - plane.normal * (float(plane.normal @ origin) - plane.offset)
 
@@ -218,25 +224,33 @@ def _steps(frame: HoistingFrame, axes: Array, origin: Array, low: IntArray, high
 
 def _discs(through: FloatArray, face: FloatArray, radius_mm: float) -> Array:
     """Centres (k, 2) mm of discs that rays pass through, in a face that stops them around."""
+    # fewer make no disc
     if len(through) < 20 or len(face) < 20:
         return np.empty((0, 2))
+    # one in five hundred may fly, and must not widen the picture
     low = np.quantile(face[::10].astype(np.float64), 0.002, axis=0) - 3 * radius_mm
-    high = np.quantile(face[::10].astype(np.float64), 0.998, axis=0) + 3 * radius_mm
+    high = np.quantile(face[::10].astype(np.float64), 0.998, axis=0) + 3 * radius_mm  # as above
+    # cells: bounds the time of the filters
     cell_mm = max(_CELL_MM, radius_mm / _CELLS_OF_RADIUS, float(np.sqrt(np.prod(high - low) / 400_000)))
     columns, rows = np.ceil((high - low) / cell_mm).astype(int) + 1
     passed, stopped = (_counted(xy, low, cell_mm, rows, columns) for xy in (through, face))
+    # clear of the rim, which cells and chamfers blur; around, up to the next mouth at the nearest
     inside = _kernel(0.0, 0.85 * radius_mm, cell_mm)
-    around = _kernel(1.15 * radius_mm, 1.7 * radius_mm, cell_mm)
+    around = _kernel(1.15 * radius_mm, 1.7 * radius_mm, cell_mm)  # as above
     inner_passed, inner_stopped = (cv2.filter2D(image, -1, inside) for image in (passed, stopped))
     outer_stopped = cv2.filter2D(stopped, -1, around)
     open_share = inner_passed / np.maximum(inner_passed + inner_stopped, 1e-6)
     # as many rays pass through an opening as end on the face beside it; strays are far fewer
     enough = inner_passed / inside.sum() > _AS_DENSE * outer_stopped / around.sum()
+    # what is typical of where the face is seen at all
     enough &= outer_stopped > _AS_DENSE * float(np.quantile(outer_stopped[outer_stopped > 0], 0.8))
     score = np.where(enough & (open_share > _OPEN_SHARE), open_share, 0.0).astype(np.float32)
+    # a quarter of the radius, and a cell about: then one disc has one peak
     score = np.asarray(cv2.GaussianBlur(score, (0, 0), max(0.25 * radius_mm / cell_mm, 0.8)), np.float32)
+    # no two mouths are nearer than a radius
     reach = 2 * int(np.ceil(1.1 * radius_mm / cell_mm)) + 1
     highest = cv2.dilate(score, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach)))
+    # what the blur leaves of a disc a quarter of which is open
     found = np.column_stack(np.nonzero((score >= highest) & (score > 0.15)))
     found = found[np.argsort(-score[found[:, 0], found[:, 1]], kind="stable")[:_CANDIDATES_MAX]]
     kept = [place for place in found if _enclosed(passed, stopped, place, around)]

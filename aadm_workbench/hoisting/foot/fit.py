@@ -31,7 +31,8 @@ from aadm_workbench.hoisting.pattern_fit import (
 from aadm_workbench.model import Array, BoolArray, IntArray
 
 # about the radius, from a first pose that is right within some mm down to what ribs of 1 mm leave
-_BANDS_MM = (6.0, 4.0, 2.5, 1.5, 1.0, 1.0)
+_BANDS_MM = (6.0, 4.0, 2.5, 2.5, 1.5, 1.0, 1.0)
+_AFRESH_AT = 3  # of these: by then the pose is known, and each sleeve begins at its place, not where its search has led
 _LAST_ROUNDS, _LAST_TRACKED_ROUNDS = 3, 2  # with the push: what the frame before has found is nearer to begin with
 _TRACKED_BANDS_MM = (3.0, 1.0)  # about the radius, of a column that moved by some mm since the last frame
 _LOOSE_FROM_MM = 2.0  # in narrower bands bores are found: what then stands far from its place is not to pull the others
@@ -97,15 +98,17 @@ def fit_foot(
     state = started(pattern, pose, (radius_mm, 0.0)) if before is None else before.state
     views = [view_mouth(frame, face, centre, radius_mm) for centre in state.centres]
     believed = _believed(len(views), radius_mm, leans)
-    walls: list[IntArray] = []
+    walls, wall_mm = list[IntArray](), noise_mm
     bands_mm = _BANDS_MM if before is None else _TRACKED_BANDS_MM
-    for band_mm in bands_mm:
+    for number, band_mm in enumerate(bands_mm):
+        if before is None and number == _AFRESH_AT:
+            state = started(pattern, state.pose, state.pooled.tolist())
         walls = [far_wall(view, state, k, noise_mm, band_mm) for k, view in enumerate(views)]
         walls = few(walls) if band_mm > bands_mm[-1] else walls
-        state, _ = system_of(views, walls, state, pattern, believed)[0].stepped(state)
+        system, wall_mm = system_of(views, walls, state, pattern, believed)
+        state, _ = system.stepped(state)
         if band_mm < _LOOSE_FROM_MM:
             pattern = loosened(pattern, state)
-    _, wall_mm = system_of(views, walls, state, pattern, believed)
     sectors = [
         np.zeros(SECTORS, bool) if view is None else open_sectors(view, state.own[k, :2], radius_mm, noise_mm)
         for k, view in enumerate(views)
@@ -152,8 +155,9 @@ def _believed(features: int, radius_mm: float, leans: Array | None) -> Believed:
     own = np.zeros((features, OWN - 2))
     if leans is not None:
         own[:, :2] = leans
+    # no push until the rays tell it: held at none
     sigma = np.tile([_LEAN_SIGMA, _LEAN_SIGMA, 1e-4, _OWN_RADIUS_MM], (features, 1))
-    return Believed(np.array([radius_mm, 0.0]), np.array([_RADIUS_SIGMA_MM, 1e-4]), sigma, own)
+    return Believed(np.array([radius_mm, 0.0]), np.array([_RADIUS_SIGMA_MM, 1e-4]), sigma, own)  # as above
 
 
 def _of_face_height_mm(face: FootFace, centres: Array) -> float:

@@ -118,7 +118,9 @@ def open_sectors(view: MouthView, centre: Array, radius_mm: float, noise_mm: flo
     about = view.crossing - centre
     distance = np.hypot(about[:, 0], about[:, 1])
     outward = about / np.maximum(distance, 1e-9)[:, None]
+    # clear of chamfers, and of the pixel on the edge
     inner = radius_mm - np.maximum(1.5, 1.3 * view.radial_pitch(outward))
+    # the middle tells nothing of what covers the rim
     within = (distance < inner) & (distance > 0.3 * radius_mm)
     stopped = within & (view.points[:, 2] < NOISE_SIGMAS * noise_mm)
     passed = within & (view.points[:, 2] > NOISE_SIGMAS * noise_mm)

@@ -111,7 +111,7 @@ def find_push(rays: EdgeRays, radius_mm: float, sleeves: int, prior_mm: float, b
     if before is None:
         some = _chosen(rays, near[:: len(near) // _FINE_RAYS + 1])
         best = _fine(some, best, radius_mm, prior_mm)
-    rays = _chosen(rays, near)
+    rays = _in_single(_chosen(rays, near))
     fixed = _fixed(rays)
     push, chamfer = _mean(rays, fixed, best, radius_mm, prior_mm)
     return _own(rays, fixed, push, chamfer, radius_mm, sleeves, prior_mm)
@@ -167,6 +167,12 @@ def _chosen(rays: EdgeRays, index: IntArray) -> EdgeRays:
     return EdgeRays(**{field.name: getattr(rays, field.name)[index] for field in fields(rays)})
 
 
+def _in_single(rays: EdgeRays) -> EdgeRays:
+    """The rays in half as many digits: a tenth of a micrometre, and twice as fast."""
+    parts = {field.name: getattr(rays, field.name) for field in fields(rays) if field.name != "owner"}
+    return replace(rays, **{name: part.astype(np.float32) for name, part in parts.items()})
+
+
 @dataclass(frozen=True, eq=False)
 class _Fixed:
     """What does not depend on push and chamfer: likelihoods of ending on the face, and on the wall."""
@@ -187,6 +193,7 @@ def _fixed(rays: EdgeRays) -> _Fixed:
 
 
 def _density(off_mm: Array, sigma_mm: Array) -> Array:
+    # √(2π)
     normal = np.exp(-0.5 * (off_mm / sigma_mm) ** 2) / (2.5066 * sigma_mm)
     return np.asarray((1.0 - _STRAY_SHARE) * normal + _STRAY_SHARE / _STRAY_SPAN_MM)
 
@@ -196,6 +203,7 @@ def _likelihood(rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radi
     edge_mm = radius_mm + chamfer
     about = rays.about + push * rays.direction
     distance = np.hypot(about[:, 0], about[:, 1])
+    # beyond, it is 0 or 1 to 1e-17
     logit = np.clip((edge_mm - distance) / fixed.softness + rays.sampling, -40.0, 40.0)
     chance = 1.0 / (1.0 + np.exp(-logit))
     inside = fixed.on_wall
@@ -223,7 +231,7 @@ def _best(
 
 def _score(rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radius_mm: float, prior_mm: float) -> float:
     """Log likelihood of all rays, with what is known of the push beforehand."""
-    told = float(_likelihood(rays, fixed, push, chamfer, radius_mm).sum()) / _CORRELATION
+    told = float(_likelihood(rays, fixed, push, chamfer, radius_mm).sum(dtype=np.float64)) / _CORRELATION
     return told - 0.5 * (push / prior_mm) ** 2
 
 

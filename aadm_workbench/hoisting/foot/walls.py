@@ -19,6 +19,7 @@ _WALL_MAX = 200  # points of a bore: neighbours share their errors, more of them
 # neighbouring wall points share their errors: standard errors are this much larger; a choice: ±30 % moves centres by
 # up to 0.9 u and u by 6 %
 _WALL_CORRELATION = 1.6
+_LEAST_SPREAD_MM = 0.03  # no wall is smoother as a camera sees it: finer, single points would decide
 _SPREAD_BELIEF = 20  # points: a spread of so few is known to a sixth
 
 
@@ -60,7 +61,7 @@ def own_system(
         points = np.concatenate([view.points[wall] for _, view, wall in present if view is not None])
         slope = np.concatenate([view.slope[wall] for _, view, wall in present if view is not None])
         residual, own, pooled = wall_terms(points[:, :2], points[:, 2], slope, owner, state, WALL, PUSH)
-        sigma_mm = max(spread(residual), 0.03)
+        sigma_mm = max(spread(residual), _LEAST_SPREAD_MM)
         own_mm = own_spreads(residual, owner, np.array([0.0 if v is None else v.range_mm for v in views]), sigma_mm)
         share = np.minimum(1.0, _WALL_MAX / np.bincount(owner)[owner])
         weight = share * tukey(residual / own_mm) / (_WALL_CORRELATION * own_mm) ** 2
@@ -83,5 +84,5 @@ def own_spreads(residual: Array, owner: IntArray, ranges_mm: Array, pooled_mm: f
         expected = pooled_mm * ranges_mm[k] / typical_mm
         count = min(int(bounds[k + 1] - bounds[k]), _WALL_MAX)
         variance = (count * spread(residual[own]) ** 2 + _SPREAD_BELIEF * expected**2) / (count + _SPREAD_BELIEF)
-        found[own] = max(np.sqrt(variance), 0.03)
+        found[own] = max(np.sqrt(variance), _LEAST_SPREAD_MM)
     return found

@@ -107,6 +107,7 @@ def _face(frame: HoistingFrame, before: HungFit) -> FootFace | None:
     near = points[np.abs(plane.height(points)) < 2.0 * band_mm]
     if len(near) < _FACE_FEWEST:
         return None
+    # refined_plane looks 2.5 times as far
     plane = refined_plane(near[:: len(near) // _FACE_POINTS + 1], plane, band_mm / 2.5)
     turned = old.along(old.axes @ -plane.normal)
     origin = old.origin - plane.normal * (float(plane.normal @ old.origin) - plane.offset)

@@ -144,6 +144,10 @@ SENTENCES: dict[str, Sentence] = {
         "两帧仍不能以 u = {wanted_u_mm:g} mm 看到 {lacking}",
     ),
     "hoisting.recorded": Sentence("recorded, not live", "记录，并非实时"),
+    "hoisting.repair": Sentence(
+        "no move brings {label} in with the others: bend it by {dx_mm:+.1f}, {dy_mm:+.1f} mm (x, y of the bars)",
+        "移动柱子无法使 {label} 与其他钢筋同时对准：请将其扳动 {dx_mm:+.1f}、{dy_mm:+.1f} mm（钢筋坐标系的 x、y）",
+    ),
     "hoisting.resting": Sentence(
         "{labels:and} not seen: where it was measured before hoisting",
         "未见到 {labels:and}：取吊装前的测量位置",

@@ -699,6 +699,10 @@
    <translation>请选择存放测量结果的文件夹</translation>
   </message>
   <message>
+   <source>Corner</source>
+   <translation>角</translation>
+  </message>
+  <message>
    <source>Folder</source>
    <translation>文件夹</translation>
   </message>
@@ -727,6 +731,14 @@
    <translation>我站在相机旁</translation>
   </message>
   <message>
+   <source>Name the column that hangs.</source>
+   <translation>请填写吊着的柱的编号。</translation>
+  </message>
+  <message>
+   <source>Nothing is watched from here</source>
+   <translation>未从此处启动监测</translation>
+  </message>
+  <message>
    <source>RECORDED, not live</source>
    <translation>历史记录，非实时</translation>
   </message>
@@ -743,6 +755,30 @@
    <translation>根据测量文件夹，显示悬吊柱应向哪边推、转多少</translation>
   </message>
   <message>
+   <source>Start watching</source>
+   <translation>开始监测</translation>
+  </message>
+  <message>
+   <source>Starting…</source>
+   <translation>正在启动…</translation>
+  </message>
+  <message>
+   <source>Stop watching</source>
+   <translation>停止监测</translation>
+  </message>
+  <message>
+   <source>Stopping…</source>
+   <translation>正在停止…</translation>
+  </message>
+  <message>
+   <source>The corner of the bars that the camera stands at</source>
+   <translation>相机所在的钢筋角</translation>
+  </message>
+  <message>
+   <source>The watch has ended</source>
+   <translation>监测已结束</translation>
+  </message>
+  <message>
    <source>This file holds no hoisting frame</source>
    <translation>此文件中没有吊装测量</translation>
   </message>
@@ -751,12 +787,24 @@
    <translation>正在等待文件夹中的第一次测量</translation>
   </message>
   <message>
+   <source>Watching: {line}</source>
+   <translation>监测中：{line}</translation>
+  </message>
+  <message>
+   <source>as in the job</source>
+   <translation>按作业文件</translation>
+  </message>
+  <message>
    <source>hold here</source>
    <translation>保持不动</translation>
   </message>
   <message>
    <source>margin</source>
    <translation>余量</translation>
+  </message>
+  <message>
+   <source>none: the folder alone</source>
+   <translation>无：仅监测文件夹</translation>
   </message>
   <message>
    <source>not measured</source>

@@ -33,6 +33,23 @@ def test_true_poses_lie_in_the_regions_that_are_stated(count: int) -> None:
     assert 180 <= held <= 198
 
 
+def test_unlike_limits_leave_regions_of_their_own() -> None:
+    source, limits_mm = 110.0 * ROUND[8], np.array([3.0, 3.0, 3.0, 6.0, 3.0, 30.0, 3.0, 3.0])
+    rng, held = np.random.default_rng(3), 0
+    u_mm = np.where(limits_mm > 10.0, 0.5, 0.08)
+    covariance = np.diag(np.repeat(u_mm**2, 2))
+    for _ in range(150):
+        true = source + rng.normal(0.0, 0.35, source.shape)
+        seen = true + rng.normal(0.0, 1.0, source.shape) * u_mm[:, None]
+        pose, best = (fit_minimax(source, target, limits_mm) for target in (seen, true))
+        assert isinstance(pose, MinimaxPose)
+        assert isinstance(best, MinimaxPose)
+        spread = minimax_covariance(source, seen, covariance, pose, np.random.default_rng(0), limits_mm)
+        off = np.array([*(pose.shift - best.shift), pose.yaw - best.yaw])
+        held += int(off @ np.linalg.solve(spread, off) < WITHIN_95)
+    assert 134 <= held <= 149
+
+
 def test_points_known_exactly_leave_nothing_unsure() -> None:
     source = 100.0 * ROUND[8]
     target = source + np.random.default_rng(1).normal(0.0, 0.3, source.shape)
