@@ -51,6 +51,8 @@ _ROUGH_RADIUS_U_MM = 0.2
 _SOUND_SHARE = 0.3
 _AGREEING_SHARE = 0.75  # of a rim that is judged: sound ones at 2 m, a tenth of the pixels lost, have 0.8 to 1
 _RADIUS_MISFIT = 0.08  # relative: a hole this much larger or smaller than nominal is no sleeve
+# behind the face, deeper than its own grain and not as deep as a layer reaches; beside a mouth, its chamfer; nearly all
+_BEHIND_MM, _BESIDE_MM, _IN_BORES_SHARE = (3.0, 12.0), 1.5, 0.8
 
 
 def extract_sleeves(
@@ -91,8 +93,20 @@ def extract_sleeves(
         # Where plugs close many mouths, what lies behind the face is these, and no layer: then more are round.
         smooth = face_with_holes(scan, sample, diameter_mm / 2, rng, may_be_rough=False)
         as_smooth = seen if smooth is None else _in_face(scan, sample, smooth, diameter_mm, places, others_mm)
-        seen = max(seen, as_smooth, key=lambda one: len(one.points))
+        if len(as_smooth.points) > len(seen.points) and _lies_in_bores(sample, as_smooth, diameter_mm / 2):
+            return as_smooth
     return seen
+
+
+def _lies_in_bores(sample: Thinned, seen: Extraction, radius_mm: float) -> bool:
+    """Whether what lies behind a face is within its mouths, where plugs are: what keys take away is beside them."""
+    if seen.plane is None:
+        return False
+    local = in_plane(sample.points, seen.plane)
+    low = local[(local[:, 2] < -_BEHIND_MM[0]) & (local[:, 2] > -_BEHIND_MM[1]), :2]
+    mouths = in_plane(np.array([point.centre for point in seen.points]), seen.plane)[:, :2]
+    nearest = np.min([np.hypot(*(low - mouth).T) for mouth in mouths], axis=0)
+    return bool(np.mean(nearest < radius_mm + _BESIDE_MM) > _IN_BORES_SHARE)
 
 
 def _in_face(
