@@ -198,7 +198,7 @@ def test_watch_without_a_frame_has_no_state_to_say(
     folder: Path, tmp_path: Path, capsysbinary: pytest.CaptureFixture[bytes]
 ) -> None:
     options = ["--column", "L-1", "--present", "--seconds", "0.1", "--json"]
-    assert main(["watch", str(folder / "job.toml"), str(tmp_path), *options]) == 13
+    assert main(["watch", str(folder / "job.toml"), str(tmp_path), *options]) == 11
     said = capsysbinary.readouterr()
     assert said.out == b""
     assert b"Traceback" not in said.err
