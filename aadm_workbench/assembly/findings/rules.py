@@ -262,13 +262,13 @@ def profile_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
 def bend_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
     """A camera whose bend goes with it from view to view, and is more than the stated uncertainty leaves open."""
     for group in groups:
-        told = group.extraction.quality
-        if "camera_bend_stated_u_mm" in told:
+        quality = group.extraction.quality
+        if "camera_bend_stated_u_mm" in quality:
             yield make_finding(
                 "camera_bends",
                 [group.kind.plural],
                 group=group.kind.plural,
-                bend_mm=told["camera_bend_mm"],
-                u_mm=told["camera_bend_u_mm"],
-                stated_u_mm=told["camera_bend_stated_u_mm"],
+                bend_mm=quality["camera_bend_mm"],
+                u_mm=quality["camera_bend_u_mm"],
+                stated_u_mm=quality["camera_bend_stated_u_mm"],
             )
