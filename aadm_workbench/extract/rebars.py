@@ -24,13 +24,7 @@ from aadm_workbench.extract.edges.edge_shift import (
     no_bend,
     shift_of_tops,
 )
-from aadm_workbench.extract.edges.learned_edges import (
-    LEARNED_BAND_MM,
-    KnownEdges,
-    known_edges,
-    with_learned_discs,
-    without_losses,
-)
+from aadm_workbench.extract.edges.learned_edges import known_edges, tops_as_learned
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import filter_signs
 from aadm_workbench.extract.found_points import found_points, seen_lengths
@@ -79,7 +73,6 @@ _TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)  # before the vertical is known
 # of the size that was looked for: cores have 0.94 to 1.03 of it, outlines a few hundredths more or less; each look
 # finds more of what is larger than the last one took it for
 _OF_SIZE, _SIZES_TRIED = (0.9, 1.06), 3
-_NEAR_DISC_MM = 1.5  # between a disc and the fit: filters and ribs move one by less, a hidden top by more
 _TURNS = 3  # each is seen along what the last one's bars show: a choice, not tuned since
 
 
@@ -192,7 +185,7 @@ def _measured(
     fit = _shifted(fit, tops, lines, bend)
     known, lost_mm = known_edges(scan.learned, Kind.REBAR, patches.of(tops.kept).eye, axes_on(level)), 0.0
     if lines is not None and known is not None:
-        fit, lost_mm = _drawn_to_discs(fit, lines, known), known.most_lost_mm
+        fit, lost_mm = tops_as_learned(fit, lines, known, PARTS_VIEW_MM[-1.0]), known.most_lost_mm
     return _Bars(tops, fit, _points(tops, fit, priors.lean, level, lost_mm), signs.complete)
 
 
@@ -218,14 +211,6 @@ def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -
     shift = shift_of_tops(lines.slope, bend, eroded)
     covariance = _FIT_SHARE**2 * fit.covariance + shift.covariance
     return replace(fit, centre=fit.centre - shift.mean, covariance=covariance, radius_u_mm=shift.radius_u_mm)
-
-
-def _drawn_to_discs(fit: PooledFit, lines: SightLines, known: KnownEdges) -> PooledFit:
-    """The fit, its centres drawn to discs of lines of sight set right by what was learned of the camera."""
-    lines, on = without_losses(lines, fit.centre, -1.0, known), np.abs(lines.height) < LEARNED_BAND_MM
-    discs = seen_discs(lines, on, fit.centre, float(np.median(fit.outline_radius)), known.pitch_mm, -1.0)
-    near = np.hypot(*(discs.centre - fit.centre).T) < _NEAR_DISC_MM
-    return with_learned_discs(fit, discs, near, lines.slope, known, PARTS_VIEW_MM[-1.0])
 
 
 def _fit(tops: Tops, radius_mm: float, priors: Priors) -> PooledFit:

@@ -13,7 +13,6 @@ import numpy as np
 from aadm_workbench.extract.circle import AGREES_MM
 from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
 from aadm_workbench.extract.edges.edge_shift import (
-    PARTS_VIEW_MM,
     BentDiscs,
     Shift,
     bend_at_edges,
@@ -21,15 +20,8 @@ from aadm_workbench.extract.edges.edge_shift import (
     shift_of_mouths,
     shift_of_rims,
 )
-from aadm_workbench.extract.edges.learned_edges import (
-    DISC_U_PITCHES,
-    LEARNED_BAND_MM,
-    KnownEdges,
-    known_edges,
-    with_learned_discs,
-    without_losses,
-    without_view,
-)
+from aadm_workbench.extract.edges.learned_edges import known_edges
+from aadm_workbench.extract.edges.learned_mouths import mouths_as_learned
 from aadm_workbench.extract.edges.seen_disc import SeenDiscs, SightLines, seen_discs, sight_lines_on_face
 from aadm_workbench.extract.filter_signs import filter_signs
 from aadm_workbench.extract.foot_face import FACE_BAND_MM, FootFace, face_with_holes, level_with_rings
@@ -41,17 +33,7 @@ from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw, Rims, Wal
 from aadm_workbench.extract.pooled.fit import Evidence, PooledFit, fit_pooled, settled
 from aadm_workbench.extract.pooled.system import PUSH, WALL, Priors, State
 from aadm_workbench.extract.sample import Thinned, thinned
-from aadm_workbench.model import (
-    Array,
-    AssemblyPoint,
-    BoolArray,
-    CameraProfile,
-    Extraction,
-    Kind,
-    Plane,
-    Reason,
-    Scan,
-)
+from aadm_workbench.model import Array, AssemblyPoint, BoolArray, Extraction, Kind, Plane, Reason, Scan
 from aadm_workbench.model.scatter import TO_SIGMA
 
 _SAMPLE = 90_000  # every fifth row and column of 1920 × 1200
@@ -71,7 +53,6 @@ _SPALL_RING_MM, _SPALL_RING_PITCHES, _SPALL_DEPTH_MM = (1.2, 4.0), 1.5, (1.0, 6.
 # of noise, one in a thousand is beyond; of the ring's points, in which flying pixels and dirt are one in a hundred
 _SPALL_NOISES, _SPALL_SHARE = 3.0, 0.05
 _ERODED_RADIUS_MAX = 0.5  # rings: beyond, walls that light pushes know the radius better
-_BY_BORES = _ERODED_RADIUS_MAX  # rings at which the radius is that of the bores, whatever the rims show
 _BROKEN_U_MM = 0.3  # of a broken rim, seen by a camera that adds to its edges
 # 30 degrees of turn from the visible side each; of fewer rim points a share tells nothing
 _SIDES, _SIDE_COUNT_MIN = 6, 10
@@ -160,7 +141,7 @@ def _in_face(
         patches, ringed = level_with_rings(patches, diameter_mm / 2)
         layer = replace(layer, flat=not ringed)
     mouths = mouths_in(patches, centres, diameter_mm / 2, pitch_mm, tuple(other / 2 for other in others_mm), layer)
-    return _measured(mouths, patches, layer, diameter_mm, pitch_mm, scan.learned)
+    return _measured(mouths, patches, layer, diameter_mm, pitch_mm, scan)
 
 
 def _facing_away_from_walls(face: Plane, centres: Array, sample: Thinned, radius_mm: float) -> tuple[Plane, Array]:
@@ -183,7 +164,7 @@ def _measured(
     layer: FootFace,
     diameter_mm: float,
     pitch_mm: float,
-    profile: CameraProfile | None,
+    scan: Scan,
 ) -> Extraction:
     face = layer.plane
     if len(mouths.place) == 0:
@@ -192,10 +173,9 @@ def _measured(
     own = patches.of(mouths.kept)
     lines = sight_lines_on_face(own) if layer.flat else None  # on what is no plane nobody knows where they end
     fit = _fit(mouths, lines, diameter_mm, pitch_mm)
-    known, learned = known_edges(profile, Kind.SLEEVE, own.eye, axes_on(face)), dict[str, float]()
+    known, learned = known_edges(scan.learned, Kind.SLEEVE, own.eye, axes_on(face)), dict[str, float]()
     if fit is not None and lines is not None and known is not None:
-        fit, off_pitches = _fit_as_learned(fit, mouths, lines, diameter_mm / 2, known)
-        learned = {"learned_edges_off_pixels": off_pitches}
+        fit, learned = mouths_as_learned(fit, mouths, lines, diameter_mm / 2, known, _fit_of_bent)
     if fit is not None and not layer.flat:
         fit = replace(fit, covariance=fit.covariance + _ROUGH_U_MM**2 * np.eye(2))
     if fit is not None and layer.rough:
@@ -291,27 +271,6 @@ def _fit_of_bent(mouths: Mouths, discs: BentDiscs, whole: BoolArray, diameter_mm
     if discs.eroded < _ERODED_RADIUS_MAX:  # what all share from the rims, what is each one's own from its bore
         radius = np.where(whole, discs.radius + radius - np.mean(radius[whole]), radius)
     return replace(fit, covariance=fit.covariance + shared, radius=radius, radius_u_mm=discs.radius_u_mm)
-
-
-def _fit_as_learned(
-    fit: PooledFit, mouths: Mouths, lines: SightLines, radius_mm: float, known: KnownEdges
-) -> tuple[PooledFit, float]:
-    """The fit, its centres drawn to discs of lines of sight set right by what was learned, and to the bores.
-
-    What chamfers do along the view moves discs, and hardly the fit of rims and bores: that part is the fit's. And how
-    many pixels those discs are larger than the bores: edges of the camera that was learned are where bores begin.
-    """
-    lines, on = without_losses(lines, fit.centre, 1.0, known), np.abs(lines.height) < LEARNED_BAND_MM
-    seen = seen_discs(lines, on, fit.centre, radius_mm, known.pitch_mm, 1.0)
-    whole = np.hypot(*(seen.centre - fit.centre).T) < _WHOLE_WITHIN_MM
-    if not whole.any():
-        return fit, 0.0
-    own = seen.covariance + (DISC_U_PITCHES * known.pitch_mm) ** 2 * np.eye(2)
-    discs = BentDiscs(seen.centre[whole], own[whole], np.zeros((int(whole.sum()), 2, 2)), seen.radius, 0.0, _BY_BORES)
-    joint = _fit_of_bent(mouths, discs, whole, 2.0 * radius_mm, known.pitch_mm)
-    joint = replace(joint, centre=without_view(joint.centre, fit.centre, lines.slope))
-    off_pitches = (seen.radius - float(np.median(joint.radius))) / known.pitch_mm
-    return with_learned_discs(fit, joint, whole, lines.slope, known, PARTS_VIEW_MM[1.0]), off_pitches
 
 
 def _fit_of_sharp(mouths: Mouths, diameter_mm: float, pitch_mm: float) -> PooledFit:
