@@ -1,4 +1,4 @@
-"""What contradicts design, declaration or camera: found where it is, and never where all is sound; points are by complex numbers."""
+"""What contradicts design, declaration or camera: found where it is, never where all is sound; places are complex."""
 
 from __future__ import annotations
 
