@@ -7,7 +7,8 @@ What a scan cannot support (a plugged sleeve, a bar out of view) is no error: it
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from typing import NamedTuple, Self
 
 PRIVATE_ENVIRONMENT = "AADM_PRIVATE_ENVIRONMENT"
@@ -85,6 +86,21 @@ class MissingDependencyError(AadmError):
         super().__init__(Reason(code, needed_for=needed_for, package=package, install=install))
         self.package = package
         self.install = install
+
+
+@contextmanager
+def needed(package: str, needed_for: str, install: str = "") -> Iterator[None]:
+    """Around the import of a package that need not be there.
+
+    Raises
+    ------
+    MissingDependencyError
+        Where it is not; parameters are the same.
+    """
+    try:
+        yield
+    except ImportError as error:
+        raise MissingDependencyError(package, needed_for, install) from error
 
 
 class Package(NamedTuple):

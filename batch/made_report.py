@@ -71,18 +71,9 @@ def written(report: JobReport, basis: str, path: Path) -> MadeReport:
     AadmError
         Where it cannot be written.
     """
-    from aadm_workbench.atomic import write_atomically
-    from aadm_workbench.report.json import encoded_parts
+    from aadm_workbench.report.json import write_report
 
-    found = hashlib.sha256()
-
-    def hashed() -> Iterator[bytes]:
-        for part in encoded_parts(report):
-            found.update(part)
-            yield part
-
-    write_atomically(path, hashed())
-    return MadeReport(basis, found.hexdigest(), report.summary())
+    return MadeReport(basis, write_report(report, path), report.summary())
 
 
 def _hash(pieces: Iterator[bytes]) -> str:

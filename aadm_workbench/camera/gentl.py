@@ -14,7 +14,7 @@ from aadm_workbench.camera.coordinates import Part
 from aadm_workbench.camera.features import Features
 from aadm_workbench.camera.frame import Closing, Device, Frame
 from aadm_workbench.camera.genicam_frame import FRAME_WITHIN_S, first_line, frame_of, prepare
-from aadm_workbench.errors import CameraError, CameraGoneError, CaptureError, MissingDependencyError
+from aadm_workbench.errors import CameraError, CameraGoneError, CaptureError, needed
 from aadm_workbench.model.reason import said_of
 
 SCHEME = "gentl"
@@ -136,11 +136,9 @@ def _split(address: str) -> tuple[Path, str]:
 
 def _harvester(file: Path) -> Any:
     _check_producer(file)
-    try:
+    with needed("harvesters", f"{SCHEME}:{file}"):
         from genicam.gentl import GenericException
         from harvesters.core import Harvester
-    except ImportError as error:
-        raise MissingDependencyError("harvesters", f"{SCHEME}:{file}") from error
     harvester = Harvester()
     try:
         harvester.add_file(str(file.resolve()))

@@ -20,7 +20,7 @@ from aadm_workbench.camera.features import Features
 from aadm_workbench.camera.frame import Closing, Device, Frame
 from aadm_workbench.camera.genicam_frame import FRAME_WITHIN_S, first_line, frame_of, prepare
 from aadm_workbench.camera.network import asked_for, ip_of
-from aadm_workbench.errors import CameraGoneError, CaptureError, MissingDependencyError
+from aadm_workbench.errors import CameraGoneError, CaptureError, needed
 from aadm_workbench.model.reason import said_of
 
 SCHEME = "gige"
@@ -145,10 +145,8 @@ class GigeCamera(Closing):
 
 def _connected(address: str, transport: Connection) -> tuple[Any, Any]:
     """The features of a camera, and the port through which they are read, which must live as long."""
-    try:
+    with needed("genicam", address):
         from genicam.genapi import AbstractPort, EAccessMode, GenericException, NodeMap
-    except ImportError as error:
-        raise MissingDependencyError("genicam", address) from error
 
     class Port(AbstractPort):  # type: ignore[misc]
         def is_open(self) -> bool:

@@ -19,7 +19,7 @@ from aadm_workbench.design.recognise.columns import Origin, Rules, recognise
 from aadm_workbench.design.recognise.facets import facet_solid, sharp_edges
 from aadm_workbench.design.recognise.round_faces import tubes_of
 from aadm_workbench.design.recognise.tubes import Tube
-from aadm_workbench.errors import DesignError, MissingDependencyError
+from aadm_workbench.errors import DesignError, needed
 from aadm_workbench.model import Array, ColumnDesign, IntArray, Reason
 
 _UP = np.array([0.0, 0.0, 1.0])
@@ -84,10 +84,8 @@ def mesh_bodies(path: Path, units: str) -> list[Body]:
     """
     if units not in MM_PER_UNIT:
         raise DesignError(Reason("design.units", units=repr(units), known=MM_PER_UNIT))
-    try:
+    with needed("trimesh", "reading meshes"):
         import trimesh
-    except ImportError as error:
-        raise MissingDependencyError("trimesh", "reading meshes") from error
     try:
         with path.open("rb") as stream:
             scene: Any = trimesh.load_scene(stream, file_type=path.suffix[1:].lower(), **_options(path))

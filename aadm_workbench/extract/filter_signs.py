@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aadm_workbench.extract.edges.edge_shift import BLURRED
+from aadm_workbench.extract.edges.bend import BLURRED
 from aadm_workbench.extract.patches import Patches
 from aadm_workbench.model import Array, BoolArray, FloatArray, Reason
 from aadm_workbench.model.scatter import TO_SIGMA

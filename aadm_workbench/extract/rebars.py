@@ -10,21 +10,20 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import expit
 
 from aadm_workbench.extract.bars_in_scan import Standing, find_standing, standing_along
 from aadm_workbench.extract.burrs import burr_u_mm
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
-from aadm_workbench.extract.edges.edge_shift import (
-    PARTS_VIEW_MM,
-    Bend,
-    bend_at_edges,
-    eroded_rings,
-    no_bend,
-    shift_of_tops,
+from aadm_workbench.extract.edges.bend import Bend, bend_at_edges, no_bend
+from aadm_workbench.extract.edges.edge_shift import PARTS_VIEW_MM, eroded_rings, shift_of_tops
+from aadm_workbench.extract.edges.learned_edges import (
+    LEARNED_BAND_MM,
+    KnownEdges,
+    known_edges,
+    with_learned_discs,
+    without_losses,
 )
-from aadm_workbench.extract.edges.learned_edges import known_edges, tops_as_learned
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import filter_signs
 from aadm_workbench.extract.found_points import found_points, seen_lengths
@@ -32,6 +31,7 @@ from aadm_workbench.extract.patches import Patches, patches_around, with_places
 from aadm_workbench.extract.plane import axes_on, in_plane
 from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw, Rims, Walls
 from aadm_workbench.extract.pooled.fit import CircleEvidence, Evidence, PooledFit, fit_pooled, likeliest_circles
+from aadm_workbench.extract.pooled.leans import BAR_PRIORS, believed_leans
 from aadm_workbench.extract.pooled.system import Priors, State
 from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.extract.top_planes import TopPlanes, top_planes
@@ -58,21 +58,12 @@ _SOFTNESS, _RIM_TAIL_PITCHES = 0.08, 1.2
 _SIDE_LAW = BracketLaw(0.08, 0.8)  # most of a side's points lie on ribs
 # outline points so far out, or in, are no part of a sound disc (a choice: ±30 % moves u of single tops by up to 46 %)
 _INSIDE_MM, _FAR_MM = 0.3, 1.0
-# leans of bars that were bent, too; cores of a group are alike; a side is not pushed; an edge and a side are one
-# radius
-_BAR_PRIORS = Priors(
-    lean=0.03, own_radius=0.02, own_push=1e-3, push=1e-3, radius=0.06, wall_to_edge=0.02, rim_to_beyond=0.03
-)
-_BAR_LEAN_U = 7e-3  # ribs, which stand out on one side here and on the other there: half of one over 60 mm of side
-USUAL_LEAN = 5e-3
-"""0.3 degrees, as bars and sleeves are cast in; this product's own figure."""
 
-_COMMON_COUNT = 4  # fewer bars have no middle that one of them does not move
-_BENT_SHARE = 0.1  # of bars that lean by more than that: bent by hand, or hit
-_TURNING_PRIORS = replace(_BAR_PRIORS, lean=0.1)  # before the vertical is known bars lean by degrees
+_TURNING_PRIORS = replace(BAR_PRIORS, lean=0.1)  # before the vertical is known bars lean by degrees
 # of the size that was looked for: cores have 0.94 to 1.03 of it, outlines a few hundredths more or less; each look
 # finds more of what is larger than the last one took it for
 _OF_SIZE, _SIZES_TRIED = (0.9, 1.06), 3
+_NEAR_DISC_MM = 1.5  # between a disc and the fit: filters and ribs move one by less, a hidden top by more
 _TURNS = 3  # each is seen along what the last one's bars show: a choice, not tuned since
 
 
@@ -116,12 +107,12 @@ def extract_rebars(
         standing = _turned_to_the_bars(scan, sample, standing, sizes_mm, rng)
     if standing is None:
         return _nothing(Reason("extract.no_upright_bar", diameter_mm=diameter_mm))
-    bars = _measured(scan, sample, standing, places, sizes_mm, _BAR_PRIORS, rng)
+    bars = _measured(scan, sample, standing, places, sizes_mm, BAR_PRIORS, rng)
     for _ in range(_SIZES_TRIED):
         if isinstance(bars, str) or _is_of_size(bars, sizes_mm[0]):
             break
         sizes_mm = (2.0 * float(np.median(bars.fit.outline_radius)), *others_mm)
-        bars = _measured(scan, sample, standing, places, sizes_mm, _BAR_PRIORS, rng)
+        bars = _measured(scan, sample, standing, places, sizes_mm, BAR_PRIORS, rng)
     if isinstance(bars, str):
         return _nothing(bars)
     return _extraction(bars, standing, diameter_mm)
@@ -185,7 +176,7 @@ def _measured(
     fit = _shifted(fit, tops, lines, bend)
     known, lost_mm = known_edges(scan.learned, Kind.REBAR, patches.of(tops.kept).eye, axes_on(level)), 0.0
     if lines is not None and known is not None:
-        fit, lost_mm = tops_as_learned(fit, lines, known, PARTS_VIEW_MM[-1.0]), known.most_lost_mm
+        fit, lost_mm = _drawn_to_discs(fit, lines, known), known.most_lost_mm
     return _Bars(tops, fit, _points(tops, fit, priors.lean, level, lost_mm), signs.complete)
 
 
@@ -211,6 +202,14 @@ def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -
     shift = shift_of_tops(lines.slope, bend, eroded)
     covariance = _FIT_SHARE**2 * fit.covariance + shift.covariance
     return replace(fit, centre=fit.centre - shift.mean, covariance=covariance, radius_u_mm=shift.radius_u_mm)
+
+
+def _drawn_to_discs(fit: PooledFit, lines: SightLines, known: KnownEdges) -> PooledFit:
+    """The fit, its centres drawn to discs of lines of sight set right by what was learned of the camera."""
+    lines, on = without_losses(lines, fit.centre, -1.0, known), np.abs(lines.height) < LEARNED_BAND_MM
+    discs = seen_discs(lines, on, fit.centre, float(np.median(fit.outline_radius)), known.pitch_mm, -1.0)
+    near = np.hypot(*(discs.centre - fit.centre).T) < _NEAR_DISC_MM
+    return with_learned_discs(fit, discs, near, lines.slope, known, PARTS_VIEW_MM[-1.0])
 
 
 def _fit(tops: Tops, radius_mm: float, priors: Priors) -> PooledFit:
@@ -260,51 +259,11 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
     )
 
 
-def _believed_leans(fit: PooledFit, prior: float) -> tuple[Array, Array]:
-    """Leans (k, 2) and covariances (k, 2, 2): what sides show, and that bars of one group stand alike.
-
-    Most bars lean about their median by what is usual, some were bent and lean anyhow. Each is both, by the odds of the
-    two: one that leans like the others, as far as its side tells, is drawn to them; one that does not is left as seen;
-    between the two it is not known which, and that counts. A side that does not show tells nothing: the odds stay.
-    """
-    told, weight = _told_by_sides(fit, prior)
-    common = np.median(fit.lean, axis=0) if len(fit.lean) >= _COMMON_COUNT else np.zeros(2)
-    off = weight - told @ common
-    usual, usual_off, usual_odds = _posterior(told, off, USUAL_LEAN)
-    bent, bent_off, bent_odds = _posterior(told, off, _BAR_PRIORS.lean)
-    odds = np.log(_BENT_SHARE / (1.0 - _BENT_SHARE)) + bent_odds - usual_odds
-    share = expit(odds)[:, None]
-    apart = bent_off - usual_off
-    unsure = (share * (1.0 - share))[..., None] * apart[:, :, None] * apart[:, None, :]
-    usual = usual + np.eye(2) * (USUAL_LEAN**2 / max(len(fit.lean), 1))
-    lean = common + usual_off + share * apart
-    return lean, share[..., None] * bent + (1.0 - share[..., None]) * usual + unsure
-
-
-def _told_by_sides(fit: PooledFit, prior: float) -> tuple[Array, Array]:
-    """Information (k, 2, 2) of what sides show of leans, and that times the leans (k, 2): without the fit's prior."""
-    of_prior = np.eye(2) / prior**2
-    told = np.linalg.inv(fit.lean_covariance) - of_prior
-    values, axes = np.linalg.eigh(told)
-    told = (axes * np.maximum(values, 0.0)[:, None, :]) @ axes.transpose(0, 2, 1)
-    ribs = np.linalg.inv(np.eye(2) + _BAR_LEAN_U**2 * told)
-    weight = np.einsum("kij,kj->ki", told + of_prior, fit.lean)
-    return ribs @ told, np.einsum("kij,kj->ki", ribs, weight)
-
-
-def _posterior(told: Array, off: Array, lean: float) -> tuple[Array, Array, Array]:
-    """Covariance (k, 2, 2) and mean (k, 2) of leans with a prior about zero, and its log evidence (k,)."""
-    covariance = np.asarray(np.linalg.inv(told + np.eye(2) / lean**2), float)
-    mean = np.einsum("kij,kj->ki", covariance, off)
-    evidence = 0.5 * (np.einsum("ki,ki->k", off, mean) + np.linalg.slogdet(covariance / lean**2)[1])
-    return covariance, mean, evidence
-
-
 def _points(tops: Tops, fit: PooledFit, lean_prior: float, level: Plane, lost_mm: float) -> tuple[AssemblyPoint, ...]:
     over = np.einsum("ki,ki->k", tops.normal[:, :2], fit.centre)
     height = (tops.offset - over) / tops.normal[:, 2]
     shape = _shape_u_mm(tops, fit, lost_mm)[:, None, None] ** 2 * np.eye(2)
-    lean, lean_covariance = _believed_leans(fit, lean_prior)
+    lean, lean_covariance = believed_leans(fit, lean_prior)
     return found_points(
         Kind.REBAR,
         level,

@@ -59,7 +59,7 @@ def inspect_column(task: ColumnTask) -> ColumnOutcome:
 @contextmanager
 def attempt(task: ColumnTask) -> Iterator[tuple[ColumnOutcome, Stopwatch]]:
     """Do some work on a column; whatever goes wrong becomes the outcome, a report with the verdict ``error``."""
-    outcome, watch = lost(task, Reason("run.not_checked")), Stopwatch()
+    outcome, watch = lost(task, ""), Stopwatch()  # until there is a report, or what went wrong
     try:
         with watch.stage("total"):
             yield outcome, watch

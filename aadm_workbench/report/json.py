@@ -6,6 +6,7 @@ finite is written as null. ``resources/report.schema.json`` describes the file; 
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import re
@@ -59,23 +60,31 @@ def report_schema() -> Json:
     return schema
 
 
-def write_report(report: JobReport, path: Path) -> None:
-    """Write report.json, whole or not at all.
+def write_report(report: JobReport, path: Path) -> str:
+    """Write report.json, whole or not at all; returns the SHA-256 of its bytes.
 
     Raises
     ------
     AadmError
         Where the file cannot be written.
     """
-    write_atomically(path, encoded_parts(report))
+    found = hashlib.sha256()
+
+    def hashed() -> Iterator[bytes]:
+        for part in _encoded_parts(report):
+            found.update(part)
+            yield part
+
+    write_atomically(path, hashed())
+    return found.hexdigest()
 
 
 def encoded_report(report: JobReport) -> bytes:
     """The bytes of report.json."""
-    return b"".join(encoded_parts(report))
+    return b"".join(_encoded_parts(report))
 
 
-def encoded_parts(report: JobReport) -> Iterator[bytes]:
+def _encoded_parts(report: JobReport) -> Iterator[bytes]:
     """The bytes of report.json, column by column: a shipment's document need not fit into memory."""
     mark = ' "columns": [],\n'
     before, _, after = _text(_head(report)).partition(mark)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.errors import needed
 from aadm_workbench.model import Reason
 from aadm_workbench.scan.depth_picture import DepthPicture
 from aadm_workbench.scan.file import ScanFile
@@ -35,10 +35,8 @@ _TIFF_UNPACKED, _TIFF_DEFLATE, _TIFF_NO_PREDICTOR, _TIFF_HORIZONTAL = (
 
 
 def _opencv() -> Any:
-    try:
+    with needed("opencv-python-headless", "a depth map or a picture"):
         import cv2
-    except ImportError as error:
-        raise MissingDependencyError("opencv-python-headless", "a depth map or a picture") from error
     return cv2
 
 

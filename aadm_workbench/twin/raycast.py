@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.errors import needed
 from aadm_workbench.model import BoolArray, Camera
 from aadm_workbench.twin.surface import Surface
 
@@ -72,10 +72,8 @@ def caster_of(surface: Surface) -> Caster:
     MissingDependencyError
         Where Open3D is not installed.
     """
-    try:
+    with needed("open3d", "The virtual camera"):
         import open3d
-    except ImportError as error:
-        raise MissingDependencyError("open3d", "The virtual camera") from error
     scene = open3d.t.geometry.RaycastingScene()
     scene.add_triangles(
         open3d.core.Tensor(surface.vertices.astype(np.float32)),

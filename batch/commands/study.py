@@ -105,7 +105,7 @@ def _prepare(options: argparse.Namespace) -> None:
         raise AadmError.because("command.seed_below_zero", seed=options.seed)
     for package in (*_PACKAGES, *(() if options.out is None else ("matplotlib",))):
         if find_spec(package) is None:
-            needed_for = "A plot" if package == "matplotlib" else "The virtual camera"
+            needed_for = "Plots of a study" if package == "matplotlib" else "The virtual camera"
             raise MissingDependencyError(package, needed_for, install_of("twin"))
     if options.out is not None:
         try:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import logging
 from typing import TYPE_CHECKING, Any
 
-from aadm_workbench.errors import AadmError, MissingDependencyError
+from aadm_workbench.errors import AadmError, needed
 
 from .snapshot import Quality, Snapshot
 
@@ -43,11 +43,9 @@ class ModbusLink:
 
     async def start(self) -> None:
         """Listen; other function codes, other registers and every write are answered by an exception."""
-        try:
+        with needed("pymodbus", "aadm link --modbus"):
             from pymodbus.server import ModbusTcpServer
             from pymodbus.simulator import DataType, SimData, SimDevice
-        except ImportError as error:
-            raise MissingDependencyError("pymodbus", "aadm link --modbus") from error
         logging.getLogger("pymodbus").setLevel(logging.CRITICAL)
         block = SimData(0, count=REGISTERS, values=0, datatype=DataType.REGISTERS, readonly=True)
         device = SimDevice(0, simdata=[block], action=self._answer)

@@ -10,7 +10,7 @@ import ssl
 from pathlib import Path
 from typing import Any
 
-from aadm_workbench.errors import AadmError, MissingDependencyError
+from aadm_workbench.errors import AadmError, needed
 from aadm_workbench.report.json import encode
 
 from .snapshot import Snapshot
@@ -37,10 +37,8 @@ class MqttLink:
 
     async def start(self) -> None:
         """Look whether the broker answers; what is published there depends on the column."""
-        try:
+        with needed("paho-mqtt", "aadm link --mqtt"):
             import paho.mqtt.client  # noqa: F401 - whether it is there
-        except ImportError as error:
-            raise MissingDependencyError("paho-mqtt", "aadm link --mqtt") from error
         await asyncio.to_thread(self._connect, "")
 
     async def show(self, snapshot: Snapshot, heartbeat: int) -> None:

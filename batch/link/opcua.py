@@ -11,7 +11,7 @@ import logging
 from datetime import UTC, datetime
 from typing import Any
 
-from aadm_workbench.errors import AadmError, MissingDependencyError
+from aadm_workbench.errors import AadmError, needed
 
 from .certificates import APPLICATION, Certificates
 from .snapshot import Quality, Snapshot
@@ -44,10 +44,8 @@ class OpcUaLink:
 
     async def start(self) -> None:
         """Build the address space, and listen."""
-        try:
+        with needed("asyncua", "aadm link --opcua"):
             from asyncua import Server
-        except ImportError as error:
-            raise MissingDependencyError("asyncua", "aadm link --opcua") from error
         logging.getLogger("asyncua").setLevel(logging.CRITICAL)
         server = self._server = Server(user_manager=self._certificates)
         await server.init()

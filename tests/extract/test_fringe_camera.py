@@ -83,18 +83,40 @@ def test_a_picture_out_of_focus_is_refused_by_name(kind: Kind) -> None:
     assert "out of focus" in extraction.reason
 
 
-@pytest.mark.parametrize("kind", Kind)
-def test_what_a_filter_took_away_is_not_hidden(kind: Kind) -> None:
-    """One ring of pixels lost at every step: less right, and known to be."""
-    scan, diameter_mm, true, normal = scene("b-field1", kind)
+LOST_BOUNDS = {  # mean in-plane error, mm: 1.4 times what was measured, and more for those named "b-"
+    ("a-field1", Kind.SLEEVE, 1): 0.10,
+    ("a-field1", Kind.SLEEVE, 2): 0.24,
+    ("a-field1", Kind.REBAR, 1): 0.18,
+    ("b-field1", Kind.SLEEVE, 1): 0.15,
+    ("b-field1", Kind.SLEEVE, 2): 0.28,
+    ("b-field1", Kind.REBAR, 1): 0.18,
+}
+
+
+@pytest.mark.parametrize(("name", "kind", "rings"), LOST_BOUNDS)
+def test_what_a_filter_took_away_is_not_hidden(name: str, kind: Kind, rings: int) -> None:
+    """Rings of pixels lost at every step: less right, and known to be."""
+    scan, diameter_mm, true, normal = scene(name, kind)
     assert scan.camera is not None
-    depth = filtered(scan.points[..., 2], filters_of(["rings=1"]))
+    depth = filtered(scan.points[..., 2], filters_of([f"rings={rings}"]))
     points = scan.points.copy()
     points[~np.isfinite(depth)] = np.nan
     eroded = found(Scan(points, camera=scan.camera, viewpoint=np.zeros(3)), kind, diameter_mm)
     assert len(eroded.points) == len(true)
     distance, inside = misses(eroded, true, normal)
-    assert distance.mean() < 0.25
+    assert distance.mean() < LOST_BOUNDS[name, kind, rings]
+    assert inside.sum() >= 9
+
+
+def test_sleeves_of_a_cloud_that_nobody_knows_the_camera_of_are_no_surer_than_they_are() -> None:
+    """Turned into another frame: no lines of sight tell what was lost, but the face still bends at its edges."""
+    scan, diameter_mm, true, normal = scene("a-field1", Kind.SLEEVE)
+    points = scan.points[np.isfinite(scan.points[..., 2])].astype(np.float64)
+    rotation = np.linalg.qr(np.random.default_rng(8).standard_normal((3, 3)))[0]
+    rotation *= np.sign(np.linalg.det(rotation))
+    turned = found(Scan(points @ rotation.T + 2000.0), Kind.SLEEVE, diameter_mm)
+    assert len(turned.points) == len(true)
+    _, inside = misses(turned, true @ rotation.T + 2000.0, rotation @ normal)
     assert inside.sum() >= 9
 
 

@@ -60,6 +60,7 @@ def test_a_good_state_is_ready_and_names_what_rests_on_older_scans() -> None:
     assert fit.reason.startswith("R5, R6 not seen")
 
 
+BENT = [{"label": "R2", "dx_mm": -6.0, "dy_mm": 4.5}]
 AGAINST: list[tuple[dict[str, Any], str, bool]] = [
     ({"captured": None}, "when the frame was captured is not known", False),
     ({"captured": "2026-11-30T11:59:40Z"}, "captured 23 s ago", False),
@@ -70,6 +71,11 @@ AGAINST: list[tuple[dict[str, Any], str, bool]] = [
     ({"frame__orientation": "ambiguous"}, "it is open which sleeve is which", False),
     ({"frame__orientation": ""}, "it is open which sleeve is which", False),
     ({"frame__findings": [{"holds_back": True, "text": "they contradict each other"}]}, "they contradict", False),
+    (
+        {"still": False, "frame__correction": {**GOOD["frame"]["correction"], "repairs": BENT}},
+        "no move brings R2 in",
+        True,
+    ),
     ({"still": False, "swing": None}, "seen in fewer than three frames", True),
     ({"still": False, "swing": None, "moving": True, "move": None}, "moving: wait", False),
     ({"still": False, "swing": {"amplitude_mm": 9.0}}, "swings by 9.0 mm, 1.0 mm off at rest", True),

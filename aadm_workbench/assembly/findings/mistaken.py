@@ -21,7 +21,7 @@ from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
 from aadm_workbench.extract.copied_pixels import COPIED
-from aadm_workbench.extract.edges.edge_shift import BLURRED
+from aadm_workbench.extract.edges.bend import BLURRED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Finding, Kind, codes_of
 

@@ -26,8 +26,8 @@ from aadm_workbench.assembly.matching.match import FAR_FROM_DECLARED
 from aadm_workbench.assembly.pose.eopa import wrap
 from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
+from aadm_workbench.extract.pooled.leans import USUAL_LEAN
 from aadm_workbench.extract.pooled.system import Priors
-from aadm_workbench.extract.rebars import USUAL_LEAN
 from aadm_workbench.extract.sleeves import BORE_LEAN_U
 from aadm_workbench.model import Array, ColumnDesign, Finding, Kind, codes_of
 from aadm_workbench.model.scatter import OF_MEDIAN, TO_SIGMA

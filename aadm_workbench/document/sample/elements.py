@@ -12,6 +12,7 @@ from aadm_workbench.design.elements import Element, Solid, even_scale
 from aadm_workbench.document.places import transform_of
 from aadm_workbench.document.sample.objects import CLASS_PROPERTIES, Piece, is_spatial, originals, pieces, proxy_type
 from aadm_workbench.document.sample.solids import solids_of, solids_of_mesh
+from aadm_workbench.model import Reason
 
 _PIECE_MARK = re.compile(r"^(piece ?mark|cast ?unit ?mark|构件编号|構件編號)$", re.IGNORECASE)
 _KINDS = {"Rebar": "IfcReinforcingBar", "Floor": "IfcBuildingStorey"}
@@ -34,7 +35,7 @@ def elements_of(found: Iterable[Piece], problems: list[str]) -> list[Element]:
             bodies[key] = _bodies(piece.obj, problems)
             undrawn += not bodies[key] and _text(piece.obj, "ShapeMode") == "Coin"
         if not even_scale(piece.T_model_shape):
-            problems.append(f"{piece.shown.Label} was left out: it is scaled by different factors along its axes")
+            problems.append(Reason("document.left_out.scaled", label=piece.shown.Label))
             continue
         elements += _elements(piece, [solid.moved(piece.T_model_shape) for solid in bodies[key]])
     if undrawn:
@@ -60,7 +61,7 @@ def _bodies(obj: Any, problems: list[str]) -> list[Solid]:
             return solids_of_mesh(obj.Mesh)
         return solids_of(obj.Shape)
     except (RuntimeError, ValueError, ArithmeticError, AttributeError) as error:  # what the kernel raises of bad shapes
-        problems.append(f"{obj.Label} was left out: its shape cannot be evaluated ({error})")
+        problems.append(Reason("document.left_out.shape", label=obj.Label, why=error))
         return []
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from aadm_workbench.design.ifc.words import REBAR, SLEEVE, find
 from aadm_workbench.document.places import transform_of
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _MADE_FROM = (
     "Base",
@@ -219,7 +219,7 @@ def _below(place: _Place, used_up: frozenset[str], problems: list[str]) -> Itera
     shown = place.shown
     called = ".".join(place.path)
     if shown is None:
-        problems.append(f"{called} was left out: what it links to is missing")
+        problems.append(Reason("document.left_out.link", label=called))
         return
     # What an array repeats is drawn by the array, even where it only serves to make it.
     only_serves = shown.Name in used_up and shown.Document is place.root.Document
@@ -227,10 +227,10 @@ def _below(place: _Place, used_up: frozenset[str], problems: list[str]) -> Itera
         return
     obj = shown.getLinkedObject(True)
     if obj is None or (shown.TypeId == "App::Link" and shown.LinkedObject is None):
-        problems.append(f"{shown.Label} was left out: it links to nothing, or to a document that is not there")
+        problems.append(Reason("document.left_out.nothing", label=shown.Label))
         return
     if len(place.inside) > _DEEPEST:
-        problems.append(f"{shown.Label} was left out: its groups hold each other")
+        problems.append(Reason("document.left_out.groups", label=shown.Label))
         return
     drawn = 0
     children = _children(place, shown, obj)

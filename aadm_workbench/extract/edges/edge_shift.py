@@ -1,40 +1,22 @@
-"""What a camera does to a surface at its edges, read from the scan: does the surface bend there, and which way.
+"""What is known of the shift of centres by what a camera does at edges, and what is left of it.
 
-A camera that projects fringes mixes, in a pixel that an edge crosses, the phase of what is lit in it. The last pixels
-of a surface carry the phase of their inner part: the surface bends by (distance/base line) times the part of a pixel
-that is missing, up on one side of the base line and down on the other, and pixels that see only a sliver of it still
-return it. A camera whose pixels sample one ray each, or that drops what is mixed, has surfaces that are flat to the
-end. The two need other witnesses: where surfaces bend, the outermost points stand beyond the edge.
+Where surfaces bend (:mod:`~aadm_workbench.extract.edges.bend`), or a filter drops rings of pixels at steps, centres
+come from lines of sight; elsewhere from outlines. Each is off along the view and along the base line, by as much as
+stands here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from aadm_workbench.extract.circle import Outlines
+from aadm_workbench.extract.edges.bend import Bend
 from aadm_workbench.extract.edges.seen_disc import SeenDiscs, SightLines, seen_discs
-from aadm_workbench.model import Array, BoolArray, FloatArray, Reason
+from aadm_workbench.model import Array, BoolArray
 
-_MOUTHS, _TOPS = 1.0, -1.0  # the side on which the surface lies: outside of the disc, or within
-
-# Where a bend is looked for. In distances of pixels behind the edge, unless a name says mm.
-_BENT_PITCHES = (0.3, 1.5)  # pixels that an edge with a blur of half a pixel reaches
-_INNER_PITCHES = (4.0, 9.0)  # farther than any sharp camera's blur
-_BLUR_PITCHES = {_MOUTHS: (2.5, 3.5), _TOPS: (1.5, 2.5)}  # three pixels of blur reach there, one does not
-_BEND_MAX_MM, _INNER_MAX_MM = 3.0, 1.5  # what is farther off is another surface
-_VISIBLE_SIDE = 0.3  # cosine: beyond it the surface runs on into a wall, whose points are no bend
-_FEWEST = 60  # points: a mean of fewer is noise
-
-# From where on it counts.
-_BENT_FROM = {_MOUTHS: 0.18, _TOPS: 0.07}  # of the pitch: chamfered mouths off centre bend by 0.13, cut bars do not
-_BENT_SIGMAS = {_MOUTHS: 8.0, _TOPS: 4.0}  # chamfers of a few mouths do not cancel as noise does
-_ROUGH_EDGES, _ROUGH_SIGMAS = 2.5, 2.0  # heights at edges that scatter so much more than within are mixed ones
-_BLUR_SHARE, _BLUR_ROUGH = 0.12, 1.5  # of the bend at the edge; of the scatter within
-_BLUR_FROM = {_MOUTHS: 0.0, _TOPS: 0.95}  # of the pitch: small tops are flat nowhere near their edges
-
+_FEWEST = 60  # gaps: a median of fewer is noise
 # Discs of surfaces that bend: shifts that are taken off, and what is left of them. docs/method.md, 2.4, has the scans.
 _BANDS_MM, _BAND_SIGMAS = (0.5, 1.5, 2.5), 3.5  # about the surface; never narrower than its noise
 _COUNTING = 1.3  # neighbouring lines share their errors: standard errors are this much larger
@@ -48,6 +30,12 @@ _FIRST_RING, _SECOND_RING_PITCHES = 1.2, 0.8  # eroded by more: what the second 
 _BENT_VIEW_MM, _BENT_VIEW_SPREAD_MM = 0.10, 0.15  # per unit of slope, beyond the wall that bands take in
 _ERODED_BENT_VIEW, _ERODED_BENT_FROM = 0.25, 0.6  # the wall near the face goes with the second ring
 _NEARER_TAKES_LESS = 1.3  # seen from nearer, less of the wall is taken in: measured at 0.8 m and at 1.3 m
+_CONTRADICTS = 3.0  # standard deviations: one in 400 does by chance
+
+# Mouths of a camera that drops rings at steps. docs/method.md, 2.4, has the scans.
+_LOST_VIEW, _LOST_VIEW_SPREAD = (4.0, 2.7), 0.9  # of what the face lost, per unit of slope: one ring, and more
+_LOST_OWN_PITCHES = (0.08, 0.08)  # of each mouth, and more for each ring
+_LOST_SHARED_SHARE, _LOST_BEND_SHARE = 0.12, 0.3  # of what the face lost, either way; of what is left of the bend
 
 # Outlines of sharp surfaces: mm per unit of slope along the view, mean and spread; eroded: more for each ring lost.
 _USUAL_PITCH_MM, _FAR_NO_MORE = 0.5, 1.1  # at which they were measured; at 2 m they are no larger than at 1.4 m
@@ -55,103 +43,31 @@ _USUAL_STEP_PITCHES = 0.4  # a camera that loses half of the pixels at steps see
 _USUAL_GAP_PITCHES = 2.0  # one to two pixels lie between a top and what passed it; half of them lost, more
 # tuned when they were made; on which scans is not recorded
 _SHARP_MOUTH_VIEW, _ERODED_MOUTH_VIEW = (-0.08, 0.14), (-0.60, 0.40)
-_SHARP_TOP_VIEW, _BENT_TOP_VIEW, _ERODED_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33), (-0.80, 0.15)  # docs/method.md, 2.4
-PARTS_VIEW_MM = {_MOUTHS: _SHARP_MOUTH_VIEW[1], _TOPS: _SHARP_TOP_VIEW[1]}
-"""What chamfers, bores and ribs do along the view, mm per unit of slope: no plate tells, whatever is known of edges."""
+_SHARP_TOP_VIEW, _BENT_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33)  # docs/method.md, 2.4
+# of the first ring that is lost, with what bent in it, and of further ones: the side below the edge is lost with those;
+# spread of each: docs/method.md, 2.4
+_ERODED_TOP_VIEW_MM, _ERODED_BENT_TOP_VIEW_MM, _FURTHER_TOP_VIEW_MM, _ERODED_TOP_SPREAD_MM = -0.45, -0.15, -1.05, 0.30
+PARTS_VIEW_MM = {1.0: _SHARP_MOUTH_VIEW[1], -1.0: _SHARP_TOP_VIEW[1]}
+"""What chamfers, bores and ribs do along the view, mm per unit of slope: no plate tells, whatever is known of edges.
+
+By the side on which the surface lies, as for :func:`~aadm_workbench.extract.edges.seen_disc.seen_discs`."""
 
 _ERODED_MOUTH_BASE_PITCHES = 0.45  # a ring: taken where the projector lights the wall, and not in its shadow
 _ERODED_MOUTH_OWN_PITCHES = 0.22  # half rims stand on fewer points, and on fewer points of the bore
 _RADIUS_U_PITCHES = 0.15  # of a radius where no ring is lost
 _SHARED_UNKNOWNS = 3  # a shift, and a part along the view
 _APART_PITCHES, _APART_SHARE = 0.15, 0.8  # rims and lines of sight differ by so much where both are sound
+# noise that puts a part of the face beyond the band in which it is looked for: a fit then takes other radii for true
+_BEYOND_BAND_MM, _BEYOND_BAND_SHARE = 0.6, 2.5
 _NOISE_FROM_MM, _NOISE_SHARE = 0.10, 0.22  # of the scatter of heights, that edges and bores carry on to centres
-
-BLURRED = Reason("extract.blurred")
-"""Reason of what is not measured: what a blurred edge does to a centre nobody knows."""
-
-
-@dataclass(frozen=True, eq=False)
-class Bend:
-    """How far a surface bends up at its edges, and towards where: ``towards`` (2,) mm.
-
-    ``u_mm`` is its standard uncertainty, ``inner_mm`` the scatter of heights within, ``ratio`` that at edges over it;
-    ``pitch_mm`` the distance of neighbouring lines of sight. ``reach_mm`` is how far it still bends where the edges of
-    a camera in focus are flat again.
-    """
-
-    towards: Array
-    u_mm: float
-    inner_mm: float
-    ratio: float
-    pitch_mm: float
-    side: float
-    reach_mm: float
-
-    @property
-    def height_mm(self) -> float:
-        """How far the surface bends up on the side towards which it does."""
-        return float(np.hypot(*self.towards))
-
-    @property
-    def bent(self) -> bool:
-        """Whether the camera mixes what an edge separates."""
-        sigmas = _ROUGH_SIGMAS if self.side < 0 and self.ratio > _ROUGH_EDGES else _BENT_SIGMAS[self.side]
-        return self.height_mm > max(_BENT_FROM[self.side] * self.pitch_mm, sigmas * self.u_mm)
-
-    @property
-    def blurred(self) -> bool:
-        """Whether the bend goes on for more pixels than that of a camera in focus."""
-        high = self.height_mm > _BLUR_FROM[self.side] * self.pitch_mm
-        return self.bent and high and self.reach_mm > _BLUR_SHARE * self.height_mm
-
-
-def no_bend(pitch_mm: float, side: float) -> Bend:
-    """What is taken where too little is seen to tell."""
-    return Bend(np.zeros(2), 0.0, 0.0, 1.0, pitch_mm, side, 0.0)
-
-
-def bend_at_edges(lines: SightLines, centre: Array, radius_mm: float, pitch_mm: float, side: float) -> Bend:
-    """How the surface bends towards the edges of its discs, seen lines of sight given as for :func:`seen_discs`."""
-    about_x, about_y = lines.x - centre[:, :1], lines.y - centre[:, 1:]
-    distance = np.maximum(np.sqrt(about_x * about_x + about_y * about_y), 1e-6)
-    behind = side * (distance - radius_mm) / pitch_mm
-    flat = np.abs(lines.height) < _BEND_MAX_MM
-    slope_length = np.maximum(np.hypot(*lines.slope.T), 1e-9)[:, None]
-    away = side * (about_x * lines.slope[:, :1] + about_y * lines.slope[:, 1:]) / (distance * slope_length)
-    off_wall = flat & (away < _VISIBLE_SIDE)
-    at_edge, reached = (
-        off_wall & (behind > low) & (behind < high) for low, high in (_BENT_PITCHES, _BLUR_PITCHES[side])
-    )
-    inner = flat & (behind > _INNER_PITCHES[0]) & (behind < _INNER_PITCHES[1]) & (np.abs(lines.height) < _INNER_MAX_MM)
-    if at_edge.sum() < _FEWEST or inner.sum() < _FEWEST:
-        return no_bend(pitch_mm, side)
-    inner_mm = max(_rms(lines.height[inner]), 1e-3)
-    # A chamfer bends the surface, too, and the discs are off along each one's own line of sight: that turns from disc
-    # to disc, what the camera does has one direction.
-    terms = [np.ones(distance.shape), away * slope_length, away, about_x / distance, about_y / distance]
-    towards, edge_mm = _common_bend(lines.height, terms, at_edge), _rms(lines.height[at_edge])
-    reach_mm = 0.0
-    if reached.sum() >= _FEWEST and _rms(lines.height[reached]) > _BLUR_ROUGH * inner_mm:
-        reach_mm = float(np.hypot(*_common_bend(lines.height, terms, reached)))
-    u_mm = edge_mm / float(np.sqrt(0.5 * at_edge.sum()))
-    return Bend(side * towards, u_mm, inner_mm, edge_mm / inner_mm, pitch_mm, side, reach_mm)
-
-
-def _rms(heights: FloatArray) -> float:
-    return float(np.sqrt(np.mean(heights.astype(np.float64) ** 2)))
-
-
-def _common_bend(height: FloatArray, terms: Sequence[Array], chosen: BoolArray) -> Array:
-    """The part of the heights that rises towards one direction (2,), the same about all discs; mm."""
-    design = np.column_stack([term[chosen] for term in terms])
-    return np.asarray(np.linalg.lstsq(design, height[chosen].astype(np.float64), rcond=None)[0][-2:])
 
 
 @dataclass(frozen=True, eq=False)
 class BentDiscs:
-    """Centres (k, 2) mm of discs whose edges bend, and their own covariances ``own`` (k, 2, 2) mm².
+    """Centres (k, 2) mm of discs by lines of sight, set right, and their own covariances ``own`` (k, 2, 2) mm².
 
-    ``shared`` (k, 2, 2) is what all err by together. ``radius`` mm is that from which on half of the lines of sight
+    ``shared`` (k, 2, 2) is what all err by together, but along the view: ``slope`` (k, 2) times a number of mm whose
+    variance is ``view_mm2``. ``radius`` mm is that from which on half of the lines of sight
     find the surface, without what slivers add to it, and ``radius_u_mm`` what it may be off; ``eroded`` how many
     distances of pixels farther behind the edge that is than without a filter.
     """
@@ -159,9 +75,31 @@ class BentDiscs:
     centre: Array
     own: Array
     shared: Array
+    slope: Array
+    view_mm2: float
     radius: float
     radius_u_mm: float
     eroded: float
+
+    @property
+    def in_common(self) -> Array:
+        """Covariances (k, 2, 2) mm² of all that the discs err by together."""
+        along = self.slope[:, :, None] * self.slope[:, None, :]
+        return np.asarray(self.shared + self.view_mm2 * along)
+
+    def moved_by(self, told: tuple[float, float] | None) -> BentDiscs:
+        """The discs with what another witness told of the view: mm per unit of slope that they lack, and its variance.
+
+        A witness that contradicts what is known moves nothing; it is then less well known.
+        """
+        if told is None or self.view_mm2 == 0.0:
+            return self
+        lacking, variance = told
+        if lacking**2 > _CONTRADICTS**2 * (self.view_mm2 + variance):
+            return replace(self, view_mm2=self.view_mm2 + (lacking / 2.0) ** 2)
+        weight = self.view_mm2 / (self.view_mm2 + variance)
+        moved = self.centre + weight * lacking * self.slope
+        return replace(self, centre=moved, view_mm2=(1.0 - weight) * self.view_mm2)
 
 
 def bent_discs(lines: SightLines, centre: Array, radius_mm: float, bend: Bend) -> BentDiscs:
@@ -190,10 +128,33 @@ def bent_discs(lines: SightLines, centre: Array, radius_mm: float, bend: Bend) -
     shared = (
         base_mm**2 * np.outer(along_base, along_base)
         + ((_ACROSS_BASE_PITCHES * pitch_mm) ** 2 + rings_mm**2) * np.eye(2)
-        + view_mm**2 * along_view[:, :, None] * along_view[:, None, :]
-    )
+    ) * np.ones((len(centre), 1, 1))
     radius = middle.radius + side * _OVERHANG_PITCHES * pitch_mm
-    return BentDiscs(moved, own, shared, radius, _radius_u_mm(pitch_mm, eroded), eroded)
+    u_mm = _radius_u_mm(pitch_mm, eroded)
+    return BentDiscs(moved, own, shared, along_view, view_mm**2, radius, u_mm, eroded)
+
+
+def eroded_discs(lines: SightLines, centre: Array, radius_mm: float, bend: Bend, rings: int) -> BentDiscs:
+    """Mouths of a camera that drops ``rings`` of pixels at steps, and with them what bent: by lines of sight.
+
+    The face is taken away where it ends in a step, and less where it runs on into the wall that shows. Seen
+    steeply, the wall falls by more than a filter's step from pixel to pixel, and both sides lose alike.
+    """
+    pitch_mm, slope = bend.pitch_mm, lines.slope
+    band = max(_BANDS_MM[0], _BAND_SIGMAS * bend.inner_mm)
+    fit = seen_discs(lines, np.abs(lines.height) < band, centre, radius_mm, pitch_mm, bend.side)
+    lost_mm = max(0.0, fit.radius - radius_mm)
+    lost = lost_mm / pitch_mm
+    per_slope = _LOST_VIEW[min(rings, len(_LOST_VIEW)) - 1]
+    share = np.minimum(per_slope, 1.0 / np.maximum(np.hypot(*slope.T), 1e-9))
+    moved = fit.centre + share[:, None] * lost_mm * slope
+    own_mm = (_LOST_OWN_PITCHES[0] + _LOST_OWN_PITCHES[1] * lost) * pitch_mm
+    own = _COUNTING**2 * fit.covariance + own_mm**2 * np.eye(2)
+    along_base = _direction(bend.towards)
+    shared = (_LOST_SHARED_SHARE * lost_mm) ** 2 * np.eye(2) * np.ones((len(centre), 1, 1))
+    shared += (_LOST_BEND_SHARE * bend.height_mm) ** 2 * np.outer(along_base, along_base)
+    view_mm2 = (_LOST_VIEW_SPREAD * lost_mm) ** 2 + _BENT_VIEW_SPREAD_MM**2
+    return BentDiscs(moved, own, shared, slope, view_mm2, fit.radius, _radius_u_mm(pitch_mm, lost), lost)
 
 
 @dataclass(frozen=True, eq=False)
@@ -228,8 +189,10 @@ def shift_of_tops(slope: Array, bend: Bend, eroded: float) -> Shift:
     """
     usual, spread = _BENT_TOP_VIEW if bend.bent else _SHARP_TOP_VIEW
     nearer = min(_FAR_NO_MORE, bend.pitch_mm / _USUAL_PITCH_MM)
-    view_mm = usual * (nearer if bend.bent else 1.0) + _ERODED_TOP_VIEW[0] * eroded * nearer
-    spread_mm = spread + _ERODED_TOP_VIEW[1] * eroded * max(1.0, bend.pitch_mm / _USUAL_PITCH_MM)
+    first, further = min(eroded, 1.0), max(eroded - 1.0, 0.0)
+    first_mm = _ERODED_BENT_TOP_VIEW_MM if bend.bent else _ERODED_TOP_VIEW_MM
+    view_mm = usual * (nearer if bend.bent else 1.0) + first_mm * first + _FURTHER_TOP_VIEW_MM * further
+    spread_mm = spread + _ERODED_TOP_SPREAD_MM * eroded * max(1.0, bend.pitch_mm / _USUAL_PITCH_MM)
     own_mm = _ERODED_OWN_PITCHES * eroded * bend.pitch_mm
     shared = own_mm**2 * np.eye(2) + spread_mm**2 * slope[:, :, None] * slope[:, None, :]
     if not bend.bent:
@@ -256,6 +219,7 @@ def shift_of_mouths(
     differ by more than what all share, nobody knows which is right. ``seen`` is of those that are ``whole`` (k,).
     """
     noise_mm = _NOISE_SHARE * max(0.0, bend.inner_mm - _NOISE_FROM_MM)
+    noise_mm += _BEYOND_BAND_SHARE * max(0.0, bend.inner_mm - _BEYOND_BAND_MM)
     apart_mm = _APART_SHARE * max(
         0.0, _apart_mm(slope[whole], centre[whole] - seen.centre) - _APART_PITCHES * bend.pitch_mm
     )

@@ -14,7 +14,7 @@ from typing import Protocol
 
 import numpy as np
 
-from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, slopes_of
+from aadm_workbench.extract.edges.seen_disc import SightLines, slopes_of
 from aadm_workbench.extract.pooled.fit import PooledFit
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, CameraProfile, Extraction, Kind, LearnedEdges
 
@@ -36,9 +36,6 @@ LEARNED_BAND_MM = 1.5
 
 DISC_U_PITCHES = 0.1
 """Per axis, of discs that are set right: where a filter takes whole pixels their edges are as rough."""
-
-NEAR_DISC_MM = 1.5
-"""Between a disc and the fit of all: filters, ribs and chamfers move one by less, what hides a part of it by more."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,14 +108,6 @@ def with_learned_discs(
     learned += (edges.apart_pitches * known.pitch_mm) ** 2 * np.eye(2)
     learned += view_mm**2 * slope[:, :, None] * slope[:, None, :]
     return replace(fit, centre=moved, covariance=np.where(chosen[:, None, None], learned, fit.covariance))
-
-
-def tops_as_learned(fit: PooledFit, lines: SightLines, known: KnownEdges, view_mm: float) -> PooledFit:
-    """The fit of bars, its centres drawn to discs of lines of sight set right by what was learned of the camera."""
-    lines, on = without_losses(lines, fit.centre, -1.0, known), np.abs(lines.height) < LEARNED_BAND_MM
-    discs = seen_discs(lines, on, fit.centre, float(np.median(fit.outline_radius)), known.pitch_mm, -1.0)
-    near = np.hypot(*(discs.centre - fit.centre).T) < NEAR_DISC_MM
-    return with_learned_discs(fit, discs, near, lines.slope, known, view_mm)
 
 
 def with_learned_stretch(extraction: Extraction, profile: CameraProfile | None) -> Extraction:

@@ -174,6 +174,11 @@ def sight_lines_on_face(patches: Patches) -> SightLines | None:
     return SightLines(patches.seen_x, patches.seen_y, patches.height, slopes_of(patches.eye))
 
 
+def points_alone(patches: Patches) -> SightLines:
+    """The points of a cloud as lines of sight square to the face that all found something: what was lost is unknown."""
+    return SightLines(patches.x, patches.y, patches.height, np.zeros((len(patches.x), 2)))
+
+
 def sight_lines_on_tops(patches: Patches, normal: Array, offset: Array, height: FloatArray) -> SightLines | None:
     """Crossings with planes of their own: ``normal`` (k, 3), ``offset`` (k,) mm; ``height`` (k, n) over them."""
     if patches.seen_x is None or patches.seen_y is None or patches.eye is None:

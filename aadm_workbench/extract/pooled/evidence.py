@@ -11,7 +11,7 @@ The densities below have a steep flank at the edge; how many pixels are lost mov
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -56,6 +56,12 @@ class Walls:
     seen: BoolArray
     law: BracketLaw
     side: float = -1.0
+
+    def of(self, features: BoolArray) -> Walls:
+        """Those of some of the features (k,)."""
+        return replace(
+            self, xy=self.xy[features], depth=self.depth[features], slope=self.slope[features], seen=self.seen[features]
+        )
 
 
 class EdgeTerms:

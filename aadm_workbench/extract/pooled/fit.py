@@ -29,7 +29,10 @@ from aadm_workbench.extract.pooled.evidence import BracketLaw, EdgeTerms, RimLaw
 from aadm_workbench.extract.pooled.system import BEYOND, PUSH, RIM, WALL, Priors, State, System
 from aadm_workbench.model import Array, BoolArray, IntArray
 
-_DISAGREE_CHI2, _FEW, _ONE_SIDED = 13.8, 25, 1e3  # 0.1 % of chi-squared with two degrees of freedom
+_DISAGREE_CHI2, _FEW = 13.8, 25  # 0.1 % of chi-squared with two degrees of freedom
+# between the best and the worst known direction: rims that are known so much better one way are pieces of a circle,
+# whose steps the other way go on over the tail of their law, for millimetres
+_ONE_SIDED_WALL, _ONE_SIDED_RIM = 1e3, 8.0
 # a state that begins at rest still takes its first steps; what goes on for longer swings
 _ROUNDS_MIN, _ROUNDS_MAX = 3, 30
 _SETTLED_MM = 4e-3  # a fifth of what the best camera errs by (docs/method.md, 2.5)
@@ -143,8 +146,11 @@ def _disagreement(terms: _Terms, wall_weight: Array, wall_seen: BoolArray, rim_s
     errors explain, the walls' pull on the joint centre counts as uncertainty.
     """
     extra = np.zeros((len(wall_seen), 2, 2))
-    wall, wall_information, wall_tells = _steps_alone(terms.wall.jacobian, terms.wall.pull, wall_weight, wall_seen)
-    rim, rim_information, rim_tells = _steps_alone(terms.rim.jacobian, terms.rim.pull, terms.rim.knowledge, rim_seen)
+    walls, rims = terms.wall, terms.rim
+    wall, wall_information, wall_tells = _steps_alone(
+        walls.jacobian, walls.pull, wall_weight, wall_seen, _ONE_SIDED_WALL
+    )
+    rim, rim_information, rim_tells = _steps_alone(rims.jacobian, rims.pull, rims.knowledge, rim_seen, _ONE_SIDED_RIM)
     for k in np.flatnonzero(wall_tells & rim_tells).tolist():
         apart = wall[k] - rim[k]
         expected = np.linalg.inv(wall_information[k]) + np.linalg.inv(rim_information[k])
@@ -154,12 +160,14 @@ def _disagreement(terms: _Terms, wall_weight: Array, wall_seen: BoolArray, rim_s
     return extra
 
 
-def _steps_alone(jacobian: Array, pull: Array, weight: Array, seen: BoolArray) -> tuple[Array, Array, BoolArray]:
+def _steps_alone(
+    jacobian: Array, pull: Array, weight: Array, seen: BoolArray, one_sided: float
+) -> tuple[Array, Array, BoolArray]:
     """Step (k, 2) of each centre that one witness alone asks for, its information (k, 2, 2), and whether it tells."""
     across = jacobian[:, :2]
     information = (across * weight[:, None]) @ across.transpose(0, 2, 1)
     low, high = np.linalg.eigvalsh(information).T
-    tells = (seen.sum(axis=1) >= _FEW) & (low * _ONE_SIDED > high)
+    tells = (seen.sum(axis=1) >= _FEW) & (low * one_sided > high)
     step = np.zeros((len(seen), 2))
     gradient = (across @ pull[..., None])[tells]
     step[tells] = -np.linalg.solve(information[tells], gradient)[..., 0]

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.errors import MissingDependencyError, install_of
+from aadm_workbench.errors import install_of, needed
 from aadm_workbench.model import FloatArray, Plane
 from aadm_workbench.model.scatter import TO_SIGMA
 
@@ -22,10 +22,8 @@ def open3d_for(method: str) -> Any:
     MissingDependencyError
         Where it is not installed.
     """
-    try:
+    with needed("open3d", f"Method {method}", install_of("published")):
         import open3d
-    except ImportError as error:
-        raise MissingDependencyError("open3d", f"Method {method}", install_of("published")) from error
     return open3d
 
 

@@ -77,4 +77,24 @@ SENTENCES: dict[str, Sentence] = {
         "FreeCAD cannot open it ({why}); save it again, or name a .FCStd file",
         "FreeCAD 无法打开（{why}）；请重新保存，或给出 .FCStd 文件",
     ),
+    "document.left_out.groups": Sentence(
+        "{label} was left out: its groups hold each other",
+        "{label} 未采用：其各组互相包含",
+    ),
+    "document.left_out.link": Sentence(
+        "{label} was left out: what it links to is missing",
+        "{label} 未采用：所链接的对象不存在",
+    ),
+    "document.left_out.nothing": Sentence(
+        "{label} was left out: it links to nothing, or to a document that is not there",
+        "{label} 未采用：没有链接到任何对象，或所链接的文档不存在",
+    ),
+    "document.left_out.scaled": Sentence(
+        "{label} was left out: it is scaled by different factors along its axes",
+        "{label} 未采用：各轴缩放比例不同",
+    ),
+    "document.left_out.shape": Sentence(
+        "{label} was left out: its shape cannot be evaluated ({why})",
+        "{label} 未采用：其形状无法求值（{why}）",
+    ),
 }

@@ -113,4 +113,30 @@ SENTENCES: dict[str, Sentence] = {
         "is written in UTF-16, into which no line of STEP fits; export it again",
         "以 UTF-16 写成，无法加入 STEP 行；请重新导出",
     ),
+    "report.as_before": Sentence(
+        "the model equals the one that the results were written into, byte for byte",
+        "模型与写入结果之前的模型逐字节相同",
+    ),
+    "report.changed_since": Sentence(
+        "the model was changed by another program since: what that program wrote stays",
+        "此后模型已被其他程序改动：该程序写入的内容保留",
+    ),
+    "report.left_alone": Sentence(
+        "{name} of {count:d} elements was in the model already and was left as it is",
+        "{count:d} 个构件的 {name} 已在模型中，保持不变",
+    ),
+    "report.relation": Sentence(
+        "relation #{number} was altered for the results and is another one now: it was not put back",
+        "关系 #{number} 曾为写入结果而改动，现已不同：未恢复",
+    ),
+    "report.shared_ids": Sentence(
+        "{count:d} GlobalIds are those of several elements ({shown}): nothing was written where it is not sure "
+        "which one is meant; export the model with a GlobalId for each element",
+        "{count:d} 个 GlobalId 各为几个构件共用（{shown}）：无法确定是哪一个时不写入；请导出每个构件各有 GlobalId"
+        " 的模型",
+    ),
+    "report.unshared": Sentence(
+        "{count:d} elements got property sets of their own where they had shared one",
+        "{count:d} 个构件原共用一个属性集，现各有自己的属性集",
+    ),
 }

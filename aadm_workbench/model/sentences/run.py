@@ -24,7 +24,6 @@ SENTENCES: dict[str, Sentence] = {
         "内存不足以读取其扫描：请减少同时检查的柱数，或增大 --memory-limit",
     ),
     "run.no_scan": Sentence("the job names no scan of its sleeves or rebars", "任务没有给出套筒或钢筋的扫描文件"),
-    "run.not_checked": Sentence("it was not checked", "未检查"),
     "run.not_evaluated": Sentence(
         "{model} cannot be evaluated: something in it is not as its format wants it ({error}); export it again "
         "(--debug shows where)",

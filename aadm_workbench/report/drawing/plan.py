@@ -134,7 +134,7 @@ def _column(column: ColumnReport, at: Point, half: float, anchors: dict[str, str
         style = "text-fail" if verdict == "fail" else "text"
         said = Label((at[0], at[1] - half - size * 0.75), name, round(size, 1), style, bold=True)
         left, foot, right, head = box_of(said)
-        shapes = [rectangle((left, foot), (right, head), "paper"), *shapes, said]  # axes run behind names
+        shapes += [rectangle((left, foot), (right, head), "paper"), said]  # axes run behind names
     return Link(anchors[column.id], column.id, tuple(shapes))
 
 

@@ -8,7 +8,8 @@ from typing import Any
 from aadm_workbench.design.ifc.columns import names
 from aadm_workbench.design.ifc.ids import elements_by_id
 from aadm_workbench.errors import ReportError
-from aadm_workbench.model import ColumnDesign, ColumnReport, PointResult
+from aadm_workbench.model import ColumnDesign, ColumnReport, PointResult, Reason
+from aadm_workbench.model.reason import listed
 
 
 class Elements:
@@ -41,11 +42,7 @@ class Elements:
         """What to say of those columns and points that nothing was written to because of their GlobalIds."""
         shared = {entry.global_id or "" for entry in entries if self.is_shared(entry.global_id)}
         if shared:
-            shown = ", ".join(sorted(shared)[:_SHOWN]) + (", …" if len(shared) > _SHOWN else "")
-            yield (
-                f"{len(shared)} GlobalIds are those of several elements ({shown}): nothing was written where it is not "
-                "sure which one is meant; export the model with a GlobalId for each element"
-            )
+            yield Reason("report.shared_ids", count=len(shared), shown=listed(sorted(shared), _SHOWN))
 
 
 _SHOWN = 4  # names in a message

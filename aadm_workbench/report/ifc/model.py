@@ -169,11 +169,7 @@ def remove_ifc(model: Path, out: Path) -> WriteBack:
         raise ReportError.because("report.no_results", model=model)
     # What can be written again from the report needs no backup.
     changed, backup = _put([stripped.content], out, model, "" if stripped.exact else opened.sha256)
-    how = (
-        "the model equals the one that the results were written into, byte for byte"
-        if stripped.exact
-        else "the model was changed by another program since: what that program wrote stays"
-    )
+    how = Reason("report.as_before" if stripped.exact else "report.changed_since")
     return WriteBack(out, changed, str(opened.file.schema_identifier), notes=(*stripped.notes, how), backup=backup)
 
 
@@ -263,9 +259,9 @@ def _sha256(content: bytes) -> str:
 
 def _notes(assigner: Assigner) -> Iterator[str]:
     for name, count in assigner.left_alone.items():
-        yield f"{name} of {count} elements was in the model already and was left as it is"
+        yield Reason("report.left_alone", name=name, count=count)
     if assigner.unshared:
-        yield f"{assigner.unshared} elements got property sets of their own where they had shared one"
+        yield Reason("report.unshared", count=assigner.unshared)
 
 
 def _put(parts: Iterable[bytes], out: Path, model: Path, keep_as: str) -> tuple[bool, Path | None]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from aadm_workbench.design.ifc.text.step import StepText
+from aadm_workbench.model import Reason
 from aadm_workbench.report.ifc.addition import (
     APPLICATION,
     GLOBAL_ID_PREFIX,
@@ -209,7 +210,7 @@ def _release(file: Any, ours: set[int], doomed: set[int], replaced: dict[int, An
 def _put_back(file: Any, book: Mapping[str, Any]) -> tuple[dict[int, bytes], list[str]]:
     """Restore altered relations with the elements that joined them since: lines by id, and a note for each lost one."""
     lines: dict[int, bytes] = {}
-    notes = []
+    notes: list[str] = []
     for number, before in _before(book):
         found = _RELATED.search(before)
         try:
@@ -219,7 +220,7 @@ def _put_back(file: Any, book: Mapping[str, Any]) -> tuple[dict[int, bytes], lis
             related = [file.by_id(int(word)) for word in found[1].replace(b"#", b"").split(b",")]
             definition = file.by_id(int(found[2]))
         except (RuntimeError, IndexError):
-            notes.append(f"relation #{number} was altered for the results and is another one now: it was not put back")
+            notes.append(Reason("report.relation", number=number))
             continue
         joined = [element for element in now.RelatedObjects if element not in related]
         now.RelatedObjects, now.RelatingPropertyDefinition = [*related, *joined], definition

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.errors import needed
 from aadm_workbench.model import Array, BoolArray, FloatArray, Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile
 from aadm_workbench.scan.formats.e57_outline import check_outline
@@ -26,10 +26,8 @@ _MOST_PIXELS_PER_POINT = 20
 
 
 def _libe57() -> ModuleType:
-    try:
+    with needed("pye57", "an E57 file"):
         return import_module("pye57.libe57")
-    except ImportError as error:
-        raise MissingDependencyError("pye57", "an E57 file") from error
 
 
 def read_e57(file: ScanFile, declared: Declared) -> Cloud:

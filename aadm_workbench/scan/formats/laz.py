@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.errors import needed
 from aadm_workbench.model import Reason
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.formats.las_header import LasHeader, Records
@@ -41,10 +41,8 @@ _COORDINATES = {_POINT_WISE: 6, _CHUNKED: 6, _LAYERED: 10}
 
 
 def _lazrs() -> ModuleType:
-    try:
+    with needed("lazrs", "a compressed LAZ file"):
         return import_module("lazrs")
-    except ImportError as error:
-        raise MissingDependencyError("lazrs", "a compressed LAZ file") from error
 
 
 def unpacked_records(file: ScanFile, header: LasHeader) -> Iterator[Records]:

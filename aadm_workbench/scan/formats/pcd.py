@@ -7,7 +7,7 @@ from types import ModuleType
 
 import numpy as np
 
-from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.errors import needed
 from aadm_workbench.model import FloatArray, Reason
 from aadm_workbench.scan.file import Cloud, Declared, ScanFile, narrowed
 from aadm_workbench.scan.formats.pcd_header import Field, PcdHeader, parse_header
@@ -113,10 +113,8 @@ def _planes(unpacked: bytes, count: int, axes: tuple[Field, ...]) -> FloatArray:
 
 
 def _lzf() -> ModuleType:
-    try:
+    with needed("python-neo-lzf", "a compressed PCD file (DATA binary_compressed)"):
         return import_module("lzf")
-    except ImportError as error:
-        raise MissingDependencyError("python-neo-lzf", "a compressed PCD file (DATA binary_compressed)") from error
 
 
 def decompress(packed: bytes, size_bytes: int) -> bytes | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.errors import MissingDependencyError, needed
 
 INSTALL_LLVM = "apt-get install libllvm19"
 LEAST_LLVM = 19
@@ -21,10 +21,8 @@ def mitsuba_ready() -> Any:
     MissingDependencyError
         Where Mitsuba, or the LLVM that it compiles with, is not installed.
     """
-    try:
+    with needed("mitsuba", "The fringe camera"):
         import mitsuba
-    except ImportError as error:
-        raise MissingDependencyError("mitsuba", "The fringe camera") from error
     if llvm_found() < LEAST_LLVM:
         raise MissingDependencyError(f"LLVM {LEAST_LLVM} or newer", "The fringe camera", INSTALL_LLVM)
     if mitsuba.variant() != _VARIANT:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from aadm_workbench.atomic import write_atomically
-from aadm_workbench.errors import MissingDependencyError
+from aadm_workbench.errors import needed
 from aadm_workbench.model import Array, Kind
 from aadm_workbench.twin.study.methods import MethodStudy
 from aadm_workbench.twin.study.published import TABLES
@@ -36,10 +36,8 @@ def require_matplotlib() -> None:
     MissingDependencyError
         Where Matplotlib is not installed.
     """
-    try:
+    with needed("matplotlib", "Plots of a study"):
         import matplotlib.figure  # noqa: F401
-    except ImportError as error:
-        raise MissingDependencyError("matplotlib", "Plots of a study") from error
 
 
 def write_plots(study: MethodStudy, folder: Path) -> tuple[Path, ...]:

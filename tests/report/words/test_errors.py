@@ -122,7 +122,7 @@ def test_what_a_package_is_needed_for_is_said_in_both_languages() -> None:
         node.args[1]
         for tree in modules().values()
         for node in ast.walk(tree)
-        if called(node) == "MissingDependencyError" and len(node.args) > 1
+        if isinstance(node, ast.Call) and called(node) in {"MissingDependencyError", "needed"} and len(node.args) > 1
     ]
     said = [str(one.value) for one in needs if isinstance(one, ast.Constant)]
     assert len(said) > 10

@@ -19,7 +19,7 @@ from aadm_workbench.design.ifc.names import Naming
 from aadm_workbench.design.ifc.text.prepared import prepared
 from aadm_workbench.design.ifc.text.step import numbered_once
 from aadm_workbench.design.model_file import LARGEST_MODEL_BYTES
-from aadm_workbench.errors import DesignError, MissingDependencyError
+from aadm_workbench.errors import DesignError, needed
 from aadm_workbench.model import Reason, in_one
 from aadm_workbench.model.reason import listed
 
@@ -138,10 +138,8 @@ def _holds_project(file: Any) -> bool:
 
 
 def _ifcopenshell() -> Any:
-    try:
+    with needed("ifcopenshell", "reading IFC models"):
         import ifcopenshell
-    except ImportError as error:
-        raise MissingDependencyError("ifcopenshell", "reading IFC models") from error
     return ifcopenshell
 
 
