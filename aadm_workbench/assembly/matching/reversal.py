@@ -21,6 +21,7 @@ from aadm_workbench.assembly.matching.match import Match
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray
 
 _TOLD_MM = 0.1  # at the edge of what is seen: what is known worse tells nothing of a camera that is to be right to that
+_LEAST_NOISE_MM = 1e-4  # the same scan twice scatters not at all
 _HALF = 0.5  # of a term that lies in what is told
 _CHANCE = 1e-3  # of sound captures so few show a bend; a floor of a thousand columns has one
 _FEWEST_SHARED = 4  # points in two captures: a pose takes three of their coordinates
