@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from aadm_workbench.assembly.findings.finding import SeenGroup
 from aadm_workbench.assembly.findings.of_column import Seen, with_findings
 from aadm_workbench.assembly.following import told_once
 from aadm_workbench.assembly.inspect import describe_ambiguity
@@ -26,7 +25,7 @@ from aadm_workbench.inspection.measure import (
     Measured,
     Stage,
     measure_column,
-    scale_error_of,
+    seen_group,
 )
 from aadm_workbench.model import (
     ColumnDesign,
@@ -73,7 +72,7 @@ def check_column(
         section = _section(design, scans, measured, settings)
     report = replace(_report(design, measured, trial, checks, settings.profile), repair=repair, section=section)
     report = told_once(report)
-    seen = {kind: Seen(_seen(design, kind, scans, measured[kind]), scans.of(kind)[0]) for kind in measured}
+    seen = {kind: Seen(seen_group(design, kind, scans, measured[kind]), scans.of(kind)[0]) for kind in measured}
     rng = np.random.default_rng([settings.seed, 4])
     with stage("assembly"):
         return with_findings(report, design, seen, method=settings.method, rng=rng, others=scans.others, checks=checks)
@@ -92,12 +91,6 @@ def _section(
     return section_of(
         design, scans.sleeves[0], sleeves.extraction, sleeves.match, settings.profile, settings.decision, rng
     )
-
-
-def _seen(design: ColumnDesign, kind: Kind, scans: ColumnScans, measured: Measured) -> SeenGroup:
-    """A group as the rules on findings look at it."""
-    scale_error = scale_error_of(scans.of(kind)[0], kind)
-    return SeenGroup(kind, design.points(kind), measured.extraction, measured.match, scale_error)
 
 
 def _wanted(design: ColumnDesign, scans: ColumnScans, settings: CheckSettings) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -103,11 +103,28 @@ def measure_column(
     stage: Stage = lambda name: nullcontext(),
 ) -> dict[Kind, Measured]:
     """Extract, match and inspect what there are scans of; parameters as :func:`check_column`."""
-    return {kind: _measure(design, scans, kind, settings, stage) for kind in Kind if scans.of(kind)}
+    measured: dict[Kind, Measured] = {}
+    for kind in (kind for kind in Kind if scans.of(kind)):
+        before = [seen_group(design, other, scans, one) for other, one in measured.items()]
+        measured[kind] = _measure(design, scans, kind, settings, stage, before)
+    return measured
 
 
-def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: CheckSettings, stage: Stage) -> Measured:
-    """Extract, match and inspect one group of points."""
+def seen_group(design: ColumnDesign, kind: Kind, scans: ColumnScans, measured: Measured) -> SeenGroup:
+    """A group as the rules on findings look at it."""
+    scale_error = scale_error_of(scans.of(kind)[0], kind)
+    return SeenGroup(kind, design.points(kind), measured.extraction, measured.match, scale_error)
+
+
+def _measure(
+    design: ColumnDesign,
+    scans: ColumnScans,
+    kind: Kind,
+    settings: CheckSettings,
+    stage: Stage,
+    before: Sequence[SeenGroup] = (),
+) -> Measured:
+    """Extract, match and inspect one group of points; ``before`` it others were measured, with the same camera."""
     views, points, up_deg = scans.of(kind), design.points(kind), scans.up_deg(kind)
     scan, diameter_mm = views[0], float(np.median(_diameters_mm(points)))
     rng = np.random.default_rng([settings.seed, list(Kind).index(kind)])
@@ -136,9 +153,9 @@ def _measure(design: ColumnDesign, scans: ColumnScans, kind: Kind, settings: Che
             reasons = dict.fromkeys(missing_places(points, match), unseen)
         else:
             reasons = reasons_of_missing(scan, extraction, missing_places(points, match), diameter_mm, rng)
-    seen_group = SeenGroup(kind, points, extraction, match, scale_error_of(scan, kind))
+    group = SeenGroup(kind, points, extraction, match, scale_error_of(scan, kind))
     with stage("assembly"):
-        scale_error = doubted_scale_error(seen_group)
+        scale_error = doubted_scale_error(group, before)
         report = inspect_group(
             points,
             extraction,

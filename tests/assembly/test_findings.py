@@ -167,8 +167,8 @@ def test_a_pattern_that_is_too_large_or_too_small_is_told(scale: float) -> None:
 
 
 def test_two_patterns_that_differ_in_scale_are_told() -> None:
-    foot = group(square(), scale=1.002, scatter_mm=0.2)
-    bars = group(square(), kind=Kind.REBAR, design_mm=20.0, scale=0.998, scatter_mm=0.2, seed=2)
+    foot = group(square(), scale=1.0025, scatter_mm=0.2)
+    bars = group(square(), kind=Kind.REBAR, design_mm=20.0, scale=0.9975, scatter_mm=0.2, seed=2)
     found = found_in(foot, bars)
     assert ("sleeves", "rebars") in [finding.about for finding in found]
 

@@ -33,6 +33,9 @@ _PATTERNS_QUANTILE = 1.64  # one-sided 5 %: so far the patterns have to say it, 
 _WRONG_SHARE, _WRONG_BY = 0.02, 0.03
 _SURE = 30.0  # of a logarithm of odds: beyond it a probability is one
 _PRIOR_WEIGHT = 4.0  # the usual scatter counts as so many coordinates do
+# relative: what edges shift along the view, by about a pixel for each unit of its slope, is a scale; pixels are a
+# two-thousandth of the distance
+_ALONG_VIEW = 5e-4
 _FEWEST_PAIRS = 3  # two points have one distance, and nothing to hold it against
 
 
@@ -85,15 +88,17 @@ def _apart(scales: Sequence[tuple[SeenGroup, Scale]]) -> Iterator[Finding]:
 
 def _of_all(scales: Sequence[tuple[SeenGroup, Scale]]) -> Iterator[Finding]:
     """A finding where all that was scanned with one camera is too large, or too small, together."""
-    bores = [scale for group, _ in scales if (scale := bore_scale(group)) is not None]
     patterns = [scale for _, scale in scales]
-    if len(patterns) + len(bores) < 2:
-        return
-    placed, together = pooled(patterns), pooled([*patterns, *bores])
+    bores = [scale for group, _ in scales if (scale := bore_scale(group)) is not None]
     about = [group.kind.plural for group, _ in scales]
-    if len(scales) > 1 and placed.differs:
+    placed = pooled(patterns) if patterns else None
+    if placed is not None and len(patterns) > 1 and placed.differs:
         yield make_finding("scale_differs.camera", about, scale=placed.value, U=placed.expanded)
-        return
+    elif placed is not None and bores:
+        yield from _with_bores(placed, pooled([*patterns, *bores]), about)
+
+
+def _with_bores(placed: Scale, together: Scale, about: Sequence[str]) -> Iterator[Finding]:
     expanded = together.within(_OF_ALL_QUANTILE)
     agrees = (placed.value - 1.0) * math.copysign(1.0, together.value - 1.0) > placed.within(_PATTERNS_QUANTILE)
     if agrees and abs(together.value - 1.0) > PLAY + expanded:
@@ -111,14 +116,16 @@ def pooled(scales: Sequence[Scale]) -> Scale:
     return Scale(value, float(weight.sum() ** -0.5), freedom)
 
 
-def doubted_scale_error(group: SeenGroup) -> float:
-    """Relative standard uncertainty of the lengths of a scan, with what its own points speak against them.
+def doubted_scale_error(group: SeenGroup, others: Sequence[SeenGroup] = ()) -> float:
+    """Relative standard uncertainty of the lengths of a scan, with what speaks against them: it, and ``others``.
 
-    A scan whose pattern, with its bores, is likelier to have been made with wrong intrinsics than with right ones may
-    have been: what it would be off then counts by the probability of that (Bayes' rule, the prior is ours).
+    A scan whose pattern, with its bores and other scans of the camera, is likelier to have been made with wrong
+    intrinsics than with right ones may have been: what it would be off then counts by the probability of that (Bayes'
+    rule, the prior is ours).
     """
-    scales = [scale for scale in (pattern_scale(group), bore_scale(group)) if scale is not None]
-    if not scales or pattern_scale(group) is None:
+    told = [(pattern_scale(one), bore_scale(one)) for one in (group, *others)]
+    scales = [scale for both in told for scale in both if scale is not None]
+    if told[0][0] is None:
         return group.scale_error
     together = pooled(scales)
     off, variance = together.value - 1.0, together.u**2 + PLAY**2
@@ -152,12 +159,15 @@ def pattern_scale(group: SeenGroup) -> Scale | None:
     )
     freedom = 2 * len(pairs) - 4 + _PRIOR_WEIGHT
     variance = (float((left**2).sum()) + _PRIOR_WEIGHT * USUAL_SCATTER_MM**2) / freedom
-    return Scale(abs(factor), math.hypot(math.sqrt(variance / spread), group.scale_error), freedom)
+    return Scale(abs(factor), math.hypot(math.sqrt(variance / spread), group.scale_error, _ALONG_VIEW), freedom)
 
 
 def bore_scale(group: SeenGroup) -> Scale | None:
-    """Scale of the bores of sleeves against the design; None for bars, whose cores differ by more than cameras do."""
-    if group.kind is not Kind.SLEEVE:
+    """Scale of the bores of sleeves against the design, by a method that states what its diameters are off together.
+
+    None for bars, whose cores differ by more than cameras do.
+    """
+    if group.kind is not Kind.SLEEVE or group.extraction.method != "refined":
         return None
     told = bore_against_design(group)
     return None if told is None else Scale(told.value, told.u, math.inf)
