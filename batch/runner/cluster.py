@@ -192,7 +192,7 @@ class RemoteWorkers:
 
     def _nannies_say(self, address: str) -> Iterator[str]:
         host = address.rpartition(":")[0]
-        with contextlib.suppress(*GONE):
+        with contextlib.suppress(*GONE, KeyError):
             there = self._client.scheduler_info(n_workers=-1)["workers"]
             near = [other for other in there if other.rpartition(":")[0] == host]
             logs = self._client.get_worker_logs(workers=near, nanny=True) if near else {}

@@ -104,7 +104,7 @@ class DaskPool:
         worker.place, worker.began = place, monotonic()
         try:
             worker.input = None if self._ship is None else self._sent(self._ship(task), name)
-        except GONE:
+        except (*GONE, _closed()):
             # It can no longer be reached, which is as good as dead; then it is seen to be gone.
             self._keeper.kill(name, worker.known.pid if worker.known else 0)
             return
@@ -141,7 +141,7 @@ class DaskPool:
         """Take back what is still being worked on, and the logs of workers that are left."""
         futures = [worker.future for worker in self._workers.values() if worker.place is not None]
         logs = [worker.known.log for worker in self._workers.values() if worker.known]
-        with contextlib.suppress(*GONE):
+        with contextlib.suppress(*GONE, _closed()):
             if futures:
                 self._client.cancel(futures, force=True)
         for path in logs:
@@ -151,7 +151,11 @@ class DaskPool:
         # Dask keeps something for each kind of key, which it takes from its first part.
         self._number += 1
         key = (f"aadm-{self._run}", self._number)
-        future = self._client.submit(*call, workers=[address], allow_other_workers=False, pure=False, key=key)
+        where = {"workers": [address], "allow_other_workers": False}
+        try:
+            future = self._client.submit(*call, **where, pure=False, key=key)
+        except _closed() as error:
+            raise AadmError.because("run.scheduler_gone") from error
         future.add_done_callback(lambda done: self._ended.put((address, done)))
         return future
 
@@ -242,7 +246,7 @@ class DaskPool:
     def _dropped(self, worker: _Worker) -> list[Ended]:
         """Forget a worker that died; its task, where it had one, died with it."""
         self._workers.pop(worker.address, None)
-        with contextlib.suppress(*GONE, AttributeError):
+        with contextlib.suppress(*GONE, AttributeError, _closed()):
             worker.future.cancel(force=True)
         if worker.place is None or worker.known is None:
             self._log(f"{worker.address}: gone, with nothing to do")
@@ -295,4 +299,10 @@ class DaskPool:
 
 def _killed_worker() -> type[BaseException]:
     kind: type[BaseException] = import_module("distributed").KilledWorker
+    return kind
+
+
+def _closed() -> type[BaseException]:
+    """What a client raises that has given up its scheduler and is asked for more."""
+    kind: type[BaseException] = import_module("distributed.client").ClosedClientError
     return kind

@@ -194,16 +194,6 @@ def test_watch_says_its_last_state_as_json(folder: Path, capsysbinary: pytest.Ca
     assert len(state["running"]["pairs"]) == 12
 
 
-def test_watch_without_a_frame_has_no_state_to_say(
-    folder: Path, tmp_path: Path, capsysbinary: pytest.CaptureFixture[bytes]
-) -> None:
-    options = ["--column", "L-1", "--present", "--seconds", "0.1", "--json"]
-    assert main(["watch", str(folder / "job.toml"), str(tmp_path), *options]) == 13
-    said = capsysbinary.readouterr()
-    assert said.out == b""
-    assert b"Traceback" not in said.err
-
-
 def moved_by(found: HoistingMeasurement, shift_mm: float) -> HoistingMeasurement:
     """The measurement of the same column, displaced along x: its correction and offsets follow."""
     assert found.report.correction is not None

@@ -147,8 +147,19 @@ class LostClient:
         return {"type": "Scheduler", "id": "none"}
 
 
-def test_a_client_that_has_lost_its_scheduler_says_so(tmp_path: Path) -> None:
-    lost = cluster_of_dask.Cluster(LostClient(), cluster_of_dask.RemoteWorkers(LostClient()))
+class ClosedClient:
+    """A client of Dask that has given up its scheduler: it remembers a worker, and sends nothing any more."""
+
+    def scheduler_info(self, n_workers: int) -> dict[str, dict[str, str]]:
+        return {"workers": {"tcp://127.0.0.1:1": ""}}
+
+    def submit(self, *call: object, **where: object) -> None:
+        raise pytest.importorskip("distributed.client").ClosedClientError("Client is closed.")
+
+
+@pytest.mark.parametrize("client", [LostClient(), ClosedClient()])
+def test_a_client_that_has_lost_its_scheduler_says_so(tmp_path: Path, client: LostClient | ClosedClient) -> None:
+    lost = cluster_of_dask.Cluster(client, cluster_of_dask.RemoteWorkers(client))
     with pytest.raises(AadmError, match="the scheduler of Dask is gone; look at its own messages"):
         DaskPool(lost, Terms(tmp_path, tmp_path), ship=None, say=print, log=print)
 

@@ -21,7 +21,6 @@ import numpy as np
 from aadm_workbench.assembly.findings.diameters import diameter_findings
 from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.findings.scale import scale_findings
-from aadm_workbench.assembly.findings.views import bend_findings, profile_findings
 from aadm_workbench.assembly.matching.match import FAR_FROM_DECLARED
 from aadm_workbench.assembly.pose.eopa import wrap
 from aadm_workbench.extract.copied_pixels import COPIED
@@ -53,6 +52,9 @@ _LEAN_SIGMAS_OF_BOTH, _LEAN_SIGMAS_OF_EACH, _LEAN_SIGMAS_APART = 4.0, 1.5, 3.0
 _LEAST_INFORMATION = 1.0  # of a lean of which nothing is seen: it may be anything
 _SHARED_DEG = {Kind.SLEEVE: 0.15, Kind.REBAR: 0.3}  # what all leans of one scan may be off together
 _ALIKE = 0.35  # of the larger: so much two scans of one camera may differ in
+_OFF_PIXELS = 0.5
+"""Of the edges of mouths: on four ray-cast cameras -0.4 to 0.1 with their own profile, 0.6 to 1.3 where a ring of
+pixels was dropped that the profile did not know, or the reverse."""
 
 
 def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Finding, ...]:
@@ -246,3 +248,27 @@ def _of_bores(leans: Array, covariances: Array) -> _Shear:
     # What scatters by more than it should is less sure, by as much.
     misfit = float(np.einsum("ki,kij,kj->", off, np.linalg.inv(apart), off)) / (2.0 * len(lean) - 2.0)
     return _Shear(middle.value, middle.covariance * max(1.0, misfit), len(lean))
+
+
+def profile_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
+    """A camera whose edges are not those of the profile that the job names."""
+    for group in groups:
+        off = group.extraction.quality.get("learned_edges_off_pixels")
+        if isinstance(off, float) and abs(off) > _OFF_PIXELS:
+            name = group.kind.plural
+            yield make_finding("profile_differs", [name], group=name, off_pixels=off)
+
+
+def bend_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
+    """A camera whose bend goes with it from view to view, and is more than the stated uncertainty leaves open."""
+    for group in groups:
+        quality = group.extraction.quality
+        if "camera_bend_stated_u_mm" in quality:
+            yield make_finding(
+                "camera_bends",
+                [group.kind.plural],
+                group=group.kind.plural,
+                bend_mm=quality["camera_bend_mm"],
+                u_mm=quality["camera_bend_u_mm"],
+                stated_u_mm=quality["camera_bend_stated_u_mm"],
+            )

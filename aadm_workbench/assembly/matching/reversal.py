@@ -21,9 +21,11 @@ from aadm_workbench.assembly.matching.match import Match
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray
 
 _TOLD_MM = 0.1  # at the edge of what is seen: what is known worse tells nothing of a camera that is to be right to that
+_LEAST_NOISE_MM = 1e-4  # the same scan twice scatters not at all
 _HALF = 0.5  # of a term that lies in what is told
 _CHANCE = 1e-3  # of sound captures so few show a bend; a floor of a thousand columns has one
 _FEWEST_SHARED = 4  # points in two captures: a pose takes three of their coordinates
+_LEAST_NOISE_MM = 1e-4  # what files round centres to: no noise at all is no reason to be sure of everything
 _TERMS = ("stretch", "stretch", *["keystone"] * 6, "radial")
 """Of the field, in the order of :func:`_terms`."""
 
@@ -156,7 +158,7 @@ def _solved(views: Sequence[CameraView], shared: IntArray) -> Reversal | None:
     freedom = len(seen) - int(np.linalg.matrix_rank(design))
     if freedom < 1:
         return None
-    noise_mm = max(float(np.sqrt(_left(design, seen) / freedom)), 1e-4)
+    noise_mm = max(float(np.sqrt(_left(design, seen) / freedom)), _LEAST_NOISE_MM)
     told, u_told = _told(design[:, :free], design[:, free:], noise_mm)
     if told.shape[1] == 0:
         return None

@@ -13,7 +13,7 @@ from aadm_workbench.calibration.learn.stretch import Stretches, wider_for
 from aadm_workbench.calibration.plate.plate import Plate
 from aadm_workbench.model import CameraProfile, IntArray, Kind, LearnedEdges, Measure
 
-_UNKNOWN = Measure(0.0, 0.0)
+_UNKNOWN = Measure(0.0, 0.0)  # nothing is taken off, and nothing added
 
 
 def by_discs(capture: PlateCapture, plate: Plate, losses: Losses) -> PlateCapture:

@@ -28,7 +28,7 @@ ENDSEC;
 DATA;
 """
 
-_UP, _X = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
+_UP, _X = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)  # axes of the drawing, unit vectors
 
 
 def plate_step(plate: Plate) -> str:

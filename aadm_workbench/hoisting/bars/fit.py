@@ -7,7 +7,7 @@ the centre of the top.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -42,7 +42,10 @@ _LAST_SHARE = 0.6  # of a step: the law is so steep inwards that whole ones go b
 _INWARDS_MM = 1.0  # ribs only stand outwards: what lies farther inside of the core is a stray
 # of a window, evenly taken: half of them are the side's; where it is known already, fewer find 300 of them
 _PIXELS, _TRACKED_PIXELS = 4_000, 2_000
-_TAKEN, _TRACKED_TAKEN = 1_500, 750  # of these pixels: neighbours share their errors, but single ones are not to decide
+_TAKEN = 1_500  # of these pixels: neighbours share their errors, but single ones are not to decide
+_APPROACHED_WITH = (
+    400  # points of a side, about, until a bar that is followed is nearly where it is: all decide in the end
+)
 _POINTS_MAX = 300  # points of a side tell as much as there are errors of their own among them
 _FEWEST = 40  # points of a side (a choice: ±30 % moves nothing on sound scans)
 # neighbouring points of a side share their errors: standard errors are this much larger; a choice: ±30 % changes what
@@ -102,6 +105,10 @@ class _Side:
     view: Array
     top_mm: float
 
+    def thinned(self, nth: int) -> _Side:
+        """Every ``nth`` of its points."""
+        return replace(self, points=self.points[:: max(nth, 1)], view=self.view[:: max(nth, 1)])
+
 
 def fit_bars(
     frame: HoistingFrame,
@@ -136,8 +143,8 @@ def fit_bars(
         state.pooled[:], state.own[:, 2:] = before.state.pooled, before.state.own[:, 2:]
     if starts is not None:
         state.own[:, :2] = np.where(np.isfinite(starts), starts, state.own[:, :2])
-    most = (_PIXELS, _TAKEN) if before is None else (_TRACKED_PIXELS, _TRACKED_TAKEN)
-    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2, most) for centre in state.centres]
+    pixels = _PIXELS if before is None else _TRACKED_PIXELS
+    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2, pixels) for centre in state.centres]
     # nothing pushes the side of a bar along the view: held at none
     sigma = np.tile([_LEAN_SIGMA, _LEAN_SIGMA, 1e-4, _OWN_RADIUS_MM], (len(sides), 1))
     believed = Believed(np.array([nominal_mm]), np.array([_RADIUS_SIGMA_MM]), sigma, np.zeros((len(sides), OWN - 2)))
@@ -145,6 +152,8 @@ def fit_bars(
     law = _law(_NOISE_MM if before is None else before.noise_mm)
     if before is None:
         state, law = _settled(sides, state, pattern, believed, law)
+    else:
+        state = _approached(sides, state, pattern, believed, law)
     terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
     pattern = as_built(loosened(pattern, state), state, counts >= _FEWEST)
     for _ in range(_LAST_ROUNDS):
@@ -191,6 +200,19 @@ def _settled(
     return state, law
 
 
+def _approached(
+    sides: list[_Side | None], state: State, pattern: Pattern, believed: Believed, law: BracketLaw
+) -> State:
+    """The state, nearly, to which the sides of bars settle that are followed: some of their points tell it."""
+    some = [None if side is None else side.thinned(len(side.points) // _APPROACHED_WITH) for side in sides]
+    for _ in range(_LAST_ROUNDS):
+        terms, _, _ = _terms(some, state, _BANDS_MM[-1], law)
+        state, step_mm = _system(terms, loosened(pattern, state), believed, state).stepped(state, _LAST_SHARE)
+        if step_mm < _SETTLED_MM:
+            break
+    return state
+
+
 def _system(terms: Terms, pattern: Pattern, believed: Believed, state: State) -> System:
     system = _own_system(terms, believed, state)
     system.add_pattern(pattern, state)
@@ -206,7 +228,7 @@ def _own_system(terms: Terms, believed: Believed, state: State) -> System:
 
 
 def _side(
-    frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float, most: tuple[int, int]
+    frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float, most: int
 ) -> _Side | None:
     """What is seen of a bar about a place; None where nothing is, or it is out of the picture."""
     reach = radius_mm + _BANDS_MM[0]
@@ -227,10 +249,10 @@ def _side(
     if (high - low < 3).any():
         return None
     # by what is not rounded, and from fixed rows and columns: which pixels are taken hangs on no hair's breadth
-    step = max(1, int(np.sqrt(np.prod(np.ptp(pixels, axis=0)) / most[0])))
+    step = max(1, int(np.sqrt(np.prod(np.ptp(pixels, axis=0)) / most)))
     low -= low % step
     points = frame.points[low[1] : high[1] : step, low[0] : high[0] : step]
-    nth = max(1, int(step**-2 * np.prod(np.ptp(pixels, axis=0)) / most[1]))
+    nth = max(1, int(step**-2 * np.prod(np.ptp(pixels, axis=0)) / _TAKEN))
     kept = _borne(points[..., 2]) & _every(nth, points)
     local = axes.local(points[kept].astype(np.float64))
     near = np.hypot(*(local[:, :2] - centre).T) < reach

@@ -18,8 +18,9 @@ _SMALLER = (1.0, 0.85, 0.7, 0.58)  # of the wanted size; four units at the least
 _FURTHER = (0.0, 3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0)  # beyond the nearest place, units of the drawing
 _LED = 7.0  # from there on a line leads from the point to its name
 _SHORTEST_LINE = 3.0  # one that is seen to lead somewhere
-# from the wanted direction, alternately to either side: twelve ways round, twice as many where a line leads
+# from the wanted direction, alternately to either side: twelve ways round
 _TURNS_DEG = (0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)
+# twice as many where a line leads: far from a point, what is free is narrow
 _FINE_TURNS_DEG = (*_TURNS_DEG, 15, -15, 45, -45, 75, -75, 105, -105, 135, -135, 165, -165)
 _CLEARLY = 1.0  # units: by so much nearer a name is to its point than to another, or a line leads to it
 _GAP = 0.8  # units: between any two things

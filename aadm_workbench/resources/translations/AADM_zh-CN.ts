@@ -792,7 +792,7 @@
   </message>
   <message>
    <source>as in the job</source>
-   <translation>按作业文件</translation>
+   <translation>按任务文件</translation>
   </message>
   <message>
    <source>hold here</source>

@@ -1,0 +1,21 @@
+"""What views say of their camera: one that bends, one that is not that of its profile, and one that is sound."""
+
+from dataclasses import replace
+
+from tests.assembly.test_findings import found_in, group, square
+
+
+def test_a_camera_that_bends_or_is_not_that_of_its_profile_is_told() -> None:
+    sound = group(square())
+    seen = {
+        "camera_bends": {"camera_bend_mm": 0.3, "camera_bend_u_mm": 0.03, "camera_bend_stated_u_mm": 0.06},
+        "profile_differs": {"learned_edges_off_pixels": -0.8},
+    }
+    for code, quality in seen.items():
+        told = replace(sound, extraction=replace(sound.extraction, quality={**sound.extraction.quality, **quality}))
+        (found,) = found_in(told)
+        assert found.code == code
+        assert found.holds_back
+    quiet = {"camera_bend_mm": 0.03, "camera_bend_u_mm": 0.02, "learned_edges_off_pixels": 0.3}
+    told = replace(sound, extraction=replace(sound.extraction, quality={**sound.extraction.quality, **quiet}))
+    assert found_in(told) == []
