@@ -95,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
         if journal.put_aside:
             say(f"an unfinished check lay in {folder}; its results are in {PREVIOUS_NAME} (--resume goes on with such)")
         try:
-            with ShownCheck(events, quiet=options.quiet) as shown:
+            with ShownCheck(events, quiet=options.quiet, language=options.language or "en") as shown:
                 run_options = RunOptions(options.method, tuple(options.only), pool_options(options), options.verify)
                 done = run_job(job, run_options, shown, journal, folder)
         except (AadmError, KeyboardInterrupt) as stop:

@@ -106,7 +106,7 @@ def _checked(path: Path, options: argparse.Namespace) -> list[JobReport]:
 
     reports = []
     for job in captures_of(read_job(path)):
-        with ShownCheck(Events(None), quiet=options.quiet or options.json) as shown:
+        with ShownCheck(Events(None), quiet=options.quiet or options.json, language=options.language) as shown:
             report = run_job(job, RunOptions(), shown).report
             # The columns are looked at again and again, so they are all made at once.
             reports.append(replace(report, columns=tuple(report.columns)))

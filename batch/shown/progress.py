@@ -18,6 +18,7 @@ from typing import IO, Any
 
 from aadm_workbench.errors import JobError
 from aadm_workbench.model import Verdict
+from aadm_workbench.model.reason import Language
 
 from ..runner.engine import Death
 from ..runner.record import Record
@@ -34,17 +35,18 @@ STDOUT = "-"
 class StepProgress(ExitStack):
     """Counts steps as they are finished; ``quiet`` shows nothing. ``doing`` is shown until the first one is."""
 
-    def __init__(self, doing: str, *, quiet: bool) -> None:
+    def __init__(self, doing: str, *, quiet: bool, language: Language = "en") -> None:
         super().__init__()
         self._doing = doing
         self._quiet = quiet
+        self._language = language
         self._say: Step = say
 
     def start(self, total: int) -> Step:
         """Begin to count; what is returned is to be called after each step with what it was."""
         if self._quiet:
             return lambda step: None
-        return self._bar(total) if sys.stderr.isatty() else _lines(total)
+        return self._bar(total) if sys.stderr.isatty() else _lines(total, self._language)
 
     def message(self, text: str) -> None:
         """Show a line that is no step, above a bar where there is one."""
@@ -73,7 +75,7 @@ class StepProgress(ExitStack):
 
         def finished(step: str) -> None:
             pace.step()
-            bar.update(task, advance=1, description=step, pace=pace.in_words())
+            bar.update(task, advance=1, description=step, pace=pace.in_words(self._language))
 
         return finished
 
@@ -81,9 +83,10 @@ class StepProgress(ExitStack):
 class ColumnProgress(ExitStack):
     """Counts columns as they are finished, and those that failed or ended in an error; ``quiet`` shows nothing."""
 
-    def __init__(self, *, quiet: bool) -> None:
+    def __init__(self, *, quiet: bool, language: Language) -> None:
         super().__init__()
-        self._steps = self.enter_context(StepProgress("checking", quiet=quiet))
+        self._language = language
+        self._steps = self.enter_context(StepProgress(self._word("checking"), quiet=quiet, language=language))
         self._bad = {Verdict.FAIL: 0, Verdict.ERROR: 0}
 
     def start(self, total: int) -> Callable[[str, str, bool], None]:
@@ -94,7 +97,9 @@ class ColumnProgress(ExitStack):
             word = Verdict(verdict)
             if word in self._bad:
                 self._bad[word] += 1
-            finished(f"{name}: {in_words(word)}{' (kept)' if kept else ''}{self._so_far()}")
+            colon = ": " if self._language == "en" else "："
+            said = f"{name}{colon}{in_words(word, self._language)}"
+            finished(f"{said}{self._word('kept') if kept else ''}{self._so_far()}")
 
         return step
 
@@ -103,17 +108,26 @@ class ColumnProgress(ExitStack):
         self._steps.message(text)
 
     def _so_far(self) -> str:
-        failed, errors = self._bad[Verdict.FAIL], self._bad[Verdict.ERROR]
-        said = [f"{failed} failed"] * bool(failed) + [f"{errors} error{'s' * (errors > 1)}"] * bool(errors)
-        return f" [{', '.join(said)} so far]" if said else ""
+        bad = [(word.value, number) for word, number in self._bad.items() if number]
+        said = [self._word(f"{word}{'s' * (number > 1)}", number=number) for word, number in bad]
+        return self._word("so_far", said=(", " if self._language == "en" else "，").join(said)) if said else ""
+
+    def _word(self, name: str, /, **values: object) -> str:
+        return _worded(name, self._language, **values)
 
 
-def _lines(total: int) -> Step:
+def _worded(name: str, language: Language, /, **values: object) -> str:
+    from aadm_workbench.report.words.labels import phrase
+
+    return phrase(f"progress.{name}", **values).in_language(language)
+
+
+def _lines(total: int, language: Language) -> Step:
     pace = Pace(total)
 
     def finished(step: str) -> None:
         pace.step()
-        ahead = pace.in_words()
+        ahead = pace.in_words(language)
         say(f"{pace.done}/{total} {step}{f' ({ahead})' if ahead else ''}")
 
     return finished
@@ -142,13 +156,14 @@ class Pace:
         rate = self.per_second()
         return None if rate is None else (self.total - self.done) / rate
 
-    def in_words(self) -> str:
+    def in_words(self, language: Language = "en") -> str:
         """``3.2/s, 1 min 22 s left``; empty before the first step and after the last."""
         rate, left = self.per_second(), self.seconds_left()
         if rate is None or left is None or self.done >= self.total:
             return ""
-        speed = f"{rate:.1f}/s" if rate >= 1.0 else f"{1.0 / rate:.1f} s each"
-        return f"{speed}, {duration(left)} left"
+        each = _worded("each", language, seconds=f"{1.0 / rate:.1f}")
+        speed = f"{rate:.1f}/s" if rate >= 1.0 else each
+        return _worded("left", language, speed=speed, duration=duration(left))
 
 
 def duration(seconds: float) -> str:
@@ -164,10 +179,11 @@ def duration(seconds: float) -> str:
 class ShownCheck(ExitStack, Follower):
     """Shows how a check goes, to a person unless ``quiet``, and to a program where there are ``events``."""
 
-    def __init__(self, events: Events, *, quiet: bool) -> None:
+    def __init__(self, events: Events, *, quiet: bool, language: Language = "en") -> None:
         super().__init__()
         self._events = events
-        self._progress = self.enter_context(ColumnProgress(quiet=quiet))
+        self._language = language
+        self._progress = self.enter_context(ColumnProgress(quiet=quiet, language=language))
         self._step: Callable[[str, str, bool], None] = lambda name, verdict, kept: None
         self._pace = Pace(0)
         self._verdicts: dict[str, int] = {}
@@ -198,8 +214,8 @@ class ShownCheck(ExitStack, Follower):
 
     def lost(self, name: str, death: Death, tries_left: int) -> None:
         """The process that checked a column died."""
-        then = "it is tried again later" if tries_left else "it is given up"
-        self._progress.message(f"{name}: the process that checked it was {death.cause}; {then}")
+        word = "lost_tried_again" if tries_left else "lost"
+        self._progress.message(_worded(word, self._language, name=name, cause=death.cause))
         self._events.send("lost", id=name, cause=death.cause, last_words=death.last_words, tries_left=tries_left)
 
     def message(self, text: str) -> None:

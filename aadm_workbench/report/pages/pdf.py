@@ -142,7 +142,7 @@ def _forbidden(report: JobReport, finding: Finding, language: Language) -> Itera
     yield paragraph(
         line, WIDTH, 10.5, bold=True, colour=COLOUR[column.verdict], after=1.0, link=finding.anchor, keep=True
     )
-    more = f" (+{finding.more})" if finding.more else ""
+    more = phrase("shown.more", number=finding.more).in_language(language) if finding.more else ""
     for k, reason in enumerate(finding.key_reasons):
         last = more if k == len(finding.key_reasons) - 1 else ""
         yield paragraph(reason.in_language(language) + last, WIDTH, 9.0, indent=8.0, after=0.0, keep=True)
