@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from aadm_workbench.model import UP_DEG
-
 from .table import JobTable, is_finite_number
 
 NEAR = {"+x+y": (1, 1), "-x+y": (-1, 1), "-x-y": (-1, -1), "+x-y": (1, -1)}
@@ -15,8 +13,10 @@ NEAR = {"+x+y": (1, 1), "-x+y": (-1, 1), "-x-y": (-1, -1), "+x-y": (1, -1)}
 def up_deg(table: JobTable, key: str) -> float | None:
     """The column-frame direction at the top of the image, degrees from +x, counter-clockwise from above.
 
-    Written as one of :data:`UP_DEG`, or as the number itself.
+    Written as one of :data:`aadm_workbench.model.UP_DEG`, or as the number itself.
     """
+    from aadm_workbench.model import UP_DEG
+
     value = table.values.get(key)
     if value is None:
         return None
