@@ -21,8 +21,8 @@ from pathlib import Path
 
 from batch.exit_codes import BAD_USAGE, INTERNAL
 
-_ROOM_BYTES = 40_000  # for some columns more, before the disk is full
-_COLUMNS_MORE = 2  # are checked before the scheduler dies
+_COLUMNS_MORE = 1  # are checked before the disk is full, and before the scheduler dies: each fault needs one to meet
+_ROOM_FOR = 1.5  # columns: room for those, and not for a further one
 _POLL_S = 0.01
 _START_S, _END_S = 120.0, 300.0  # until a scheduler is there, and until a check has noticed; a crowded machine has time
 
@@ -55,7 +55,8 @@ def meet_faults(command: list[str], job: Path, kept: Callable[[], int]) -> Fault
     """Let a check meet each fault in turn; ``kept`` counts the columns that have a result."""
     faults = Faults()
     journal = job.parent / "job-report" / "journal.jsonl"
-    most_bytes = journal.stat().st_size + _ROOM_BYTES
+    written = journal.stat().st_size
+    most_bytes = written + int(_ROOM_FOR * _COLUMNS_MORE * written / kept())
     full = _ended(command, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, most_bytes)))
     faults.note("full disk", *full, "the results so far cannot be kept")
     with _cluster(job.parent, []) as (address, scheduler):

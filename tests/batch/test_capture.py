@@ -189,7 +189,7 @@ def test_a_camera_that_goes_away_withdraws_ready_and_comes_back(job: Path, tmp_p
         watcher.run(wait=lambda _: None)
     assert opened == ["gentl:x", "closed", "gentl:x", "closed"]
     assert (watcher.frames, watcher.bad_frames) == (2, 1)
-    assert "went away" in said[0]
+    assert any("went away" in line for line in said)
 
 
 def test_capture_writes_one_frame_or_several_and_never_over_another(tmp_path: Path, capsys: Any) -> None:
