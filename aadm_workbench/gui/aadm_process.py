@@ -103,7 +103,8 @@ class AadmProcess(QtCore.QObject):
         if error == QtCore.QProcess.FailedToStart:
             program = self._process.program()
             self.said.emit(translate("AADM", "{program} cannot be run; look at the settings").format(program=program))
-            self._end(CANCELLED)
+            # Whoever hears of the end may let go of the process, which is still in the midst of saying this.
+            QtCore.QTimer.singleShot(0, lambda: self._end(CANCELLED))
 
     def _end(self, code: int) -> None:
         if not self._over:

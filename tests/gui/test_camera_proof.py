@@ -1,7 +1,5 @@
 """The panel in which a camera proves itself, in the real window: a plate is drawn, a profile is shown, used, left."""
 
-import sys
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -9,6 +7,7 @@ import pytest
 from aadm_workbench.model import Camera, CameraProfile, Kind, LearnedEdges, Measure
 from aadm_workbench.scan.camera_profile import profile_text
 from tests.conftest import ROOT, FreeCADRunner
+from tests.freecad_environment import with_environment
 
 pytestmark = pytest.mark.freecad
 
@@ -17,7 +16,6 @@ import time
 from pathlib import Path
 import FreeCAD, FreeCADGui as Gui
 from PySide import QtGui
-FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/AADM").SetString("AadmProgram", PROGRAM)
 QtGui.QFontDatabase.addApplicationFont(FONT)
 Gui.setLocale(LOCALE)
 Gui.activateWorkbench("AADMWorkbench")
@@ -77,6 +75,14 @@ result["used"] = panel.in_use.text()
 picture("learned.png")
 panel.use("")
 result["left"] = panel.in_use.text()
+program = folder / "not a program"
+program.write_bytes(b"no program")
+program.chmod(0o755)
+FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/AADM").SetString("AadmProgram", str(program))
+panel.pages.setCurrentIndex(0)
+panel.start()
+result["free_again"] = spin(lambda: panel.start_button.isEnabled(), 120)
+result["said_by_no_program"] = said()
 """
 
 
@@ -89,9 +95,7 @@ def found(window: FreeCADRunner, locale: str) -> dict[str, Any]:
     )
     (window.folder / "camera-0042.toml").write_text(profile_text(profile))
     font = str(ROOT / "aadm_workbench" / "resources" / "fonts" / "wqy-microhei-subset.ttf")
-    program = str(Path(sys.executable).with_name("aadm"))
-    given = f"PROGRAM, FONT, LOCALE = {program!r}, {font!r}, {locale!r}\n"
-    return window.run(given + BODY, timeout_s=500.0)
+    return with_environment(window).run(f"FONT, LOCALE = {font!r}, {locale!r}\n{BODY}", timeout_s=500.0)
 
 
 def test_a_plate_is_drawn_and_a_profile_is_used_and_left(freecad_window: FreeCADRunner) -> None:
@@ -108,6 +112,9 @@ def test_a_plate_is_drawn_and_a_profile_is_used_and_left(freecad_window: FreeCAD
     assert "scale: +500 ± 30 µm/m" in seen["learned"]
     assert "camera-0042.toml" in seen["used"]
     assert seen["left"] == seen["unused"] == "Checks use no profile of a camera."
+    assert seen["free_again"]
+    assert len(seen["said_by_no_program"]) == 1
+    assert "not a program" in seen["said_by_no_program"][0]
 
 
 def test_it_speaks_chinese(freecad_window: FreeCADRunner) -> None:
