@@ -17,7 +17,8 @@ from pathlib import Path
 import FreeCAD, FreeCADGui as Gui
 from PySide import QtGui
 QtGui.QFontDatabase.addApplicationFont(FONT)
-Gui.setLocale(LOCALE)
+for name in (LOCALE, LOCALE.replace(" Simplified", " (Simplified)")):  # FreeCAD 1.1 calls it otherwise
+    Gui.setLocale(name)
 Gui.activateWorkbench("AADMWorkbench")
 
 def spin(until, limit_s):
