@@ -15,7 +15,7 @@ def add_reversal(parser: argparse.ArgumentParser) -> None:
         "captures", type=Path, nargs="+", metavar="JOB", help="jobs (.toml), or reports of checks (.json)"
     )
     add_switches(parser, prints_json="what was found")
-    parser.set_defaults(run=_run, by="job")
+    parser.set_defaults(run=_run, by="job", language="en")
 
 
 def _run(options: argparse.Namespace) -> int:

@@ -68,11 +68,12 @@ def test_one_capture_is_no_reversal() -> None:
 
 @pytest.mark.parametrize("times", [1, 2])
 def test_the_command_says_what_reports_tell(times: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """One report holds nothing twice; the same one twice shows no bend, and tells no more of a scale than any."""
+    """One report holds nothing twice; its job beside it is the same capture, and shows no bend."""
     main(["simulate", "pair", "--setting", "lab", "--out", str(tmp_path / "pair"), "--seed", "3", "--quiet"])
     main(["check", str(tmp_path / "pair" / "job.toml"), "--out", str(tmp_path / "out"), "--quiet"])
     capsys.readouterr()
-    code = main(["camera", "reversal", *[str(tmp_path / "out" / "report.json")] * times])
+    captures = [tmp_path / "out" / "report.json", tmp_path / "pair" / "job.toml"][:times]
+    code = main(["camera", "reversal", *map(str, captures)])
     printed = capsys.readouterr()
     if times == 1:
         assert code == 2

@@ -14,10 +14,8 @@ from aadm_workbench.model import Array
 _DEPTH_MM = (2.0, 14.0)  # behind a chamfer, and before light has bounced twice
 _FACING = 0.6  # cosine: walls seen along are mixed ones
 _FEWEST = 9  # points of a bore: of fewer a median is any of them
-_OWN_U_MM, _SHARED_U_MM = (
-    0.12,
-    0.06,
-)  # of one bore, and of all: bores of 30 scans of three cameras, with rings lost or not
+# of one bore, and of all: bores of 30 scans of three cameras, with rings lost or not
+_OWN_U_MM, _SHARED_U_MM = 0.12, 0.06
 
 
 def view_by_walls(walls: Walls, centre: Array, slope: Array, radius_mm: float) -> tuple[float, float] | None:
