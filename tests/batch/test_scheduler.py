@@ -4,6 +4,7 @@ import contextlib
 import hashlib
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -95,7 +96,8 @@ def test_the_same_report_by_path_and_by_content(cluster: Cluster, job: Path) -> 
     here = report(job, "here")
     assert report(job, "there", "--scheduler", cluster.address) == here
     log = (job.parent / "there" / "workers.log").read_text("utf-8")
-    assert log.count(" is ready") == 2
+    # Each of the two, once or again: on a busy machine a worker may be lost and met a second time.
+    assert len(set(re.findall(r"process (\d+) on .+ is ready", log))) == 2
     assert report(job, "shipped", "--scheduler", cluster.address, "--ship-inputs") == here
     # Nothing is left of what was shipped, nor of what was written on the way.
     assert not list(cluster.folder.rglob("*.ply"))
