@@ -10,7 +10,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any, TypeVar
 
 from aadm_workbench.inspection.job import Job
-from aadm_workbench.model.made import Made
+from aadm_workbench.model.reports import Made
 
 Part = TypeVar("Part")
 
