@@ -12,6 +12,12 @@ import numpy.typing as npt
 from aadm_workbench.model.camera import Camera, CameraProfile
 from aadm_workbench.model.verdicts import Kind, Verdict
 
+TO_SIGMA = 1.4826
+"""A median of absolute deviations times this is the standard deviation of a normal law: 1/Φ⁻¹(3/4)."""
+OF_MEDIAN = 1.2533
+"""A median of n normal values scatters by this times their standard deviation over √n: √(π/2)."""
+
+
 Array: TypeAlias = np.ndarray[tuple[Any, ...], np.dtype[np.float64]]
 """Not by numpy's own name for it, which is no type to those who read annotations from numpy 2.5 on."""
 FloatArray: TypeAlias = npt.NDArray[np.floating[Any]]
