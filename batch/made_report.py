@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from aadm_workbench.inspection.job import Job
-from aadm_workbench.model.reports import Made
+from aadm_workbench.model.made import Made
 from aadm_workbench.own_files import open_to_read
 
 from .switches import exit_code_of

@@ -15,6 +15,7 @@ from aadm_workbench.extract.edges.edge_shift import (
     eroded_discs,
     shift_of_mouths,
     shift_of_rims,
+    view_by_walls,
 )
 from aadm_workbench.extract.edges.learned_edges import (
     DISC_U_PITCHES,
@@ -25,7 +26,6 @@ from aadm_workbench.extract.edges.learned_edges import (
     without_view,
 )
 from aadm_workbench.extract.edges.seen_disc import SeenDiscs, SightLines, points_alone, seen_discs
-from aadm_workbench.extract.edges.shallow_walls import view_by_walls
 from aadm_workbench.extract.foot_face import FACE_BAND_MM
 from aadm_workbench.extract.mouths import Mouths
 from aadm_workbench.extract.patches import Patches

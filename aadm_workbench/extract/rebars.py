@@ -24,9 +24,9 @@ from aadm_workbench.extract.edges.learned_edges import (
 )
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
-from aadm_workbench.extract.found_points import found_points, seen_lengths
+from aadm_workbench.extract.own_tops import TopPlanes, top_planes
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
-from aadm_workbench.extract.plane import axes_on, in_plane
+from aadm_workbench.extract.plane import axes_on, found_points, in_plane, seen_lengths
 from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw, Rims, Walls
 from aadm_workbench.extract.pooled.fit import (
     BAR_PRIORS,
@@ -39,7 +39,6 @@ from aadm_workbench.extract.pooled.fit import (
 )
 from aadm_workbench.extract.pooled.system import Priors, State
 from aadm_workbench.extract.sample import Thinned, thinned
-from aadm_workbench.extract.top_planes import TopPlanes, top_planes
 from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, Tops, burr_u_mm, tops_in, with_sides_that_lean
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Reason, Scan
 

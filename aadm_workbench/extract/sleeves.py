@@ -18,11 +18,10 @@ from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
 from aadm_workbench.extract.edges.seen_disc import sight_lines_on_face
 from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
 from aadm_workbench.extract.foot_face import FootFace, face_with_holes, level_with_rings
-from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.mouth_fits import WALL_COUNT_MIN, fit_as_learned, fit_mouths, with_unseen_edges
 from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouths_in
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
-from aadm_workbench.extract.plane import axes_on, from_plane, in_plane, turned_over
+from aadm_workbench.extract.plane import axes_on, found_points, from_plane, in_plane, seen_lengths, turned_over
 from aadm_workbench.extract.pooled.fit import PooledFit
 from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.model import (

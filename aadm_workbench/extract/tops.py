@@ -24,8 +24,8 @@ from aadm_workbench.extract.circle import (
     settled_centres,
     thinned_rows,
 )
+from aadm_workbench.extract.own_tops import TopPlanes, top_planes
 from aadm_workbench.extract.patches import Patches
-from aadm_workbench.extract.top_planes import TopPlanes, top_planes
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
 
 REACH_MM = 14.0

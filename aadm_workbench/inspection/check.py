@@ -19,7 +19,7 @@ from aadm_workbench.assembly.following import told_once
 from aadm_workbench.assembly.inspect import describe_ambiguity
 from aadm_workbench.assembly.matching.match import Match
 from aadm_workbench.assembly.place import in_column_frame
-from aadm_workbench.assembly.section.inspect import inspect_section
+from aadm_workbench.assembly.section import inspect_section
 from aadm_workbench.assembly.tolerances import rules_of_the_erected_column, sum_up
 from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.errors import JobError
@@ -45,7 +45,7 @@ from aadm_workbench.model import (
     TrialReport,
     Verdict,
 )
-from aadm_workbench.model.section import SectionReport
+from aadm_workbench.model.reports import SectionReport
 
 if TYPE_CHECKING:
     pass

@@ -1,15 +1,16 @@
-"""What report.json holds: columns, jobs."""
+"""What report.json holds: jobs, their columns, of each its section and what would have to be done for it to go on."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Any, Generic, Literal, TypeVar, overload
+from typing import Literal
 
 from aadm_workbench.model.across import MouldDrift, SettingReport
 from aadm_workbench.model.hoisting import HoistingReport
+from aadm_workbench.model.made import each
 from aadm_workbench.model.measured import Array, Vector2
 from aadm_workbench.model.results import (
     BestPose,
@@ -20,8 +21,102 @@ from aadm_workbench.model.results import (
     RuleResult,
     TrialReport,
 )
-from aadm_workbench.model.section import SectionReport
 from aadm_workbench.model.verdicts import SUMMED, Kind, Profile, Verdict
+
+
+@dataclass(frozen=True)
+class EdgeChip:
+    """A piece that is missing at an edge: ``at_mm`` of its middle along the edge, its length and its depth."""
+
+    at_mm: float
+    length_mm: float
+    depth_mm: float
+
+
+@dataclass(frozen=True)
+class SectionEdge:
+    """One edge of the foot's face, ``side`` is ``-x``, ``+x``, ``-y`` or ``+y`` of the column frame.
+
+    ``measured_mm`` is its distance from the column's axis as the sleeves give it, outwards, ``design_mm`` that by
+    design; ``turn_deg`` how it is turned against the design, counter-clockwise from above. ``seen`` is the share of the
+    edge that was seen. What was not measured is None, and ``reason`` says why.
+    """
+
+    side: str
+    design_mm: float
+    measured_mm: float | None = None
+    u_mm: float | None = None
+    turn_deg: float | None = None
+    u_turn_deg: float | None = None
+    seen: float | None = None
+    chips: tuple[EdgeChip, ...] = ()
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class SectionCorner:
+    """Where two edges would meet, column frame as the sleeves give it, mm; ``cov_mm2`` (2, 2) is its covariance."""
+
+    name: str
+    design_mm: Vector2
+    measured_mm: Vector2
+    cov_mm2: tuple[Vector2, Vector2]
+
+
+@dataclass(frozen=True)
+class SectionLength:
+    """A length of the section against its design, mm: ``x`` and ``y`` its sides, ``flatness`` the range of the face."""
+
+    name: str
+    design_mm: float
+    measured_mm: float | None = None
+    deviation_mm: float | None = None
+    u_mm: float | None = None
+    limit_mm: tuple[float | None, float] | None = None
+    verdict: Verdict = Verdict.NOT_ASSESSED
+    probability: float | None = None
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class PatternPlace:
+    """Where the pattern of the sleeves sits in the section against the design: ``offset_mm`` and ``turn_deg`` of it.
+
+    ``u_mm`` is the standard uncertainty of the offset per axis.
+    """
+
+    verdict: Verdict
+    offset_mm: Vector2 | None = None
+    u_mm: Vector2 | None = None
+    turn_deg: float | None = None
+    u_turn_deg: float | None = None
+    limit_mm: float | None = None
+    probability: float | None = None
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class FaceMap:
+    """Median heights, mm, of the face over its plane in square cells, rows from −y, columns from −x; None: not seen."""
+
+    cell_mm: float
+    origin_mm: Vector2
+    heights_mm: tuple[tuple[float | None, ...], ...]
+
+
+@dataclass(frozen=True)
+class SectionReport:
+    """The section of one foot. ``squareness_deg`` is by how much the angle at its corners differs from a right one."""
+
+    verdict: Verdict
+    edges: tuple[SectionEdge, ...]
+    corners: tuple[SectionCorner, ...]
+    lengths: tuple[SectionLength, ...]
+    pattern: PatternPlace
+    squareness_deg: float | None = None
+    u_squareness_deg: float | None = None
+    face: FaceMap | None = None
+    rules: tuple[RuleResult, ...] = ()
 
 
 class RepairAction(StrEnum):
@@ -116,57 +211,6 @@ class RepairReport:
     notes: tuple[str, ...] = ()
     still_fails: tuple[str, ...] = ()
     working_figure: bool = False
-
-
-Item = TypeVar("Item")
-Fact = TypeVar("Fact")
-
-
-class Made(Sequence[Item], Generic[Item]):
-    """So many items, each made by its place as often as it is asked for; what was found of all of them is kept."""
-
-    def __init__(self, count: int, make: Callable[[int], Item], facts: dict[object, list[Any]] | None = None) -> None:
-        self._count = count
-        self._make = make
-        self._facts: dict[object, list[Any]] = {} if facts is None else facts
-
-    def __len__(self) -> int:
-        return self._count
-
-    def __iter__(self) -> Iterator[Item]:
-        return map(self._make, range(self._count))
-
-    @overload
-    def __getitem__(self, place: int) -> Item: ...
-    @overload
-    def __getitem__(self, place: slice) -> Sequence[Item]: ...
-    def __getitem__(self, place: int | slice) -> Item | Sequence[Item]:
-        if isinstance(place, slice):
-            return tuple(map(self._make, range(self._count)[place]))
-        return self._make(range(self._count)[place])
-
-    def changed(self, change: Callable[[int, Item], Item], *, keeps_facts: bool) -> Made[Item]:
-        """The items, each changed by its place and itself; facts stay what they are where ``change`` leaves them."""
-        facts = self._facts if keeps_facts else None
-        return Made(self._count, lambda place: change(place, self._make(place)), facts)
-
-    def each(self, fact: Callable[[Item], Fact]) -> list[Fact]:
-        """Something small of each item, found once."""
-        if fact not in self._facts:
-            self._facts[fact] = [fact(item) for item in self]
-        return self._facts[fact]
-
-
-def changed(items: Sequence[Item], change: Callable[[int, Item], Item], *, keeps_facts: bool = False) -> Sequence[Item]:
-    """The items, each changed by its place and itself, as :meth:`Made.changed`; or all of them at once."""
-    if isinstance(items, Made):
-        return items.changed(change, keeps_facts=keeps_facts)
-    return tuple(change(place, item) for place, item in enumerate(items))
-
-
-def each(items: Sequence[Item], fact: Callable[[Item], Fact]) -> list[Fact]:
-    """Something small of each item, as :meth:`Made.each`."""
-    return items.each(fact) if isinstance(items, Made) else [fact(item) for item in items]
 
 
 LONGEST_ID = 1024

@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.model import ColumnReport, JobReport, Json, Profile
+from aadm_workbench.own_files import write_atomically
 
 if TYPE_CHECKING:
     from aadm_workbench.model.across import ShipmentReport

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import FloatArray, Reason
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.formats.pcd import STORAGES, compress
 from aadm_workbench.scan.picture import encode_tiff
 

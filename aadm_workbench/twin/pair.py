@@ -14,9 +14,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.recognise.pattern import inline_design, label_order
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Json
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.write import write_depth_tiff, write_pcd, write_ply
 from aadm_workbench.twin.camera import DEPTH_SCALE_MM, PRO_M, capture_tables
 from aadm_workbench.twin.filters import NO_FILTERS, Filters, filtered

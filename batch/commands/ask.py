@@ -28,8 +28,8 @@ def run(options: argparse.Namespace) -> int:
     """Answer."""
     import json
 
-    from aadm_workbench.atomic import write_atomically
     from aadm_workbench.errors import JobError
+    from aadm_workbench.own_files import write_atomically
 
     from ..answers import ANSWERS
 

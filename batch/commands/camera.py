@@ -157,9 +157,9 @@ def _plate_and_captures(options: argparse.Namespace, files: Sequence[Path]) -> t
 
 
 def _learn(options: argparse.Namespace) -> int:
-    from aadm_workbench.atomic import write_atomically
     from aadm_workbench.calibration.learn.learn import learned
     from aadm_workbench.calibration.learn.profile import figures_text, learned_document, profile_of
+    from aadm_workbench.own_files import write_atomically
     from aadm_workbench.report.json import encode
     from aadm_workbench.scan.camera_profile import profile_text
 

@@ -168,7 +168,7 @@ def _hand_over(
 
     ``remembered`` is what the journal knows of the report that an earlier run has written.
     """
-    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.own_files import write_atomically
     from aadm_workbench.report.json import encode
 
     from ..made_report import still_there, written

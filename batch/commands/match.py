@@ -52,8 +52,8 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _hand_over(done: MatchRun, folder: Path, options: argparse.Namespace) -> int:
-    from aadm_workbench.atomic import write_atomically
     from aadm_workbench.errors import AadmError
+    from aadm_workbench.own_files import write_atomically
     from aadm_workbench.report.json import encode, shipment_document
 
     from ..shown.match_table import match_tables

@@ -139,7 +139,7 @@ def _encoded(study: MethodStudy, *, quick: bool) -> bytes:
 
 
 def _write(study: MethodStudy, summary: bytes, folder: Path) -> list[Path]:
-    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.own_files import write_atomically
     from aadm_workbench.twin.study.files import write_tables
     from aadm_workbench.twin.study.plots import write_plots
 
@@ -205,7 +205,7 @@ def _study_hoisting(options: argparse.Namespace) -> int:
 
 
 def _write_hoisting(study: HoistingStudy, summary: bytes, folder: Path) -> list[Path]:
-    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.own_files import write_atomically
     from aadm_workbench.twin.study.hoisting_plots import write_hoisting_plots
 
     path = folder / f"{study.name}.json"

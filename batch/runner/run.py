@@ -17,7 +17,7 @@ from aadm_workbench.errors import AadmError
 from aadm_workbench.inspection.job import Job
 from aadm_workbench.inspection.tasks import ColumnTask, JobPlan, Stopwatch, chosen_columns, plan_job, report_of
 from aadm_workbench.model import ColumnReport, JobReport
-from aadm_workbench.model.reports import Made
+from aadm_workbench.model.made import Made
 from aadm_workbench.report.json import encode
 
 from ..job.inputs import Looks, looks, order_key, program_key

@@ -16,7 +16,7 @@ from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
 from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
 from aadm_workbench.extract.method import distinct_sizes
-from aadm_workbench.extract.own_diameters import OwnDiameters, own_diameters
+from aadm_workbench.extract.own_tops import OwnDiameters, own_diameters
 from aadm_workbench.model import Array, AssemblyPoint, Finding, Kind, Measure, Scan
 
 CORE_BELOW = 0.06

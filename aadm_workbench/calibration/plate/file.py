@@ -12,11 +12,11 @@ from pathlib import Path
 
 import msgspec
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.calibration.plate.plate import Place, Plate
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Kind
 from aadm_workbench.model.reason import said_of
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.file import load
 
 _NAMES = {Kind.SLEEVE: "hole", Kind.REBAR: "pin"}

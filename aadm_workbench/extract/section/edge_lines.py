@@ -1,7 +1,7 @@
 """Straight edges of a face: by where it ends in strips across them (:mod:`.strips`).
 
 A camera that mixes what a pixel sees finds the face beyond its edge, too: how far is told by how its heights scatter
-there (:mod:`.half_lit`), for all edges of a face together. A camera that drops rings of pixels at steps shows that at
+there (:mod:`.strips`), for all edges of a face together. A camera that drops rings of pixels at steps shows that at
 the mouths, whose bores are known; whether it drops them before an empty background, too, nobody can see.
 """
 

@@ -18,7 +18,7 @@ from aadm_workbench.assembly.tolerances import counted_verdict, not_assessed, ru
 from aadm_workbench.extract.section.outline import SIDES, FaceHeights, SeenEdge
 from aadm_workbench.model import Array, ColumnDesign, Profile, Reason, Rule, RuleResult, Verdict, worst
 from aadm_workbench.model.reason import in_one
-from aadm_workbench.model.section import (
+from aadm_workbench.model.reports import (
     EdgeChip,
     FaceMap,
     PatternPlace,
