@@ -18,7 +18,7 @@ from aadm_workbench.assembly.findings.of_column import Seen, with_findings
 from aadm_workbench.assembly.following import told_once
 from aadm_workbench.assembly.inspect import describe_ambiguity
 from aadm_workbench.assembly.matching.match import Match
-from aadm_workbench.assembly.place import in_column_frame
+from aadm_workbench.assembly.pairs import in_column_frame
 from aadm_workbench.assembly.section import inspect_section
 from aadm_workbench.assembly.tolerances import rules_of_the_erected_column, sum_up
 from aadm_workbench.assembly.trial.virtual import try_scans

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
-from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
+from aadm_workbench.assembly.pairs import PlacedPoint, flat_covariance
 from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
 from aadm_workbench.extract.method import distinct_sizes
 from aadm_workbench.extract.own_tops import OwnDiameters, own_diameters

@@ -10,8 +10,7 @@ import numpy as np
 
 from aadm_workbench.assembly.matching.match import Match
 from aadm_workbench.assembly.matching.symmetry import SymmetricTurn, symmetric_turns
-from aadm_workbench.assembly.pairs import form_pairs
-from aadm_workbench.assembly.place import in_column_frame
+from aadm_workbench.assembly.pairs import form_pairs, in_column_frame
 from aadm_workbench.assembly.pose.best_pose import fit_best_pose
 from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.tolerances import applicable_rules
