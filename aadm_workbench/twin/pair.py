@@ -172,7 +172,7 @@ def scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, J
 
 def _job_text(setting: Setting, seed: int, scan_format: str, taken: Taken) -> str:
     slip, made_with = taken.slip, taken.words
-    foot, bars = ("bars", "foot") if slip.swapped else ("foot", "bars")
+    foot, bars = ("bars", "foot") if slip.swapped else ("bars" if slip.twice else "foot", "bars")
     design = "".join(f"{key} = {value}\n" for key, value in design_table(setting).items())
     command = f"aadm simulate pair --setting {setting.name} --seed {seed}{made_with}"
     return f"""# Synthetic scans of a virtual camera: {command}
