@@ -112,5 +112,5 @@ def with_setting(report: JobReport, model: Path | None) -> JobReport:
     from aadm_workbench.stack.setting import setting_report
 
     found = {one.measured.id: setting_report(one) for one in plan.columns}
-    columns = changed(report.columns, lambda _, one: replace(one, setting=found[one.id]), keeps_facts=True)
+    columns = changed(report.columns, lambda _, one: replace(one, setting=found[one.id]))
     return replace(report, columns=columns)
