@@ -140,15 +140,16 @@ _JUDGED_TOGETHER = ("offset_mm", "u_mm")
 """What moulds are judged by, of each sleeve; rounded before, their probabilities would be others in the last digits."""
 
 
-def as_shown(column: dict[str, Any]) -> dict[str, Any]:
+def as_shown(column: dict[str, Any]) -> Json:
     """A column in plain types, its numbers as report.json shows them, but for those that moulds are judged by.
 
     What is no number stays what it is: only report.json has no word for it.
     """
-    shown: dict[str, Any] = _rounded("", column, strange=True)
-    exact, sleeves = column["sleeves"], shown["sleeves"]
+    shown = _rounded("", column, strange=True)
+    document: Any = shown
+    exact = column["sleeves"]
     if exact is not None:
-        for point, kept in zip(exact["points"], sleeves["points"], strict=True):
+        for point, kept in zip(exact["points"], document["sleeves"]["points"], strict=True):
             kept.update({name: point[name] for name in _JUDGED_TOGETHER})
     return shown
 
