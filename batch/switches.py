@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from aadm_workbench.model import Verdict
+    from aadm_workbench.model.reason import Language
 
 
 # What the process returns. 1 is what a crash returns, so it means nothing else.
@@ -55,10 +57,32 @@ def add_switches(parser: argparse.ArgumentParser, *, prints_json: str | None) ->
     parser.add_argument("--debug", action="store_true", help="show where an internal error happened")
 
 
+def spoken(asked: str | None) -> Language:
+    """The language of what a command says: the one that was asked for, else the environment's, as gettext finds it."""
+    if asked in {"en", "zh"}:
+        return "zh" if asked == "zh" else "en"
+    settings = (os.environ.get(name) for name in ("LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG"))
+    return "zh" if next(filter(None, settings), "").startswith("zh") else "en"
+
+
+def _wrong(code: str, text: str, **values: str) -> argparse.ArgumentTypeError:
+    """What is wrong with an argument, by a sentence of the table; argparse hands on its English alone."""
+    from aadm_workbench.model import Reason
+
+    return argparse.ArgumentTypeError(Reason(code, value=repr(text), **values))
+
+
+def port(text: str) -> int:
+    """A TCP port."""
+    if not text.isdecimal() or not 0 < int(text) < 2**16:
+        raise _wrong("usage.port", text)
+    return int(text)
+
+
 def whole_number(text: str) -> int:
     """A whole number above zero."""
     if not text.isdecimal() or int(text) == 0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number above zero")
+        raise _wrong("usage.whole_number", text)
     return int(text)
 
 
@@ -69,33 +93,33 @@ def length(text: str) -> float:
     except ValueError:
         value = math.nan
     if not (math.isfinite(value) and value > 0.0):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a length above zero")
+        raise _wrong("usage.length", text)
     return value
 
 
 def memory_size(text: str) -> int:
     """A size of memory with its unit, in bytes."""
-    size = int(_quantity(text, _BYTES, "limit; write 2GB or 600MB"))
+    size = int(_quantity(text, _BYTES, "usage.limit", "2GB or 600MB"))
     if size < LEAST_MEMORY_BYTES:
-        raise argparse.ArgumentTypeError(f"{text!r} is too little memory to check anything; give 600MB or more")
+        raise _wrong("usage.memory", text)
     return size
 
 
 def time_span(text: str) -> float:
     """A time with its unit, in seconds."""
-    return _quantity(text, _SECONDS, "limit; write 90s, 15min or 1h")
+    return _quantity(text, _SECONDS, "usage.limit", "90s, 15min or 1h")
 
 
 def duration(text: str) -> float:
     """A time, in seconds: 2, 2s, 500ms, 1min."""
-    return _quantity(text, _UNITS_S, "time; write 2s, 500ms or 1min")
+    return _quantity(text, _UNITS_S, "usage.time", "2s, 500ms or 1min")
 
 
-def _quantity(text: str, units: dict[str, float] | dict[str, int], wanted: str) -> float:
+def _quantity(text: str, units: dict[str, float] | dict[str, int], code: str, example: str) -> float:
     found = re.fullmatch(r"(\d+(?:\.\d+)?)\s*([a-z]*)", text.strip().lower())
     unit = units.get(found[2]) if found else None
     if found is None or unit is None or float(found[1]) == 0.0:
-        raise argparse.ArgumentTypeError(f"{text!r} is no {wanted}")
+        raise _wrong(code, text, example=example)
     return float(found[1]) * unit
 
 
