@@ -57,7 +57,8 @@ def add_format_switches(parser: argparse.ArgumentParser, *, also: str = "") -> N
         "--language",
         choices=("en", "zh"),
         metavar="LANGUAGE",
-        help="en or zh: of reports and errors (default: en; crew pages and scan cards have both, Chinese first)",
+        help="en or zh: of reports and messages "
+        "(default: en, messages as the environment has it; crew pages and scan cards have both, Chinese first)",
     )
     parser.add_argument(
         "--bcf-version",
