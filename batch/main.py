@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, NoReturn, Protocol, cast
 from aadm_workbench import __version__
 from aadm_workbench.errors import AadmError
 
-from .runner.machine import calculate_in_one_thread
-from .switches import BAD_USAGE, INTERNAL, INTERRUPTED, printable, spoken
+from .switches import BAD_USAGE, INTERNAL, INTERRUPTED, calculate_in_one_thread, printable, spoken
 
 if TYPE_CHECKING:
     from aadm_workbench.model.reason import Language

@@ -1,4 +1,4 @@
-"""What the commands have in common: switches, arguments that check themselves, exit codes, safe text."""
+"""What the commands have in common: one thread, switches, arguments that check themselves, exit codes, safe text."""
 
 from __future__ import annotations
 
@@ -39,12 +39,27 @@ def exit_code_of(verdicts: Iterable[Verdict]) -> int:
     return _OF_VERDICT[worst(verdicts).value]
 
 
+_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _BYTES = {"mb": 10**6, "mib": 2**20, "gb": 10**9, "gib": 2**30}
 _SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
 
 LEAST_MEMORY_BYTES = 256 * 10**6
 """The packages alone take about as much; below it nothing could be checked."""
 _UNITS_S = {"": 1.0, "s": 1.0, "ms": 1e-3, "min": 60.0}  # of a time
+
+
+def calculate_in_one_thread() -> None:
+    """Bind the libraries under numpy and scipy to one thread; to be called before either is imported.
+
+    So the last bits of a sum do not depend on the machine's load or cores. The matrices here are small, so nothing is
+    lost; columns are spread over processes instead.
+    """
+    os.environ.update(dict.fromkeys(_THREADS, "1"))
+
+
+def is_in_one_thread() -> bool:
+    """Whether this process was bound to one thread before it began."""
+    return all(os.environ.get(name) == "1" for name in _THREADS)
 
 
 def add_switches(parser: argparse.ArgumentParser, *, prints_json: str | None) -> None:
