@@ -15,9 +15,8 @@ from typing import Protocol, cast
 from aadm_workbench import __version__
 from aadm_workbench.errors import AadmError
 
-from .exit_codes import BAD_USAGE, INTERNAL, INTERRUPTED
 from .runner.machine import calculate_in_one_thread
-from .shown.printable import printable
+from .switches import BAD_USAGE, INTERNAL, INTERRUPTED, printable
 
 
 class Command(Protocol):

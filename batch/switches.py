@@ -1,10 +1,41 @@
-"""Switches that the commands have in common, and types of arguments that check themselves."""
+"""What the commands have in common: switches, arguments that check themselves, exit codes, safe text."""
 
 from __future__ import annotations
 
 import argparse
 import math
 import re
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from aadm_workbench.model import Verdict
+
+
+# What the process returns. 1 is what a crash returns, so it means nothing else.
+ALL_PASS = 0  # success
+BAD_USAGE = 2  # as argparse ends, too
+FAILS = 10  # from ten on the numbers are this command's own: neither shells nor libraries use them
+UNDECIDED = 11  # better than a fail
+ERRORS = 12  # worse than a fail
+INTERNAL = 70  # EX_SOFTWARE of sysexits.h
+INTERRUPTED = 130  # 128 + SIGINT, as shells say it
+
+_OF_VERDICT = {
+    "pass": ALL_PASS,
+    "fail": FAILS,
+    "inconclusive": UNDECIDED,
+    "not_measured": UNDECIDED,
+    "error": ERRORS,
+}
+
+
+def exit_code_of(verdicts: Iterable[Verdict]) -> int:
+    """The code of the worst verdict of a job's columns."""
+    from aadm_workbench.model import worst
+
+    return _OF_VERDICT[worst(verdicts).value]
+
 
 _BYTES = {"mb": 10**6, "mib": 2**20, "gb": 10**9, "gib": 2**30}
 _SECONDS = {"s": 1.0, "min": 60.0, "h": 3600.0}
@@ -66,3 +97,24 @@ def _quantity(text: str, units: dict[str, float] | dict[str, int], wanted: str) 
     if found is None or unit is None or float(found[1]) == 0.0:
         raise argparse.ArgumentTypeError(f"{text!r} is no {wanted}")
     return float(found[1]) * unit
+
+
+_STEERING = re.compile(
+    # Control characters; surrogates; line separators; marks that change the direction of what follows.
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]"
+)
+
+
+def printable(text: str) -> str:
+    r"""The text with control characters as ``\x1b`` and the like; line breaks and tabs stay."""
+    return _STEERING.sub(lambda found: _spelt(found[0]), text)
+
+
+def steering_character(text: str, *, but: str = "") -> str | None:
+    """The first character of a text that must not reach a terminal, or breaks a line, spelt out; None without one."""
+    found = next((sign for sign in text if sign not in but and (sign in "\n\t" or _STEERING.match(sign))), None)
+    return None if found is None else f"U+{ord(found):04X}"
+
+
+def _spelt(sign: str) -> str:
+    return f"\\x{ord(sign):02x}" if ord(sign) < 0x100 else f"\\u{ord(sign):04x}"

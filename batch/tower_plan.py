@@ -108,7 +108,7 @@ def with_setting(report: JobReport, model: Path | None) -> JobReport:
     plan = plan_of(report, model)
     if plan is None:
         return report
-    from aadm_workbench.model.made import changed
+    from aadm_workbench.model.reports import changed
     from aadm_workbench.stack.setting import setting_report
 
     found = {one.measured.id: setting_report(one) for one in plan.columns}

@@ -11,8 +11,7 @@ import json
 from pathlib import Path
 
 from batch.job.file import read_job
-from batch.runner.exact_json import to_exact_json
-from batch.runner.packed import words_of
+from batch.runner.exact_json import to_exact_json, words_of
 from batch.runner.run import RunOptions, run_job
 from benchmarks.floors import SAMPLE
 

@@ -36,7 +36,7 @@ from aadm_workbench.model import (
     Array,
     BoolArray,
 )
-from aadm_workbench.model.scatter import TO_SIGMA
+from aadm_workbench.model.measured import TO_SIGMA
 
 WALL_COUNT_MIN = 20
 """Points of a bore: fewer do not tell on which side its wall shows. A choice: ±30 % moves centres by up to 0.3 u."""

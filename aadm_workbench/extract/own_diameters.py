@@ -17,7 +17,7 @@ from aadm_workbench.extract.plane import in_plane
 from aadm_workbench.extract.sample import thinned
 from aadm_workbench.extract.top_planes import top_planes
 from aadm_workbench.model import Array, Plane, Scan
-from aadm_workbench.model.scatter import TO_SIGMA
+from aadm_workbench.model.measured import TO_SIGMA
 
 _SAMPLE = 30_000  # pixels: they say where to look, within a stride
 _CORE_SHARE = 0.7  # of the nominal radius: the plane of a top two sizes smaller is found in it

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane
-from aadm_workbench.model.scatter import TO_SIGMA
+from aadm_workbench.model.measured import TO_SIGMA
 
 INLIER_DISTANCE_MM = 1.2
 """Three standard deviations of the reference camera's noise at 2 m (0.4 mm): a wider band takes in walls."""

@@ -11,13 +11,12 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM
-from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
 from aadm_workbench.extract.edges.learned_edges import (
     known_edges,
 )
 from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
 from aadm_workbench.extract.edges.seen_disc import sight_lines_on_face
-from aadm_workbench.extract.filter_signs import filter_signs
+from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
 from aadm_workbench.extract.foot_face import FootFace, face_with_holes, level_with_rings
 from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.mouth_fits import WALL_COUNT_MIN, fit_as_learned, fit_mouths, with_unseen_edges

@@ -10,7 +10,7 @@ from aadm_workbench.extract.circle import in_rows, thinned_rows
 from aadm_workbench.extract.patches import Patches
 from aadm_workbench.extract.plane import BAND_SIGMAS, LEAST_BAND_MM, WIDEST_BAND
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
-from aadm_workbench.model.scatter import TO_SIGMA
+from aadm_workbench.model.measured import TO_SIGMA
 
 _TOP_ZONE_MM = 8.0  # a cut of 15 degrees over a 28 mm bar
 _CORE = 0.95  # of the radius

@@ -3,21 +3,171 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from enum import StrEnum
+from typing import Any, Generic, Literal, TypeVar, overload
 
-from aadm_workbench.model.drift import MouldDrift
-from aadm_workbench.model.findings import Finding
+from aadm_workbench.model.across import MouldDrift, SettingReport
 from aadm_workbench.model.hoisting import HoistingReport
-from aadm_workbench.model.made import each
 from aadm_workbench.model.measured import Array, Vector2
-from aadm_workbench.model.repairs import RepairReport
-from aadm_workbench.model.results import GroupReport, PairResult, PointResult, RuleResult, TrialReport
-from aadm_workbench.model.rules import Profile
+from aadm_workbench.model.results import (
+    BestPose,
+    Finding,
+    GroupReport,
+    PairResult,
+    PointResult,
+    RuleResult,
+    TrialReport,
+)
 from aadm_workbench.model.section import SectionReport
-from aadm_workbench.model.stack import SettingReport
-from aadm_workbench.model.verdicts import SUMMED, Kind, Verdict
+from aadm_workbench.model.verdicts import SUMMED, Kind, Profile, Verdict
+
+
+class RepairAction(StrEnum):
+    """What is advised, the gravest last."""
+
+    RESCAN = "rescan"
+    """At the measured values the column goes in; only their uncertainty stands against it."""
+    REPOSITION = "reposition"
+    """The column goes in without any bending, at another pose than that of the least distance: of older reports."""
+    BEND = "bend"
+    """Bend a bar within the profile's adjustment limit."""
+    REJECT_SLEEVE = "reject_sleeve"
+    """The sleeve stands off, not the bar: its position is to be rejected."""
+    DISPOSAL_PLAN = "disposal_plan"
+    """Nothing that may be advised: a disposal plan agreed with the designer is needed."""
+
+
+@dataclass(frozen=True, slots=True)
+class RepairStep:
+    """One pair that stands in the way, and what would free it.
+
+    Parameters
+    ----------
+    bend_mm
+        (dx, dy) in the column frame of the bars, by which the bar moves: minus its offset from the sleeve at the
+        repaired pose, shortened where the bar's own place asks for it. None where no bend helps.
+    bend_length_mm, least_bend_mm
+        Length of that bend, and the shortest one that lets this bar in at the repaired pose.
+    upright
+        Whether the bar must also be set upright, because its lean alone takes more room than the sleeve has.
+    position_before_mm, position_after_mm, position_limit_mm
+        Deviation of the bar from its design place, after the fit of all bars, and its limit; None where unknown.
+    sleeve_off_mm
+        Distance of the sleeve from the place that the other sleeves give it.
+    blamed, off_mm
+        Which of the two stands in the way, and how far it is off the place that the others of its kind give it.
+    """
+
+    action: RepairAction
+    sleeve: str
+    rebar: str
+    bend_mm: Vector2 | None
+    bend_length_mm: float | None
+    least_bend_mm: float | None
+    upright: bool
+    position_before_mm: float
+    position_after_mm: float | None
+    position_limit_mm: float | None
+    sleeve_off_mm: float
+    reason: str
+    blamed: str = ""
+    off_mm: float = 0.0
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RepairReport:
+    """The smallest set of bars to bend so that the column goes in.
+
+    Parameters
+    ----------
+    advice
+        All of it in one line.
+    steps
+        One for each pair that stands in the way; empty where no bar has to be bent.
+    exact
+        Whether no smaller set of bars of this kind (those beyond their own limit, those of such sleeves, all) would
+        do; else it is the best that was found.
+    after
+        The trial at its best pose once all steps are done; None where nothing was found.
+    margin
+        What that pose leaves of distances and rooms.
+    probability
+        That a pose exists then, at the present uncertainty; None where a pair was not measured.
+    still_fails
+        Labels of the bars that a check would then still find beyond their own limit of position.
+    adjustment_limit_mm, clause
+        How far the profile lets this advice bend a bar, and where that is written; None where it does not say.
+    working_figure
+        Whether no clause says so.
+    """
+
+    action: RepairAction
+    advice: str
+    steps: tuple[RepairStep, ...] = ()
+    exact: bool = True
+    after: BestPose | None = None
+    margin: float | None = None
+    probability: float | None = None
+    adjustment_limit_mm: float | None = None
+    clause: str = ""
+    subject_to: str = "the engineer's release"
+    notes: tuple[str, ...] = ()
+    still_fails: tuple[str, ...] = ()
+    working_figure: bool = False
+
+
+Item = TypeVar("Item")
+Fact = TypeVar("Fact")
+
+
+class Made(Sequence[Item], Generic[Item]):
+    """So many items, each made by its place as often as it is asked for; what was found of all of them is kept."""
+
+    def __init__(self, count: int, make: Callable[[int], Item], facts: dict[object, list[Any]] | None = None) -> None:
+        self._count = count
+        self._make = make
+        self._facts: dict[object, list[Any]] = {} if facts is None else facts
+
+    def __len__(self) -> int:
+        return self._count
+
+    def __iter__(self) -> Iterator[Item]:
+        return map(self._make, range(self._count))
+
+    @overload
+    def __getitem__(self, place: int) -> Item: ...
+    @overload
+    def __getitem__(self, place: slice) -> Sequence[Item]: ...
+    def __getitem__(self, place: int | slice) -> Item | Sequence[Item]:
+        if isinstance(place, slice):
+            return tuple(map(self._make, range(self._count)[place]))
+        return self._make(range(self._count)[place])
+
+    def changed(self, change: Callable[[int, Item], Item], *, keeps_facts: bool) -> Made[Item]:
+        """The items, each changed by its place and itself; facts stay what they are where ``change`` leaves them."""
+        facts = self._facts if keeps_facts else None
+        return Made(self._count, lambda place: change(place, self._make(place)), facts)
+
+    def each(self, fact: Callable[[Item], Fact]) -> list[Fact]:
+        """Something small of each item, found once."""
+        if fact not in self._facts:
+            self._facts[fact] = [fact(item) for item in self]
+        return self._facts[fact]
+
+
+def changed(items: Sequence[Item], change: Callable[[int, Item], Item], *, keeps_facts: bool = False) -> Sequence[Item]:
+    """The items, each changed by its place and itself, as :meth:`Made.changed`; or all of them at once."""
+    if isinstance(items, Made):
+        return items.changed(change, keeps_facts=keeps_facts)
+    return tuple(change(place, item) for place, item in enumerate(items))
+
+
+def each(items: Sequence[Item], fact: Callable[[Item], Fact]) -> list[Fact]:
+    """Something small of each item, as :meth:`Made.each`."""
+    return items.each(fact) if isinstance(items, Made) else [fact(item) for item in items]
+
 
 LONGEST_ID = 1024
 """Characters of the id of a column: four times what IFC allows a label to have (IfcLabel)."""

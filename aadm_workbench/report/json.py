@@ -22,7 +22,7 @@ from aadm_workbench.atomic import write_atomically
 from aadm_workbench.model import ColumnReport, JobReport, Json, Profile
 
 if TYPE_CHECKING:
-    from aadm_workbench.model.shipment import ShipmentReport
+    from aadm_workbench.model.across import ShipmentReport
 
 SCHEMA = 1
 """Of report.json: keys are added under the same number, and never change their meaning."""

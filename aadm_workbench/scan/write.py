@@ -12,8 +12,7 @@ import numpy as np
 from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import FloatArray, Reason
-from aadm_workbench.scan.formats.pcd import compress
-from aadm_workbench.scan.formats.pcd_header import STORAGES
+from aadm_workbench.scan.formats.pcd import STORAGES, compress
 from aadm_workbench.scan.picture import encode_tiff
 
 _LARGEST_STEP = 65_535  # of 16 bits

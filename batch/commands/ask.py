@@ -9,8 +9,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..exit_codes import ALL_PASS
-from ..switches import add_switches
+from ..switches import ALL_PASS, add_switches
 
 EXAMPLE = """\
 examples:

@@ -15,8 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS, exit_code_of
-from ..switches import add_switches, length, whole_number
+from ..switches import ALL_PASS, add_switches, exit_code_of, length, whole_number
 from .camera_reversal import add_reversal
 
 if TYPE_CHECKING:

@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING
 
 from aadm_workbench.errors import AadmError, JobError
 
-from ..exit_codes import INTERNAL, INTERRUPTED
 from ..job.command import add_job_arguments, pool_options, report_folder
 from ..report_files import add_format_switches, chosen_formats, require_packages
+from ..switches import INTERNAL, INTERRUPTED
 
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
@@ -206,7 +206,7 @@ class _Served:
 
     @cached_property
     def report(self) -> JobReport:
-        from ..served_report import without_absolute_paths
+        from ..made_report import without_absolute_paths
 
         report = _with_setting(self.done.report, self.job)
         report.verdicts()  # once, before every text is looked at

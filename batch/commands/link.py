@@ -13,8 +13,7 @@ import asyncio
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS
-from ..switches import add_switches, length
+from ..switches import ALL_PASS, add_switches, length
 
 if TYPE_CHECKING:
     from ..link.publish import Link

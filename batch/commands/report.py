@@ -15,9 +15,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS, INTERNAL
 from ..report_files import add_format_switches, chosen_formats, require_packages
-from ..switches import add_switches
+from ..switches import ALL_PASS, INTERNAL, add_switches
 
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
-from ..exit_codes import ALL_PASS
-from ..switches import add_switches, whole_number
+from ..switches import ALL_PASS, add_switches, whole_number
 
 EXAMPLE = """\
 example:

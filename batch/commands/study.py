@@ -7,10 +7,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..exit_codes import ALL_PASS
 from ..job.command import METHODS, SCAN_METHODS
 from ..study_loop import add_loop_study
-from ..switches import add_switches, whole_number
+from ..switches import ALL_PASS, add_switches, whole_number
 
 if TYPE_CHECKING:
     from aadm_workbench.twin.study.hoisting import HoistingStudy

@@ -17,7 +17,7 @@ from aadm_workbench.inspection.job import Job, JobModel
 from aadm_workbench.model import Camera, CameraProfile, Profile, StackSettings
 from aadm_workbench.scan.file import load
 
-from ..shown.printable import steering_character
+from ..switches import steering_character
 from .columns import read_columns
 from .table import JobTable, Lines
 

@@ -17,8 +17,7 @@ from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.model import ColumnReport, Verdict
 
 from ..job.inputs import ShippedFile, read_for_shipping, task_key
-from .exact_json import from_exact_json, to_exact_json
-from .packed import pack, unpack
+from .exact_json import from_exact_json, pack, to_exact_json, unpack
 
 _CHECKSUM = ',"crc32":"'
 

@@ -15,8 +15,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import IO, Any
 
-from ..job.inputs import ShippedFile, content_hash, unpack
-from ..program import difference, program_versions
+from ..job.inputs import ShippedFile, content_hash, difference, program_versions, unpack
 from .engine import Death
 from .machine import is_in_one_thread
 

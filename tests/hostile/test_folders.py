@@ -20,8 +20,8 @@ from aadm_workbench.report.bcf.topics import write_bcf
 from aadm_workbench.report.read import read_report
 from batch.main import main
 from batch.report_files import FORMATS, write_reports
+from batch.runner.exact_json import pack
 from batch.runner.journal import Journal
-from batch.runner.packed import pack
 from batch.runner.record import read_record
 from batch.runner.run import _column
 from tests.report.checked_floor import CASES, floor_report

@@ -25,7 +25,7 @@ from aadm_workbench.model import (
     Verdict,
     worst,
 )
-from aadm_workbench.model.made import changed
+from aadm_workbench.model.reports import changed
 
 NOT_MEASURED = ("mirrored", "swapped", "turn_contradicted", "other_column", "sleeves_by_design")
 """What was to be measured was not scanned, or not measured; all else that holds back leaves a verdict open."""

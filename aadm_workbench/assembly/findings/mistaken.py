@@ -20,9 +20,8 @@ from aadm_workbench.assembly.findings.diameters import CORE_ABOVE, CORE_BELOW, s
 from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
-from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.edges.bend import BLURRED
-from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
+from aadm_workbench.extract.filter_signs import COPIED, GAPS_FILLED, SMOOTHED
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Finding, Kind, codes_of
 
 _BADLY_BUILT_MM = 3.0  # root mean square: a half more than the limit of every single point

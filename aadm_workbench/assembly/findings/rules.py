@@ -23,13 +23,12 @@ from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.findings.scale import scale_findings
 from aadm_workbench.assembly.matching.match import FAR_FROM_DECLARED
 from aadm_workbench.assembly.pose.eopa import wrap
-from aadm_workbench.extract.copied_pixels import COPIED
-from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
-from aadm_workbench.extract.pooled.leans import USUAL_LEAN
+from aadm_workbench.extract.filter_signs import COPIED, GAPS_FILLED, SMOOTHED
+from aadm_workbench.extract.pooled.fit import USUAL_LEAN
 from aadm_workbench.extract.pooled.system import Priors
 from aadm_workbench.extract.sleeves import BORE_LEAN_U
 from aadm_workbench.model import Array, ColumnDesign, Finding, Kind, codes_of
-from aadm_workbench.model.scatter import OF_MEDIAN, TO_SIGMA
+from aadm_workbench.model.measured import OF_MEDIAN, TO_SIGMA
 
 _FILTERS = {SMOOTHED.code: "smoothed", GAPS_FILLED.code: "gaps_filled", COPIED.code: "edges_fattened"}
 

@@ -18,7 +18,7 @@ from aadm_workbench.assembly.tolerances import applicable_rules
 from aadm_workbench.assembly.trial.pose import evaluate_pose
 from aadm_workbench.assembly.trial.virtual import distance_limits, open_ways
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Profile, Reason
-from aadm_workbench.model.shipment import FitCell
+from aadm_workbench.model.across import FitCell
 
 SAME_PLACE_MM = 0.5
 """Columns of one mark differ by less: a quarter of what a sleeve may stand off."""

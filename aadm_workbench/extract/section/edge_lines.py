@@ -12,17 +12,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.extract.section.face_samples import Area, FaceSamples
-from aadm_workbench.extract.section.half_lit import Overshoot, overshoot_of, pooled
-from aadm_workbench.extract.section.rims import KnownMouths, lost_at_rim, taken_in
+from aadm_workbench.extract.section.face_samples import Area, FaceSamples, KnownMouths, lost_at_rim, taken_in
 from aadm_workbench.extract.section.strips import (
     OUT_OF_PICTURE,
     Chip,
+    Overshoot,
     StripLine,
     Strips,
     chips_of,
     ends_of_strips,
     line_through,
+    overshoot_of,
+    pooled,
 )
 from aadm_workbench.model import Array, Reason
 

@@ -11,8 +11,8 @@ import pytest
 from aadm_workbench.errors import AadmError
 from aadm_workbench.inspection.column import ColumnOutcome
 from aadm_workbench.model import ColumnReport, Verdict
+from batch.runner.exact_json import unpack
 from batch.runner.journal import PREVIOUS_NAME, Journal
-from batch.runner.packed import unpack
 from batch.runner.record import Record, read_record
 
 

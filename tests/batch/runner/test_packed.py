@@ -7,7 +7,7 @@ import zlib
 import numpy as np
 import pytest
 
-from batch.runner.packed import LONGEST_TEXT_BYTES, pack, unpack
+from batch.runner.exact_json import LONGEST_TEXT_BYTES, pack, unpack
 
 
 def deflated(content: bytes) -> str:
