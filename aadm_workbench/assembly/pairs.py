@@ -5,7 +5,7 @@ embedded length L inside the sleeve, both axes give the offset twice (design axe
 
     at the mouth:  offset − L·lean of the bar        at the bar's top:  offset − L·lean of the sleeve
 
-Measured points brought into the column frame, in the order of the design points they belong to.
+Before that, measured points are brought into the column frame, in the order of the design points they belong to.
 """
 
 from __future__ import annotations

@@ -68,12 +68,13 @@ def _reports(options: argparse.Namespace) -> Written:
     from aadm_workbench.report.read import read_report
 
     from ..report_files import HowReports, write_reports
+    from ..tower_plan import Tower
 
     formats = chosen_formats(options) or ("html",)
     require_packages(formats)
     report = only_columns(read_report(options.report), options.only, options.report)
     folder = _folder(options, options.report.parent)
-    return write_reports(report, formats, folder, HowReports.asked(options, options.model))
+    return write_reports(report, formats, folder, HowReports.asked(options, Tower(report, options.model)))
 
 
 def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:
