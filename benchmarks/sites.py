@@ -103,7 +103,8 @@ TROUBLES: dict[str, Trouble] = {
     "swapped": _slip("swapped", ("swapped",), ("swapped",), void=True),
     "other-column": Trouble(Scenario(other=True), ("other_column",), ("C-2",)),
     "twice": _slip("twice", ("swapped",), ("shows the rebars",)),
-    "mirrored": _slip("mirrored", ("mirrored",), ("mirror",), keyed=True, void=True),
+    # a ring that lacks a corner, or the middle of a side, is in a mirror what it is turned
+    "mirrored": _slip("mirrored", ("mirrored", "turn_contradicted"), ("mirror",), keyed=True, void=True),
     "other-bars": _site("other-bars", _DIAMETER, ("sizes that would fit",)),
     "other-sleeves": _site("other-sleeves", _DIAMETER, ("measure",)),
     "cut-off": _site("cut-off", ("exposed_length_differs",), ("cut off",)),
