@@ -31,6 +31,7 @@ from aadm_workbench.model.findings import (
     Finding,
 )
 from aadm_workbench.model.hoisting import (
+    Bend,
     CameraMove,
     Correction,
     HoistingMeasurement,
@@ -120,6 +121,7 @@ __all__ = [
     "AimedPose",
     "Array",
     "AssemblyPoint",
+    "Bend",
     "BestPair",
     "BestPose",
     "BoolArray",

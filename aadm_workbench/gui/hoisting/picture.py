@@ -72,7 +72,10 @@ class HoistingPicture(QtGui.QWidget):
             painter.setPen(QtCore.Qt.NoPen)
             painter.setBrush(QtGui.QColor.fromRgbF(*of_verdict(verdict)) if is_on else QtGui.QColor(40, 45, 50))
             painter.drawEllipse(box)
-            _write(painter, box, sign, size * 0.55, QtGui.QColor(255, 255, 255) if is_on else _DIM)
+            front = QtGui.QColor(255, 255, 255) if is_on else _DIM
+            upper, lower = box.adjusted(0, 0, 0, -size * 0.3), box.adjusted(0, size * 0.58, 0, -size * 0.14)
+            _write(painter, upper, sign, size * 0.46, front)
+            _write(painter, lower, _word(name), size * 0.2, front)
 
     def _draw_push(self, painter: Any, place: Any) -> None:
         """An arrow as seen by the reader: ahead is up. Beside it the two parts, in mm."""
@@ -117,6 +120,13 @@ class HoistingPicture(QtGui.QWidget):
             said = translate("AADM_Hoisting", "margin")
             colour = _colour(guidance.margin_light).lighter(140)
             _write(painter, bottom, f"{said}\n{margin:+.1f} mm", size, colour)
+
+
+def _word(light: str) -> str:
+    """What a lamp says, for whom its colour and its sign tell nothing."""
+    if light == "go":
+        return str(translate("AADM_Hoisting", "LOWER"))
+    return str(translate("AADM_Hoisting", "PUSH") if light == "push" else translate("AADM_Hoisting", "WAIT"))
 
 
 def _colour(light: str) -> Any:
