@@ -25,7 +25,7 @@ from aadm_workbench.assembly.group_notes import (
 )
 from aadm_workbench.assembly.inspect import inspect_group
 from aadm_workbench.assembly.matching.match import Match, match_extraction
-from aadm_workbench.assembly.place import place_points
+from aadm_workbench.assembly.pairs import place_points
 from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.extract.method import Known, extract_sizes
 from aadm_workbench.model import (
@@ -187,7 +187,7 @@ def _with_reversal(
 
     seen = [view_of(points, *one) for one in found]
     told = reversal_of([view for view in seen if view is not None])
-    if told is None:
+    if isinstance(told, str):
         return extraction
     bend = {"camera_bend_mm": told.largest_mm, "camera_bend_u_mm": told.u_mm}
     if told.contradicts:
