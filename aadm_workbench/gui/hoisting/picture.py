@@ -156,12 +156,16 @@ def _draw_arrow(painter: Any, centre: Any, direction: tuple[float, float], reach
 
 
 def _write(painter: Any, box: Any, text: str, size_px: float, colour: Any) -> None:
+    flags = int(getattr(_BIG, "value", _BIG)) | _wrap()
     font = QtGui.QFont()
-    font.setPixelSize(max(8, int(size_px)))
     font.setBold(True)
-    painter.setFont(font)
+    for size in range(max(8, int(size_px)), 7, -1):  # a long sentence is smaller, and not cut off
+        font.setPixelSize(size)
+        painter.setFont(font)
+        if painter.boundingRect(box, flags, text).height() <= box.height():
+            break
     painter.setPen(colour)
-    painter.drawText(box, int(getattr(_BIG, "value", _BIG)) | _wrap(), text)
+    painter.drawText(box, flags, text)
 
 
 def _wrap() -> int:

@@ -15,7 +15,7 @@ from aadm_workbench.hoisting.foot.face import FootFace, level_terms
 from aadm_workbench.hoisting.foot.mouths import window_over
 from aadm_workbench.hoisting.frame import HoistingFrame
 from aadm_workbench.model import Array
-from aadm_workbench.model.scatter import TO_SIGMA
+from aadm_workbench.model.measured import TO_SIGMA
 
 # to begin with: half of what faces of the sites of this product's scenes bend by, about their middle plane
 _BENT_MM = 4.0
