@@ -110,7 +110,7 @@ def _repairs(design: ColumnDesign, left: Array, bent: BoolArray) -> tuple[Repair
 
 def _towards(design: ColumnDesign, dx_mm: float, dy_mm: float) -> tuple[Bend, ...]:
     """A bend as parts towards sides of the pattern, named by the bars that stand there."""
-    places = {bar.label: bar.centre for bar in design.rebars}
+    places = {bar.label: bar.centre.tolist() for bar in design.rebars}
     parts = ((dx_mm, (float(np.sign(dx_mm)), 0.0)), (dy_mm, (0.0, float(np.sign(dy_mm)))))
     told = [(abs(mm), side_labels(places, unit)) for mm, unit in parts if abs(mm) >= _LEAST_BEND_MM]
     return tuple(Bend(mm, *ends) for mm, ends in told if ends is not None) if all(ends for _, ends in told) else ()
