@@ -112,6 +112,9 @@ def _hanging(
 ) -> CrewAdvice:
     vector = (move.dx_mm, move.dy_mm)
     steps = [*_turn(column, move.yaw_deg), *_move(vector, compass, _beside_camera(move.camera))]
+    for bend in move.repairs:
+        way = compass.in_words((bend.dx_mm, bend.dy_mm))
+        steps.append(Step(_with_way("crew.bend", way, rebar=bend.label), release=True))
     passed = frame.verdict == "pass"
     if frame.column_tilt_deg is not None and frame.column_tilt_deg >= _NOTICED_TILT_DEG:
         steps.insert(0, Step(phrase("crew.tilted", deg=f"{frame.column_tilt_deg:.1f}")))
