@@ -36,7 +36,7 @@ _LENGTH_DECIMALS = 3
 """Of mm: a tenth of the smallest uncertainty that a camera states, and what is equal is written once."""
 _ANGLE_DECIMALS = 3
 """Of degrees: 0.05 mm at the end of three metres, where tilts are known to 0.02° at best."""
-_RADIAN_DECIMALS = 7  # a hundredth of the last decimal of a degree
+_RADIAN_DECIMALS = 11  # what is read back as degrees is the same to eight decimals
 _ROUNDED = {**dict.fromkeys(_LENGTHS, _LENGTH_DECIMALS), "IfcPlaneAngleMeasure": _ANGLE_DECIMALS}
 
 
