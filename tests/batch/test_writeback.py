@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
-from aadm_workbench.report.ifc.read import read_ifc_results
 from batch.main import main
 from tests.report.floor_schemas import SCHEMAS, converted
 from tests.report.ifc_models import to_micrometres
+from tests.report.ifc_results import read_ifc_results
 
 FLOOR = Path(__file__).resolve().parents[2] / "samples" / "floor"
 CHECKED = ("C-304", "C-307")
