@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
+from aadm_workbench.assembly.following import blame_of
 from aadm_workbench.model import (
     CameraMove,
     ColumnReport,
@@ -251,14 +252,17 @@ def _repair(column: ColumnReport, repair: RepairReport, compass: Compass) -> Ite
     elif action == "disposal_plan" or not repair.steps:
         yield Step(phrase("crew.disposal_plan"))
     else:
-        if column.verdict == "inconclusive":
-            yield _scan_closer(column)
-        yield from _pairs(repair, compass)
+        if "repair.advise.if_confirmed" in codes_of(recognised(repair.advice)):
+            yield replace(_scan_closer(column), left=phrase("crew.if_confirmed"))
+        yield from _pairs(column, repair, compass)
         yield Step(phrase("crew.scan_bars_again"))
 
 
-def _pairs(repair: RepairReport, compass: Compass) -> Iterator[Step]:
-    """What to do with each pair, and with it what stays beyond a limit of position then: the engineer decides."""
+def _pairs(column: ColumnReport, repair: RepairReport, compass: Compass) -> Iterator[Step]:
+    """What to do with each pair, and with it what stays beyond a limit of position then: the engineer decides.
+
+    No bend of a bar puts a sleeve in its place.
+    """
     known = set()
     for step in repair.steps:
         done = _of_pair(step, compass)
@@ -272,6 +276,10 @@ def _pairs(repair: RepairReport, compass: Compass) -> Iterator[Step]:
             done = replace(done, left=phrase("crew.still_off_by", **values))
         yield done
     rest = [label for label in repair.still_fails if label not in known]
+    rejected = {step.sleeve for step in repair.steps if step.action == "reject_sleeve"}
+    follows = {*blame_of(column).follows} | rejected
+    sleeves = column.points(Kind.SLEEVE)
+    rest += [sleeve.label for sleeve in sleeves if sleeve.verdict == "fail" and sleeve.label not in follows]
     if rest:
         yield Step(phrase("crew.still_off", labels=", ".join(rest)))
 
