@@ -41,14 +41,19 @@ def assess_moulds(columns: Sequence[ColumnReport], profile: Profile) -> tuple[Mo
     """What the columns of each mould have in common, in the order of the job.
 
     Columns are of one mould where they have the same piece mark, or the same inline design. Moulds of fewer than three
-    columns are left out, and feet whose orientation is ambiguous: it is open which of their sleeves is which.
+    columns are left out, and feet whose orientation is ambiguous: it is open which of their sleeves is which. A scan
+    that is named for several columns shows one foot, and counts once.
     """
     moulds: dict[object, list[_Foot]] = {}
     first: dict[object, GroupReport] = {}
+    counted: set[tuple[object, str]] = set()
     for column in columns:
         foot = column.sleeves
         if foot is not None and foot.fit is not None and foot.fit.orientation != "ambiguous":
             mould = _mould_of(column, foot)
+            if foot.sha256 and (mould, foot.sha256) in counted:
+                continue
+            counted.add((mould, foot.sha256))
             moulds.setdefault(mould, []).append(_Foot.of(column, foot))
             first.setdefault(mould, foot)
     rule = next(iter(applicable_rules(profile, "sleeve_position")[0]), None)
