@@ -6,6 +6,7 @@ whose text says what is wrong with the file; who reads it adds its name and what
 
 from __future__ import annotations
 
+import ast
 import os
 import re
 import stat
@@ -20,6 +21,7 @@ from typing import IO
 from xml.parsers import expat
 
 from aadm_workbench.model import Reason
+from aadm_workbench.model.reason import as_said_by
 
 _DEFLATED_OR_STORED = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 _ENCRYPTED = 0x1  # bit 0 of the flags of an entry (APPNOTE 4.4.4)
@@ -221,3 +223,12 @@ class _Walk:
 
     def ends(self, *_: object) -> None:
         self._depth -= 1
+
+
+def toml_fault(error: Exception | str) -> Reason:
+    """What :mod:`tomllib` has against a text, in both languages; what else was raised is quoted.
+
+    Keys of several parts are named as they are written: ``a.b``, not as a tuple.
+    """
+    keys = r"\((?:'[^']*',? ?)+\)"
+    return as_said_by("toml", re.sub(keys, lambda found: ".".join(ast.literal_eval(found[0])), str(error)))

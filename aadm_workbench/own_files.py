@@ -4,17 +4,23 @@ A folder of results may have come with the job, or be shared. A link in it is re
 that has a second name elsewhere (a hard link); a pipe, a device or a folder under the name of a file is refused without
 being opened. Where the system can (Linux, macOS), names are looked up in the folder that was opened first, so that
 nobody can put another in its place meanwhile.
+
+What is written is either whole or not there: a reader never meets half a report or half a scan.
 """
 
 from __future__ import annotations
 
+import contextlib
 import os
 import re
 import shutil
 import stat
-from collections.abc import Iterator
+import uuid
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+
+from aadm_workbench.errors import AadmError
 
 _TRIES = 5
 """So often is looked again where somebody else creates or replaces the file at the same moment."""
@@ -209,3 +215,51 @@ def _unsafe(path: Path, code: str, **values: object) -> UnsafeFileError:
 def _named(mode: int) -> str:
     kinds = {stat.S_ISDIR: "a folder", stat.S_ISFIFO: "a pipe", stat.S_ISSOCK: "a socket"}
     return next((name for is_kind, name in kinds.items() if is_kind(mode)), "a device")
+
+
+_NEW = ("O_CREAT", "O_EXCL", "O_WRONLY", "O_NOFOLLOW", "O_CLOEXEC", "O_BINARY", "O_NOINHERIT")
+
+
+def write_atomically(path: Path, content: bytes | Iterable[bytes]) -> None:
+    """Write a file aside, flush it to the disk, then put it in place of what was there; a link is replaced, too.
+
+    Parameters
+    ----------
+    path
+        The file. Its folder must exist; the aside file stands in the same folder, for a rename is
+        atomic only within one file system.
+    content
+        All bytes of the file, at once or in parts.
+
+    Raises
+    ------
+    AadmError
+        Where the folder is missing, read-only or full. What stood at ``path`` before is untouched.
+    """
+    path = Path(path)
+    try:
+        with looked_up(path) as (name, folder):
+            _write(name, folder, content)
+    except OSError as error:
+        reason = error.strerror or type(error).__name__
+        raise AadmError.about(path, "bounded.unwritten", why=reason) from error
+
+
+def _write(name: str | Path, folder: int | None, content: bytes | Iterable[bytes]) -> None:
+    place = Path(name)
+    aside = place.with_name(f".{place.name}.{uuid.uuid4().hex}.part")
+    descriptor = os.open(aside, sum(getattr(os, flag, 0) for flag in _NEW), 0o666, dir_fd=folder)
+    try:
+        with open(descriptor, "wb") as stream:  # noqa: PTH123 - of a descriptor
+            stream.writelines((content,) if isinstance(content, bytes) else content)
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.replace(aside, place, src_dir_fd=folder, dst_dir_fd=folder)
+        # Some network file systems refuse to flush a folder; the file itself is already on the disk.
+        if folder is not None:
+            with contextlib.suppress(OSError):
+                os.fsync(folder)
+    finally:
+        # Gone already where all went well.
+        with contextlib.suppress(OSError):
+            os.unlink(aside, dir_fd=folder)

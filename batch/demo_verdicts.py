@@ -16,7 +16,7 @@ from rich.table import Table
 
 from aadm_workbench.model import Verdict
 
-from .exit_codes import exit_code_of
+from .switches import exit_code_of
 
 MISSING = "missing"
 

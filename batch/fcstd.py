@@ -6,14 +6,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.fcstd import check_archive
 from aadm_workbench.design.freecad_program import ask_freecad
 from aadm_workbench.design.model_file import sha256_of
 from aadm_workbench.errors import AadmError
 from aadm_workbench.model import JobReport
 from aadm_workbench.model.reason import renamed
-from aadm_workbench.own_files import ASIDE_FOLDER
+from aadm_workbench.own_files import ASIDE_FOLDER, write_atomically
 from aadm_workbench.report.json import encoded_report
 
 _MODULE = "aadm_workbench.document.report.annotate"

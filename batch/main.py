@@ -10,14 +10,15 @@ import sys
 from collections.abc import Collection, Sequence
 from importlib import import_module
 from types import MappingProxyType
-from typing import Protocol, cast
+from typing import TYPE_CHECKING, NoReturn, Protocol, cast
 
 from aadm_workbench import __version__
 from aadm_workbench.errors import AadmError
 
-from .exit_codes import BAD_USAGE, INTERNAL, INTERRUPTED
-from .runner.machine import calculate_in_one_thread
-from .shown.printable import printable
+from .switches import BAD_USAGE, INTERNAL, INTERRUPTED, calculate_in_one_thread, printable, spoken
+
+if TYPE_CHECKING:
+    from aadm_workbench.model.reason import Language
 
 
 class Command(Protocol):
@@ -62,9 +63,24 @@ exit codes:
   130 interrupted: what was checked is kept, --resume goes on"""
 
 
-def build_parser(wanted: Collection[str] = COMMANDS.keys()) -> argparse.ArgumentParser:
+class _ChineseParser(argparse.ArgumentParser):
+    """Says in Chinese what is wrong with a command line; so do the parsers of its commands."""
+
+    def error(self, message: str) -> NoReturn:
+        """End with the usage, and with what is wrong."""
+        from aadm_workbench.model import Reason
+        from aadm_workbench.model.reason import as_said_by
+
+        begin = Reason("usage.usage")
+        wrong = Reason("usage.error", program=self.prog, what=as_said_by("usage", message))
+        usage = self.format_usage().removeprefix(begin)
+        self.exit(BAD_USAGE, printable(f"{begin.in_language('zh')}{usage}{wrong.in_language('zh')}\n"))
+
+
+def build_parser(wanted: Collection[str] = COMMANDS.keys(), language: Language = "en") -> argparse.ArgumentParser:
     """The parser of the whole command line; commands that are not ``wanted`` are listed, without their arguments."""
-    parser = argparse.ArgumentParser(
+    kind = _ChineseParser if language == "zh" else argparse.ArgumentParser
+    parser = kind(
         prog="aadm",
         description="Checks precast columns before they are hoisted: grouting sleeves against connecting rebars.",
         epilog=f"example:\n  aadm check floor3.toml\n\n{_EXIT_CODES}",
@@ -86,7 +102,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _never_fail_on_a_sign()
     calculate_in_one_thread()
     words = sys.argv[1:] if arguments is None else arguments
-    options = build_parser([word for word in words if not word.startswith("-")][:1]).parse_args(words)
+    command = [word for word in words if not word.startswith("-")][:1]
+    options = build_parser(command, _language_of(words)).parse_args(words)
     try:
         code: int = options.run(options)
     except AadmError as error:
@@ -106,6 +123,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _say(f"internal error: {type(error).__name__}: {error}{hint}")
         return INTERNAL
     return code
+
+
+def _language_of(words: Sequence[str]) -> Language:
+    """The language that a command line asks for, as far as one can tell before it is known to be one."""
+    asked = None
+    for word, following in zip(words, [*words[1:], ""], strict=True):
+        name, sign, value = word.partition("=")
+        if name.startswith("--l") and "--language".startswith(name):
+            asked = value if sign else following
+    return spoken(asked)
 
 
 def _never_fail_on_a_sign() -> None:

@@ -51,9 +51,9 @@ def write_results(
     """
     from aadm_workbench.report.ifc.model import write_ifc
 
-    from .tower_plan import setting_of
+    from .tower_plan import Tower
 
-    setting = setting_of(report, model) if setting is None else setting
+    setting = Tower(report, model).properties() if setting is None else setting
     return write_ifc(report, model, out, report_location=_link(report_folder, out), force=force, setting=setting)
 
 
@@ -91,9 +91,3 @@ def _link(folder: Path, out: Path) -> str:
         return Path(os.path.relpath(report, out.resolve().parent)).as_posix()
     except ValueError:  # on another drive
         return report.as_uri()
-
-
-def write_checked_model(report: JobReport, job: Job, folder: Path) -> WriteBack:
-    """A copy of the job's model with the results, into the folder of the reports; errors as :func:`write_results`."""
-    model = ifc_model_of(job)
-    return write_results(report, folder, model, folder / f"{model.stem}-checked.ifc")

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from aadm_workbench.model import JobReport
     from aadm_workbench.model.reason import Language
     from aadm_workbench.report.bcf.forms import Version
+    from aadm_workbench.report.tower import TowerShown
+
+    from .tower_plan import Tower
 
 FORMATS = {
     "html": ("report.html", "one page to read in a browser, offline; prints well"),
@@ -54,7 +57,8 @@ def add_format_switches(parser: argparse.ArgumentParser, *, also: str = "") -> N
         "--language",
         choices=("en", "zh"),
         metavar="LANGUAGE",
-        help="en or zh: of reports and errors (default: en; crew pages and scan cards have both, Chinese first)",
+        help="en or zh: of reports and messages "
+        "(default: en, messages as the environment has it; crew pages and scan cards have both, Chinese first)",
     )
     parser.add_argument(
         "--bcf-version",
@@ -89,17 +93,17 @@ def require_packages(formats: Sequence[str]) -> None:
 class HowReports:
     """In which language reports are made, and of which version a BCF file; None for what each has by itself.
 
-    ``model`` is where beams and heights of the tower are taken from, of a job with [stack].
+    ``tower`` is that of a job with [stack]; None where nobody knows more of it than the report.
     """
 
     language: Language | None = None
     bcf_version: Version | None = None
-    model: Path | None = None
+    tower: Tower | None = None
 
     @classmethod
-    def asked(cls, options: argparse.Namespace, model: Path | None) -> HowReports:
+    def asked(cls, options: argparse.Namespace, tower: Tower) -> HowReports:
         """As the switches say."""
-        return cls(options.language, options.bcf_version, model)
+        return cls(options.language, options.bcf_version, tower)
 
 
 @dataclass(frozen=True)
@@ -125,12 +129,16 @@ class Written:
 
 def write_reports(report: JobReport, formats: Sequence[str], folder: Path, how: HowReports | None = None) -> Written:
     """Write reports into a folder, one after the other; one that fails does not cost the others."""
+    from .tower_plan import Tower
+
     files: dict[str, Path] = {}
     failed: dict[str, Exception] = {}
+    how = how or HowReports()
+    tower = how.tower or Tower(report, None)
     for name in formats:
         path = folder / FORMATS[name][0]
         try:
-            _write(name, report, path, how or HowReports())
+            _write(name, report, path, how, tower)
         except Exception as error:  # noqa: BLE001 - whatever breaks one report, the night's others are wanted
             failed[name] = error
         else:
@@ -141,11 +149,8 @@ def write_reports(report: JobReport, formats: Sequence[str], folder: Path, how: 
     return Written(files, failed)
 
 
-def _with_tower(name: str, report: JobReport, path: Path, language: Language, model: Path | None) -> None:
+def _with_tower(name: str, report: JobReport, path: Path, language: Language, tower: TowerShown | None) -> None:
     """A format that shows the tower of a job with [stack]."""
-    from .tower_plan import tower_of
-
-    tower = tower_of(report, model)
     if name == "html":
         from aadm_workbench.report.pages.html import write_html
 
@@ -166,11 +171,11 @@ def _with_tower(name: str, report: JobReport, path: Path, language: Language, mo
             write_setting_out(tower, path.with_name(SETTING_OUT))
 
 
-def _write(name: str, report: JobReport, path: Path, how: HowReports) -> None:
+def _write(name: str, report: JobReport, path: Path, how: HowReports, tower: Tower) -> None:
     """One report; the packages of a format are imported only where it is asked for."""
     language = how.language
     if name in ("html", "pdf", "xlsx", "csv"):
-        _with_tower(name, report, path, language or "en", how.model)
+        _with_tower(name, report, path, language or "en", tower.shown())
     elif name == "fcstd":
         from .fcstd import write_fcstd
 

@@ -8,8 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .exit_codes import ALL_PASS, FAILS, UNDECIDED
-from .switches import add_switches, whole_number
+from .switches import ALL_PASS, FAILS, UNDECIDED, add_switches, whole_number
 
 if TYPE_CHECKING:
     from aadm_workbench.twin.crane import Crane

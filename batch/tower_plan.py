@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
-from functools import lru_cache
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -55,62 +55,60 @@ def _state_of(model: Path) -> tuple[int, ...]:
     return ()
 
 
-def plan_of(report: JobReport, model: Path | None) -> StackPlan | None:
-    """The plan of the tower of a check; None where its job has no [stack].
+@dataclass(eq=False)
+class Tower:
+    """The tower of a check, for everything that tells of it: planned once, when somebody asks first.
 
-    A model that is no IFC file, or cannot be read, costs beams and heights alone, and that is said.
-
-    Raises
-    ------
-    JobError
-        Where somebody has changed the report's [stack] to what is none.
+    A model that is no IFC file, or cannot be read, costs beams and heights alone, and that is said. What asks for the
+    plan raises JobError where somebody has changed the report's [stack] to what is none.
     """
-    from .job.stack import carried_settings
 
-    settings = carried_settings(report.job)
-    if settings is None:
-        return None
-    from aadm_workbench.assembly.tolerances import load_profile
-    from aadm_workbench.report.words.reasons import in_both_languages
-    from aadm_workbench.stack.result import NotFound
+    report: JobReport
+    model: Path | None
 
-    profile = load_profile(PROFILE)
-    named = model if model is not None and model.suffix.lower() == ".ifc" else None
-    try:
-        return planned([report], settings, profile, named)
-    except AadmError as error:
-        unread = NotFound(str(named), in_both_languages(error.reason))
-        return replace(planned([report], settings, profile, None), not_found=(unread,))
+    @cached_property
+    def plan(self) -> StackPlan | None:
+        """The plan; None where the job has no [stack]."""
+        from .job.stack import carried_settings
 
+        settings = carried_settings(self.report.job)
+        if settings is None:
+            return None
+        from aadm_workbench.assembly.tolerances import load_profile
+        from aadm_workbench.report.words.reasons import in_both_languages
+        from aadm_workbench.stack.result import NotFound
 
-def tower_of(report: JobReport, model: Path | None) -> TowerShown | None:
-    """What the reports of a check show of its tower; None where its job has no [stack]; errors as :func:`plan_of`."""
-    plan = plan_of(report, model)
-    if plan is None:
-        return None
-    from aadm_workbench.stack.shown import tower_shown  # as below: most jobs have no tower to load it for
+        profile = load_profile(PROFILE)
+        named = self.model if self.model is not None and self.model.suffix.lower() == ".ifc" else None
+        try:
+            return planned([self.report], settings, profile, named)
+        except AadmError as error:
+            unread = NotFound(str(named), in_both_languages(error.reason))
+            return replace(planned([self.report], settings, profile, None), not_found=(unread,))
 
-    return tower_shown(plan)
+    def shown(self) -> TowerShown | None:
+        """What the reports show of it."""
+        if self.plan is None:
+            return None
+        from aadm_workbench.stack.shown import tower_shown  # as below: most jobs have no tower to load it for
 
+        return tower_shown(self.plan)
 
-def setting_of(report: JobReport, model: Path | None) -> dict[str, list[Property]]:
-    """What the model is told of the tower; empty where the job has no [stack]; errors as :func:`plan_of`."""
-    plan = plan_of(report, model)
-    if plan is None:
-        return {}
-    from aadm_workbench.stack.setting import setting_properties
+    def properties(self) -> dict[str, list[Property]]:
+        """What the model is told of it."""
+        if self.plan is None:
+            return {}
+        from aadm_workbench.stack.setting import setting_properties
 
-    return setting_properties(plan)
+        return setting_properties(self.plan)
 
+    def in_report(self) -> JobReport:
+        """The report with the setting of each column."""
+        if self.plan is None:
+            return self.report
+        from aadm_workbench.model.made import changed
+        from aadm_workbench.stack.setting import setting_report
 
-def with_setting(report: JobReport, model: Path | None) -> JobReport:
-    """The report with the setting of each column, where the job has [stack]; errors as :func:`plan_of`."""
-    plan = plan_of(report, model)
-    if plan is None:
-        return report
-    from aadm_workbench.model.made import changed
-    from aadm_workbench.stack.setting import setting_report
-
-    found = {one.measured.id: setting_report(one) for one in plan.columns}
-    columns = changed(report.columns, lambda _, one: replace(one, setting=found[one.id]), keeps_facts=True)
-    return replace(report, columns=columns)
+        found = {one.measured.id: setting_report(one) for one in self.plan.columns}
+        columns = changed(self.report.columns, lambda _, one: replace(one, setting=found[one.id]), keeps_facts=True)
+        return replace(self.report, columns=columns)

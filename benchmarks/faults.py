@@ -19,7 +19,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from batch.exit_codes import BAD_USAGE, INTERNAL
+from batch.switches import BAD_USAGE, INTERNAL
 
 _COLUMNS_MORE = 1  # are checked before the disk is full, and before the scheduler dies: each fault needs one to meet
 _ROOM_FOR = 1.5  # columns: room for those, and not for a further one

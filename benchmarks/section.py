@@ -18,7 +18,7 @@ from time import process_time
 
 import numpy as np
 
-from aadm_workbench.assembly.section.inspect import inspect_section
+from aadm_workbench.assembly.section import inspect_section
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.extract.method import extract
 from aadm_workbench.extract.sample import thinned

@@ -27,14 +27,14 @@ from pathlib import Path
 from typing import Any
 
 import psutil
+from batch.program import program_key, program_versions
 
 from aadm_workbench.inspection.tasks import plan_job
 from batch.job.file import read_job
 from batch.job.inputs import looks, order_key, task_key
-from batch.program import program_key, program_versions
 from batch.runner.journal import Journal
-from batch.runner.machine import calculate_in_one_thread
 from batch.runner.packed import pack, unpack
+from batch.switches import calculate_in_one_thread
 from benchmarks.floors import SMALL, SOUND, write_floor
 
 PARTS = ("start", "floor", "growth", "resume")

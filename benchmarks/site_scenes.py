@@ -53,7 +53,7 @@ class Pattern(Setting):
 class Scenario:
     """What is unlike a sound column: what the site did, filters of the camera, slips of the job; ``keyed`` patterns.
 
-    ``other``: the foot is that of another column, which the job has too. ``bars_of``: built with bars of another size.
+    ``other``: the foot is that of another column, which the job has too.
     """
 
     site: tuple[str, ...] = ()
@@ -61,7 +61,6 @@ class Scenario:
     slip: Callable[[np.random.Generator], Slip] = lambda rng: NO_SLIP
     keyed: bool = False
     other: bool = False
-    bars_of: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +78,7 @@ class Column:
 
 
 def random_pattern(rng: np.random.Generator, *, keyed: bool) -> Pattern:
-    """3 to 16 places on a ring, or in one row or two; a quarter of the rings lack one; keyed ones always do."""
+    """3 to 16 places on a ring, or in one row or two; a quarter of the rings lack one, and all that are keyed."""
     bar_mm, sleeve_mm = SIZES_MM[rng.integers(len(SIZES_MM))]
     per_side = int(rng.integers(3 if keyed else 2, 6))
     step_mm = min(float(rng.uniform(2.0, 2.8)) * sleeve_mm, 2 * _LARGEST_HALF_MM / (per_side - 1))
@@ -90,7 +89,7 @@ def random_pattern(rng: np.random.Generator, *, keyed: bool) -> Pattern:
     else:
         places = ring(wide, wide * float(rng.choice([1.0, rng.uniform(0.8, 1.0)])), per_side)
     if not rows and per_side > 2 and (keyed or rng.random() < 0.25):
-        places = np.delete(places, int(rng.integers(1, len(places))), axis=0)
+        places = np.delete(places, _left_out(places, rng, keyed=keyed), axis=0)
     places = places - places.mean(axis=0)
     half = float(np.abs(places).max())
     exposed = 8.0 * bar_mm
@@ -108,6 +107,12 @@ def random_pattern(rng: np.random.Generator, *, keyed: bool) -> Pattern:
     )
 
 
+def _left_out(places: Array, rng: np.random.Generator, *, keyed: bool) -> int:
+    """A place that is not there; of a keyed ring none in the middle, where a mirror would not show it."""
+    beside = np.flatnonzero(np.abs(places[:, 0]) > 1.0)
+    return int(rng.choice(beside)) if keyed else int(rng.integers(1, len(places)))
+
+
 def random_camera(rng: np.random.Generator) -> CameraNoise:
     """A camera of one to four times the usual noise, on concrete and steel that return more or less."""
     noise = CameraNoise.drawn(rng)
@@ -123,43 +128,59 @@ def random_camera(rng: np.random.Generator) -> CameraNoise:
     return noise
 
 
-def built_column(scenario: Scenario, number: int) -> Column:
-    """The column of a number; the same scenario and number give the same one, filters and slips the same scene."""
-    scene = Scenario(scenario.site, keyed=scenario.keyed, other=scenario.other, bars_of=scenario.bars_of)
-    rendered = _rendered(scene, number)
+def built_column(scenario: Scenario, number: int, camera: str = "ray") -> Column:
+    """The column of a number; the same scenario and number give the same one, filters and slips the same scene.
+
+    ``camera``: ``ray``, or ``fringe`` for fringe projection by path tracing, which takes a minute for each column.
+    """
+    scene = Scenario(scenario.site, keyed=scenario.keyed, other=scenario.other)
+    rendered = _rendered(scene, number, camera)
     rng = np.random.default_rng([1, number])
     filters, slip = scenario.filters(rng), scenario.slip(rng)
     seen = [
         told_scan(seen_with(replace(scan, depth=filtered(scan.depth, filters)), slip, rng, is_foot=is_foot), slip)
         for scan, is_foot in ((rendered.sleeves, True), (rendered.rebars, False))
     ]
-    sleeves, rebars = seen[::-1] if slip.swapped else seen
+    sleeves, rebars = seen[::-1] if slip.swapped else seen[1:] * 2 if slip.twice else seen
     return replace(rendered, sleeves=sleeves, rebars=rebars, slip=slip)
 
 
 @lru_cache(maxsize=20)  # filters and slips change what was rendered: a kind's scenes serve the next kind
-def _rendered(scenario: Scenario, number: int) -> Column:
-    words = (*scenario.site, *(name for name in ("keyed", "other", "bars_of") if getattr(scenario, name)))
-    return _render(scenario, np.random.default_rng([zlib.crc32("-".join(words).encode()), number]))
+def _rendered(scenario: Scenario, number: int, camera: str) -> Column:
+    words = (*scenario.site, *(name for name in ("keyed", "other") if getattr(scenario, name)))
+    return _render(scenario, np.random.default_rng([zlib.crc32("-".join(words).encode()), number]), camera)
 
 
-def _render(scenario: Scenario, rng: np.random.Generator) -> Column:
+def _render(scenario: Scenario, rng: np.random.Generator, camera: str) -> Column:
     setting = random_pattern(rng, keyed=scenario.keyed)
     foot, bars = random_foot(setting, rng, _SPREAD_MM), random_bars(setting, rng, _SPREAD_MM)
     if scenario.other:
         foot = random_foot(_unlike(setting, rng), rng, _SPREAD_MM)
-    if scenario.bars_of:
-        bars = replace(bars, bars=tuple(replace(b, core_diameter=b.core_diameter * 1.2) for b in bars.bars))
     foot = replace(foot, sleeves=tuple(replace(s, depth=_SEEN_DEPTH_MM) for s in foot.sleeves))
     foot, bars = left_by_site(scenario.site, foot, bars, rng)
-    noise = random_camera(rng)
+    take = _taken_by(camera, setting, random_camera(rng))
     poses = [random_pose(setting, looking_up, rng) for looking_up in (True, False)]
     sleeves, rebars = (
-        scan_of(part, pose, noise, rng, _window(PRO_M, pose, _reach_mm(part)))
+        take(part, pose, rng, _window(PRO_M, pose, _reach_mm(part)))
         for part, pose in zip((foot, bars), poses, strict=True)
     )
     others = (design_of(_of_foot(setting, foot), "C-2"),) if scenario.other else ()
     return Column(setting, design_of(setting, "C-1"), foot, bars, sleeves, rebars, NO_SLIP, others)
+
+
+def _taken_by(
+    camera: str, setting: Setting, noise: CameraNoise
+) -> Callable[[Foot | BarGroup, Array, np.random.Generator, Camera], TrueScan]:
+    """What takes a part from a pose, by the window of its image."""
+    if camera == "ray":
+        return lambda part, pose, rng, window: scan_of(part, pose, noise, rng, window)
+    from aadm_workbench.twin.fringe.renderer import mitsuba_ready
+    from aadm_workbench.twin.fringe.rig import rig_for
+    from aadm_workbench.twin.fringe.shot import FringeCamera, fringe_scan_of
+
+    mitsuba_ready()
+    fringe = FringeCamera(rig_for(setting.distance))
+    return lambda part, pose, rng, window: fringe_scan_of(part, pose, fringe, rng, window)
 
 
 def design_of(setting: Setting, name: str) -> ColumnDesign:

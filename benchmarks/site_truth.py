@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,7 +14,8 @@ from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, ColumnReport, Extraction, GroupReport, Kind, Verdict
 from aadm_workbench.twin.camera import PRO_M
 from aadm_workbench.twin.parts import BarAsBuilt, axis_of
-from aadm_workbench.twin.scene import truth_of
+from aadm_workbench.twin.scene import TrueScan, truth_of
+from aadm_workbench.twin.slips import Slip
 from benchmarks.site_scenes import Column
 
 CERTAIN_MM = 0.15
@@ -41,9 +42,24 @@ class Errors:
 
 
 def _measurable(column: Column, kind: Kind) -> list[bool]:
+    """Mouths that are not under tape, and tops, as far as they lie in the picture."""
     if kind is Kind.REBAR:
-        return [True] * len(column.bars.bars)
-    return [sleeve.taped < 0.8 for sleeve in column.foot.sleeves]
+        across = [bar.core_diameter for bar in column.bars.bars]
+        return _in_picture(column.rebars, column.slip, across).tolist()
+    sleeves = column.foot.sleeves
+    in_picture = _in_picture(column.sleeves, column.slip, [sleeve.diameter for sleeve in sleeves])
+    return [sleeve.taped < 0.8 and seen for sleeve, seen in zip(sleeves, in_picture.tolist(), strict=True)]
+
+
+def _in_picture(scan: TrueScan, slip: Slip, across_mm: Sequence[float]) -> BoolArray:
+    """Whether a round thing about each true centre lies wholly in the picture that was taken, by the true camera."""
+    camera, (x, y, depth) = scan.camera, scan.points_scan().T
+    fx, fy = camera.fx / slip.focal, camera.fy / slip.focal
+    reach = fx * np.array(across_mm) / 2.0 / depth + 1.0
+    u = fx * x / depth + camera.cx - slip.principal_px[0]
+    v = fy * y / depth + camera.cy - slip.principal_px[1]
+    inside = (u > reach) & (u < camera.width - reach) & (v > reach) & (v < camera.height - reach)
+    return np.asarray(inside)
 
 
 def _group(report: ColumnReport, kind: Kind) -> GroupReport | None:

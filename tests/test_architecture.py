@@ -13,7 +13,7 @@ from typing import TypeAlias
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = "aadm_workbench"
 STAGES = ("design", "camera", "scan", "extract", "assembly", "hoisting", "report", "inspection", "stack", "calibration")
-NOUNS = {"errors", "model", "atomic", "bounded", "own_files"}
+NOUNS = {"errors", "model", "bounded", "own_files"}
 
 Finding: TypeAlias = tuple[int, str]
 Rule: TypeAlias = Callable[[PurePosixPath, ast.Module], Iterator[Finding]]

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError
+from aadm_workbench.own_files import write_atomically
 
 
 def test_a_file_is_written_and_replaced(tmp_path: Path) -> None:

@@ -9,10 +9,14 @@ from functools import cache
 import numpy as np
 import pytest
 
+from aadm_workbench.assembly.findings.diameters import odd_bar_findings
+from aadm_workbench.assembly.findings.finding import SeenGroup
+from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.assembly.tolerances import load_profile
+from aadm_workbench.extract.method import extract
 from aadm_workbench.inspection.check import check_column
 from aadm_workbench.inspection.measure import CheckSettings, ColumnScans
-from aadm_workbench.model import ColumnDesign, ColumnReport, Scan, Verdict
+from aadm_workbench.model import ColumnDesign, ColumnReport, Kind, Scan, Verdict
 from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Foot
 from aadm_workbench.twin.scenes import FIELD, LAB, random_bars, random_foot
 from aadm_workbench.twin.truth import sample_design
@@ -132,6 +136,23 @@ def test_one_bar_of_another_size_is_named(core_mm: float, seems: str) -> None:
     assert abs(float(str(finding.values["measured_mm"])) - core_mm) < 0.6
     assert report.verdict is not Verdict.PASS
     assert report.goes_on is not Verdict.PASS
+
+
+def all_thinner(scan: Scan, by_mm: float, u_mm: float) -> SeenGroup:
+    """The bars of a scan whose edges were lost: each diameter reads so much less, which their uncertainty tells."""
+    found = extract(scan, Kind.REBAR, 18.0, "refined", np.random.default_rng(0))
+    points = tuple(replace(point, diameter_mm=point.diameter_mm - by_mm) for point in found.points)
+    found = replace(found, points=points, quality={**found.quality, "diameter_u_mm": u_mm})
+    match = match_extraction(design().rebars, found, up=90.0, image_up_scan=np.array([0.0, -1.0, 0.0]))
+    return SeenGroup(Kind.REBAR, design().rebars, found, match)
+
+
+@pytest.mark.parametrize(("core_mm", "named"), [(None, []), (24.2, [("R5",)])])
+def test_lost_edges_make_no_bar_an_odd_one_and_hide_none(core_mm: float | None, named: list[tuple[str]]) -> None:
+    scan = rescanned(lambda k, bar: replace(bar, core_diameter=core_mm) if core_mm and k == 4 else bar)
+    group = all_thinner(scan, 2.0, 2.5)
+    findings = list(odd_bar_findings(group, scan, (), np.random.default_rng(0)))
+    assert [finding.about for finding in findings] == named
 
 
 @pytest.mark.parametrize("left_mm", [6.0, 45.0])

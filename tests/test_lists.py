@@ -24,9 +24,9 @@ from aadm_workbench.report.words.labels import COLOUR, FAINT, HEAD, INK
 from aadm_workbench.scan.file import CLOUDS, DEPTH_MAPS, TABLES
 from aadm_workbench.scan.read import supported_formats
 from batch.commands import design
-from batch.exit_codes import exit_code_of
 from batch.job import command as job_command
 from batch.report_files import _PACKAGES, FORMATS
+from batch.switches import exit_code_of
 
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]

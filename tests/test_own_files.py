@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from aadm_workbench import own_files
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.own_files import (
     UnsafeFileError,
     clear_asides,
@@ -18,6 +17,7 @@ from aadm_workbench.own_files import (
     is_there,
     open_to_read,
     open_to_write,
+    write_atomically,
 )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule, agree_on_points, agree_on_spacing, agreed, decide_signed
 from aadm_workbench.assembly.matching.match import Match, Placement
-from aadm_workbench.assembly.place import PlacedPoint, place_points
+from aadm_workbench.assembly.pairs import PlacedPoint, place_points
 from aadm_workbench.assembly.pose.eopa import wrap
 from aadm_workbench.assembly.position import describe_limits, inspect_positions, inspect_spacing
 from aadm_workbench.assembly.tolerances import (

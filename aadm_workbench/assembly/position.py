@@ -22,7 +22,7 @@ from aadm_workbench.assembly.decision import (
     decide_signed,
     standard_uncertainty,
 )
-from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
+from aadm_workbench.assembly.pairs import PlacedPoint, flat_covariance
 from aadm_workbench.assembly.tolerances import describe_clause, describe_limit
 from aadm_workbench.design.recognise.pattern import adjacent
 from aadm_workbench.model import (

@@ -137,7 +137,9 @@ def parse_profile(text: str, name: str, source: str) -> Profile:
     try:
         table = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise JobError.about(source, "jobfile.profile_no_toml", why=error) from error
+        from aadm_workbench.bounded import toml_fault
+
+        raise JobError.about(source, "jobfile.profile_no_toml", why=toml_fault(error)) from error
     if table.get("schema") != 1:
         raise JobError.about(source, "jobfile.profile_schema", found=repr(table.get("schema")))
     unknown = sorted(set(table) - {"schema", "name", "title", "rules"})

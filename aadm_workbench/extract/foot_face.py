@@ -19,7 +19,7 @@ from aadm_workbench.extract.patches import Patches
 from aadm_workbench.extract.plane import facing, find_planes, in_plane, refined_plane
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm
 from aadm_workbench.model import Array, FloatArray, Plane, Scan
-from aadm_workbench.model.scatter import TO_SIGMA
+from aadm_workbench.model.measured import TO_SIGMA
 
 FACE_BAND_MM = 1.5
 """About the plane of a face that is smooth."""

@@ -15,6 +15,7 @@ from aadm_workbench.extract.edges.edge_shift import (
     eroded_discs,
     shift_of_mouths,
     shift_of_rims,
+    view_by_walls,
 )
 from aadm_workbench.extract.edges.learned_edges import (
     DISC_U_PITCHES,
@@ -25,7 +26,6 @@ from aadm_workbench.extract.edges.learned_edges import (
     without_view,
 )
 from aadm_workbench.extract.edges.seen_disc import SeenDiscs, SightLines, points_alone, seen_discs
-from aadm_workbench.extract.edges.shallow_walls import view_by_walls
 from aadm_workbench.extract.foot_face import FACE_BAND_MM
 from aadm_workbench.extract.mouths import Mouths
 from aadm_workbench.extract.patches import Patches
@@ -36,7 +36,7 @@ from aadm_workbench.model import (
     Array,
     BoolArray,
 )
-from aadm_workbench.model.scatter import TO_SIGMA
+from aadm_workbench.model.measured import TO_SIGMA
 
 WALL_COUNT_MIN = 20
 """Points of a bore: fewer do not tell on which side its wall shows. A choice: ±30 % moves centres by up to 0.3 u."""

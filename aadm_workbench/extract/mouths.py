@@ -36,15 +36,17 @@ _WALL_POINTS_MAX = 350  # of a bore, evenly taken: neighbours share their errors
 # a third of a mouth lets light in, so that a tape over half of it does not close it; of a whole face's points; of the
 # radius
 _SECTORS, _OPEN_SECTORS, _CLOSED_SHARE, _INSIDE = 12, 4, 0.15, (0.2, 0.75)
-# farther before the face than its rings; of a mouth's lines of sight: slips of the fringe order before unlit walls came
-# to 0.24 on path-traced scans, bars to 0.6 and more
-_BEFORE_MM, _HIDDEN_SHARE = 10.0, 0.5
+# farther before the face than its rings; of a mouth's lines of sight: bars hide 0.6 and more, slips of the fringe order
+# before unlit walls came to 0.24 and to 0.6 on path-traced scans; then what is lit shows behind the face, which floors
+# never have
+_BEFORE_MM, _HIDDEN_SHARE, _OPEN_SHARE = 10.0, 0.5, 0.15
 _FEWEST_BARS, _BARS_SHARE = 3, 0.4  # each bar hides one piece of a floor and throws a shadow on another
 # plugs sit deeper than spalls, and their rims are round: within the pixels over which the points of a rim thin out
 _FLOOR_MM, _SPALL_MM, _PLUG_ROUND, _AGREES_PITCHES = 15.0, 5.0, 0.6, 1.5
 # a plug is flat within the noise at 2 m, and its edge mixes with the wall over as much; most of what is seen inside a
 # bore lies on it; fewer points are strays
 _FLOOR_BAND_MM, _FLOOR_SHARE, _FLOOR_POINTS = 2.0, 0.6, 20
+_STRIP_PITCHES = 3.0  # of a wall: the pixels at its either side mix it with what is beside, one between is its own
 _OPPOSITE_COSINE = 0.3  # 73 degrees to either side of where the camera looks
 # of the radius, from where a hole was found to its centre: a mouth that is open by half has its open part's middle 0.42
 # of it beside; what moves farther is the edge of something else, seen in part
@@ -59,8 +61,8 @@ class Mouths:
 
     ``centre`` (k, 2) first centres; ``rims`` the edges of their rims, where they are no crease to a visible wall;
     ``coverage`` (k,) the share of the circle that shows a rim; ``wall_xy`` (k, m, 2), ``wall_depth`` (k, m) and
-    ``wall_slope`` (k, m, 2) points of the bores, those that are there ``wall_seen`` (k, m). ``kept`` are the numbers
-    (k,) of their patches.
+    ``wall_slope`` (k, m, 2) points of the bores, those that are there ``wall_seen`` (k, m). ``plugged`` (k,): so near
+    to the face that no wall shows. ``kept`` are the numbers (k,) of their patches.
     """
 
     kept: IntArray
@@ -72,6 +74,7 @@ class Mouths:
     wall_depth: Array
     wall_slope: Array
     wall_seen: BoolArray
+    plugged: BoolArray
 
     def wall_count(self) -> IntArray:
         """Points of each bore (k,)."""
@@ -105,7 +108,10 @@ def mouths_in(
     hidden = _are_hidden(patches, high_mm, centre, radius_mm, pitch_mm)
     kept &= ~hidden & (not _is_floor(hidden, kept))
     bores = _bores(patches, centre, radius_mm, near)
-    bores = bores.where(bores.depth < _ends(patches, near & ~front, centre, radius_mm)[bores.points.owner])
+    ends_mm = _ends(patches, near & ~front, centre, radius_mm)
+    plugged = _is_thin(patches.eye, centre, ends_mm, pitch_mm)
+    ends_mm[plugged] = 0.0
+    bores = bores.where(bores.depth < ends_mm[bores.points.owner])
     # Between the lands of a roughened foot its floor shows beside the bore, and is no wall.
     layer_mm = -low_mm if face is not None and face.rough else 0.0
     upper = (bores.depth > layer_mm + _UPPER_WALL_MM[0]) & (bores.depth < layer_mm + _UPPER_WALL_MM[1])
@@ -113,7 +119,16 @@ def mouths_in(
     deep = bores.where((bores.depth > max(WALL_DEPTH_MM[0], layer_mm)) & kept[bores.points.owner])
     xy, depth, slope, seen = _rows(deep.where(_opposite(deep, centre)), np.flatnonzero(kept))
     return Mouths(
-        np.flatnonzero(kept), places[kept], centre[kept], rims.of(kept), shape.coverage[kept], xy, depth, slope, seen
+        np.flatnonzero(kept),
+        places[kept],
+        centre[kept],
+        rims.of(kept),
+        shape.coverage[kept],
+        xy,
+        depth,
+        slope,
+        seen,
+        plugged[kept],
     )
 
 
@@ -159,6 +174,14 @@ def _ends(patches: Patches, behind: BoolArray, centre: Array, radius_mm: float) 
         if np.mean(np.abs(own - end_mm) < _FLOOR_BAND_MM) > _FLOOR_SHARE:
             ends[k] = end_mm - _FLOOR_BAND_MM
     return ends
+
+
+def _is_thin(eye: Array | None, centre: Array, ends_mm: Array, pitch_mm: float) -> BoolArray:
+    """Where (k,) a wall ends at a plug before it fills a few pixels: what lies there mixes the face with the plug."""
+    if eye is None:
+        return np.zeros(len(centre), bool)
+    slope = np.hypot(*(centre - eye[:, :2]).T) / eye[:, 2]
+    return np.asarray(ends_mm * slope < _STRIP_PITCHES * pitch_mm)
 
 
 def _slope(eye: Array | None, points: PlanPoints, depth: FloatArray) -> FloatArray:
@@ -242,11 +265,19 @@ def _is_shallow(
 
 
 def _are_hidden(patches: Patches, high_mm: float, centre: Array, radius_mm: float, pitch_mm: float) -> BoolArray:
-    """Where (k,) most lines of sight into a mouth end before the face: bars hide round pieces of a floor like this."""
-    crossed = patches.crossings(np.flatnonzero(patches.height > high_mm + _BEFORE_MM))
+    """Where (k,) most lines of sight into a mouth end before the face, and hardly one behind it.
+
+    Bars hide round pieces of a floor like this.
+    """
     within_mm = _INSIDE[1] * radius_mm
     expected = np.pi * (within_mm / pitch_mm) ** 2
-    return np.asarray(crossed.counted(crossed.distance(centre) < within_mm) > _HIDDEN_SHARE * expected)
+
+    def share(wanted: BoolArray) -> Array:
+        crossed = patches.crossings(np.flatnonzero(wanted))
+        return np.asarray(crossed.counted(crossed.distance(centre) < within_mm) / expected)
+
+    before = share(patches.height > high_mm + _BEFORE_MM) > _HIDDEN_SHARE
+    return np.asarray(before & (share(patches.height < -_FLOOR_MM) < _OPEN_SHARE)) if before.any() else before
 
 
 def _is_floor(hidden: BoolArray, kept: BoolArray) -> bool:

@@ -12,9 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.extract.bars_in_scan import ABOVE_FLOOR_MM, Standing, find_standing, standing_along, top_heights
-from aadm_workbench.extract.burrs import burr_u_mm
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
-from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
 from aadm_workbench.extract.edges.bend import Bend, bend_at_edges, no_bend
 from aadm_workbench.extract.edges.edge_shift import PARTS_VIEW_MM, eroded_rings, shift_of_tops
 from aadm_workbench.extract.edges.learned_edges import (
@@ -25,17 +23,23 @@ from aadm_workbench.extract.edges.learned_edges import (
     without_losses,
 )
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
-from aadm_workbench.extract.filter_signs import filter_signs
-from aadm_workbench.extract.found_points import found_points, seen_lengths
+from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
+from aadm_workbench.extract.own_tops import TopPlanes, top_planes
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
-from aadm_workbench.extract.plane import axes_on, in_plane
+from aadm_workbench.extract.plane import axes_on, found_points, in_plane, seen_lengths
 from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw, Rims, Walls
-from aadm_workbench.extract.pooled.fit import CircleEvidence, Evidence, PooledFit, fit_pooled, likeliest_circles
-from aadm_workbench.extract.pooled.leans import BAR_PRIORS, believed_leans
+from aadm_workbench.extract.pooled.fit import (
+    BAR_PRIORS,
+    CircleEvidence,
+    Evidence,
+    PooledFit,
+    believed_leans,
+    fit_pooled,
+    likeliest_circles,
+)
 from aadm_workbench.extract.pooled.system import Priors, State
 from aadm_workbench.extract.sample import Thinned, thinned
-from aadm_workbench.extract.top_planes import TopPlanes, top_planes
-from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, Tops, tops_in, with_sides_that_lean
+from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, Tops, burr_u_mm, tops_in, with_sides_that_lean
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Reason, Scan
 
 _SAMPLE = 90_000  # every fifth row and column of 1920 × 1200

@@ -12,19 +12,17 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.extract.circle import AGREES_MM
-from aadm_workbench.extract.copied_pixels import COPIED, copies_depths
 from aadm_workbench.extract.edges.learned_edges import (
     known_edges,
 )
 from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
 from aadm_workbench.extract.edges.seen_disc import sight_lines_on_face
-from aadm_workbench.extract.filter_signs import filter_signs
+from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
 from aadm_workbench.extract.foot_face import FootFace, faces_with_holes, level_with_rings
-from aadm_workbench.extract.found_points import found_points, seen_lengths
 from aadm_workbench.extract.mouth_fits import WALL_COUNT_MIN, fit_as_learned, fit_mouths, with_unseen_edges
 from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouths_in
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
-from aadm_workbench.extract.plane import axes_on, from_plane, in_plane, turned_over
+from aadm_workbench.extract.plane import axes_on, found_points, from_plane, in_plane, seen_lengths, turned_over
 from aadm_workbench.extract.pooled.fit import PooledFit
 from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.model import (
@@ -47,6 +45,12 @@ BORE_LEAN_U = 2e-3
 """Of a lean: light that bounces in a bore pushes its wall by less or more as it goes deeper."""
 
 _WEAR_PITCHES = 0.04  # how far rims may be worn away unnoticed; it shifts centres along the view
+# evenly within three quarters of a pixel either way: edges before a plug mix otherwise than those of the other mouths,
+# which tell what the camera does
+_PLUG_PITCHES = 0.43
+# what a camera bends edges by is told by a flat face; without one it stays in: 0.2 and 0.6 of a pixel on two
+# path-traced roughened feet
+_UNKNOWN_BEND_PITCHES = 0.3
 _ROUGH_U_MM = 0.1  # grains at the rim of a roughened foot, each mouth by itself
 # all radii of a roughened foot, whose rims lie at many depths: 18 feet of the twin had 0.36 mm of diameter (rms)
 _ROUGH_RADIUS_U_MM = 0.2
@@ -160,8 +164,23 @@ def _in_face(
     if not layer.rough:
         patches, ringed = level_with_rings(patches, diameter_mm / 2)
         layer = replace(layer, flat=not ringed)
-    mouths = mouths_in(patches, centres, diameter_mm / 2, pitch_mm, tuple(other / 2 for other in others_mm), layer)
-    return _measured(mouths, patches, layer, diameter_mm, pitch_mm, scan.learned)
+
+    def measured(others_mm: tuple[float, ...]) -> Extraction:
+        others = tuple(other / 2 for other in others_mm)
+        mouths = mouths_in(patches, centres, diameter_mm / 2, pitch_mm, others, layer)
+        return _measured(mouths, patches, layer, diameter_mm, pitch_mm, scan.learned)
+
+    seen = measured(others_mm)
+    if _is_of_another_size(seen, diameter_mm):
+        # The circle lies on a part of a larger rim, or of a smaller one, which as a whole is round with its own radius.
+        return measured((*others_mm, *(diameter_mm * (1.0 + 2.0 * off) for off in (-_RADIUS_MISFIT, _RADIUS_MISFIT))))
+    return seen
+
+
+def _is_of_another_size(seen: Extraction, diameter_mm: float) -> bool:
+    """Whether mouths are all so far off their diameter that another size is likelier."""
+    measured_mm = [point.diameter_mm for point in seen.points]
+    return bool(measured_mm) and abs(float(np.median(measured_mm)) / diameter_mm - 1.0) > _RADIUS_MISFIT / 2.0
 
 
 def _facing_away_from_walls(face: Plane, centres: Array, sample: Thinned, radius_mm: float) -> tuple[Plane, Array]:
@@ -201,7 +220,8 @@ def _measured(
         fit, off_pitches = fit_as_learned(fit, mouths, lines, diameter_mm / 2, known)
         learned = {"learned_edges_off_pixels": off_pitches}
     if fit is not None and not layer.flat:
-        fit = replace(fit, covariance=fit.covariance + _ROUGH_U_MM**2 * np.eye(2))
+        u_mm = float(np.hypot(_ROUGH_U_MM, _UNKNOWN_BEND_PITCHES * pitch_mm))
+        fit = replace(fit, covariance=fit.covariance + u_mm**2 * np.eye(2))
     if fit is not None and layer.rough:
         fit = replace(fit, radius_u_mm=float(np.hypot(fit.radius_u_mm, _ROUGH_RADIUS_U_MM)))
     signs = filter_signs(own, mouths.centre, diameter_mm / 2, pitch_mm, 1.0, flat=layer.flat)
@@ -242,7 +262,8 @@ def _are_round(mouths: Mouths, fit: PooledFit, pitch_mm: float) -> BoolArray:
 
 def _points(mouths: Mouths, fit: PooledFit, face: Plane, pitch_mm: float) -> tuple[AssemblyPoint, ...]:
     count = len(mouths.place)
-    wear = np.eye(2) * (_WEAR_PITCHES * pitch_mm) ** 2
+    wear_pitches = np.where(mouths.plugged, _PLUG_PITCHES, _WEAR_PITCHES)
+    wear = np.eye(2) * ((wear_pitches * pitch_mm) ** 2)[:, None, None]
     return found_points(
         Kind.SLEEVE,
         face,

@@ -13,8 +13,7 @@ from dataclasses import dataclass, field, replace
 from aadm_workbench.errors import AadmError, DesignError
 from aadm_workbench.inspection.check import check_column, report_on
 from aadm_workbench.inspection.measure import ColumnScans
-from aadm_workbench.inspection.stopwatch import Stopwatch
-from aadm_workbench.inspection.tasks import ColumnTask
+from aadm_workbench.inspection.tasks import ColumnTask, Stopwatch
 from aadm_workbench.model import ColumnDesign, ColumnReport, Kind, Reason, Scan, Verdict
 from aadm_workbench.model.reason import reason_of, renamed
 from aadm_workbench.scan.plausible import check_plausible, extent_mm

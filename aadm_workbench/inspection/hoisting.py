@@ -15,8 +15,7 @@ from aadm_workbench.hoisting.sequence.contradiction import contradiction_of
 from aadm_workbench.hoisting.sequence.joint import measure_jointly
 from aadm_workbench.hoisting.sequence.sighting import SightedMeasurement
 from aadm_workbench.hoisting.turn_findings import with_contradiction
-from aadm_workbench.inspection.stopwatch import Stopwatch
-from aadm_workbench.inspection.tasks import ColumnTask
+from aadm_workbench.inspection.tasks import ColumnTask, Stopwatch
 from aadm_workbench.model import (
     AimedPose,
     AssemblyPoint,

@@ -25,7 +25,7 @@ from aadm_workbench.assembly.group_notes import (
 )
 from aadm_workbench.assembly.inspect import inspect_group
 from aadm_workbench.assembly.matching.match import Match, match_extraction
-from aadm_workbench.assembly.place import place_points
+from aadm_workbench.assembly.pairs import place_points
 from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.extract.method import Known, extract_sizes
 from aadm_workbench.model import (

@@ -5,10 +5,12 @@ The model is read once; then each column has all that any process needs for it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from time import perf_counter
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -31,6 +33,29 @@ from aadm_workbench.model import (
     Scan,
 )
 from aadm_workbench.scan.read import read_scan
+
+_DECIMALS = 4  # 0.1 ms
+
+
+class Stopwatch:
+    """Seconds spent in each stage, summed over all times it was entered."""
+
+    def __init__(self) -> None:
+        self._seconds: dict[str, float] = {}
+
+    @contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        """Count what happens inside towards a stage."""
+        began = perf_counter()
+        try:
+            yield
+        finally:
+            self._seconds[name] = self._seconds.get(name, 0.0) + perf_counter() - began
+
+    def seconds(self) -> dict[str, float]:
+        """Seconds by stage, in the order in which the stages were first left."""
+        return {name: round(value, _DECIMALS) for name, value in self._seconds.items()}
+
 
 if TYPE_CHECKING:
     from aadm_workbench.design.model_design import ModelDesign

@@ -10,25 +10,18 @@ the column) and *model frame* (of the IFC or FreeCAD model).
 
 from __future__ import annotations
 
-from aadm_workbench.model.absolute import (
-    AbsolutePoint,
-    AbsolutePosition,
-    ControlPoint,
-    ControlResidual,
+from aadm_workbench.model.across import (
+    Capability,
+    MouldDrift,
+    SettingReport,
+    SleeveDrift,
+    StackSettings,
 )
 from aadm_workbench.model.camera import (
     Camera,
     CameraProfile,
     LearnedEdges,
     Measure,
-)
-from aadm_workbench.model.drift import (
-    Capability,
-    MouldDrift,
-    SleeveDrift,
-)
-from aadm_workbench.model.findings import (
-    Finding,
 )
 from aadm_workbench.model.hoisting import (
     CameraMove,
@@ -44,10 +37,14 @@ from aadm_workbench.model.measured import (
     CAMERA_AXES,
     OPENGL_AXES,
     UP_DEG,
+    AbsolutePoint,
+    AbsolutePosition,
     Array,
     AssemblyPoint,
     BoolArray,
     ColumnDesign,
+    ControlPoint,
+    ControlResidual,
     Extraction,
     Figure,
     Figures,
@@ -64,21 +61,20 @@ from aadm_workbench.model.reason import (
     codes_of,
     in_one,
 )
-from aadm_workbench.model.repairs import (
-    RepairAction,
-    RepairReport,
-    RepairStep,
-)
 from aadm_workbench.model.reports import (
     ColumnReport,
     GridAxis,
     JobReport,
+    RepairAction,
+    RepairReport,
+    RepairStep,
 )
 from aadm_workbench.model.results import (
     AimedPose,
     BestPair,
     BestPose,
     Candidate,
+    Finding,
     Fit,
     GroupReport,
     Orientation,
@@ -91,19 +87,13 @@ from aadm_workbench.model.results import (
     TrialReport,
     TurnResult,
 )
-from aadm_workbench.model.rules import (
-    Deviation,
-    Profile,
-    Rule,
-)
-from aadm_workbench.model.stack import (
-    SettingReport,
-    StackSettings,
-)
 from aadm_workbench.model.verdicts import (
     SUMMED,
     WORST_FIRST,
+    Deviation,
     Kind,
+    Profile,
+    Rule,
     Verdict,
     worst,
 )

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from aadm_workbench.model.findings import Finding
 from aadm_workbench.model.measured import Array, Figures, Vector2, Vector3
+from aadm_workbench.model.results import Finding
 from aadm_workbench.model.verdicts import Verdict
 
 

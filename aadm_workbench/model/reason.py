@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
 from functools import cache
@@ -17,6 +18,9 @@ Value: TypeAlias = "str | tuple[str, ...]"
 
 _JOINED = {" ": (" ", ""), "and": (" and ", "和"), "or": (" or ", "或"), ";": ("; ", "；"), ".": (". ", "。")}
 """What several values of one place are joined by, English and Chinese, where its format says so; else by commas."""
+
+_SAID = {"what", "why"}
+"""Places in which a library puts another of its sentences."""
 
 
 class Place(NamedTuple):
@@ -122,6 +126,26 @@ def sentences_of(room: str) -> dict[str, Sentence]:
     """All sentences of one file of the table, by their codes."""
     table: dict[str, Sentence] = import_module(f"aadm_workbench.model.sentences.{room}").SENTENCES
     return table
+
+
+def as_said_by(room: str, words: str) -> Reason:
+    """What a library says in English, as the sentence of its room that has these words; ``other`` where none has."""
+    for code, names, pattern in _patterns_of(room):
+        if found := pattern.fullmatch(words):
+            said = zip(names, found.groups(), strict=True)
+            return Reason(code, **{name: as_said_by(room, text) if name in _SAID else text for name, text in said})
+    return Reason(f"{room}.other", words=words)
+
+
+@cache
+def _patterns_of(room: str) -> list[tuple[str, list[str], re.Pattern[str]]]:
+    """Code, places and pattern of each sentence of a room: those that hold another one first, then the longest."""
+    found = []
+    for code, told in sentences_of(room).items():
+        places = places_of(told.en)
+        pattern = "".join(re.escape(place.before) + "(.+?)" * bool(place.name) for place in places)
+        found.append((code, [place.name for place in places if place.name], re.compile(pattern, re.DOTALL)))
+    return sorted(found, key=lambda one: (_SAID.isdisjoint(one[1]), -len(one[2].pattern)))
 
 
 @cache

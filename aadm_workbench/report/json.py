@@ -18,11 +18,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.model import ColumnReport, JobReport, Json, Profile
+from aadm_workbench.own_files import write_atomically
 
 if TYPE_CHECKING:
-    from aadm_workbench.model.shipment import ShipmentReport
+    from aadm_workbench.model.across import ShipmentReport
 
 SCHEMA = 1
 """Of report.json: keys are added under the same number, and never change their meaning."""

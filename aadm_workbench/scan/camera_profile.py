@@ -9,6 +9,7 @@ from pathlib import Path
 
 import msgspec
 
+from aadm_workbench.bounded import toml_fault
 from aadm_workbench.errors import CameraError
 from aadm_workbench.model import CameraProfile, Kind, LearnedEdges, Measure
 from aadm_workbench.model.reason import said_of
@@ -106,7 +107,7 @@ def read_profile(path: Path, source: str = "") -> CameraProfile:
     try:
         found = msgspec.convert(tomllib.loads(content.decode("utf-8-sig")), _File, strict=False)
     except (ValueError, msgspec.ValidationError) as error:
-        raise CameraError(said_of(source or path, "calibration.no_profile", why=str(error))) from error
+        raise CameraError(said_of(source or path, "calibration.no_profile", why=toml_fault(error))) from error
     learned = found.learned
     numbers = [*learned.scale, *learned.sleeves.stretch, *learned.rebars.stretch]
     numbers += [learned.sleeves.spread, learned.rebars.spread]

@@ -14,8 +14,18 @@ import numpy.typing as npt
 
 from aadm_workbench.errors import CameraError, ScanError
 from aadm_workbench.model import CAMERA_AXES, OPENGL_AXES, Array, Camera, FloatArray, Reason, Scan
-from aadm_workbench.scan.axes import AXES, axes_of, turned
-from aadm_workbench.scan.file import DEPTH_MAPS, Cloud, Declared, ScanFile, load, to_millimetres, without_return
+from aadm_workbench.scan.file import (
+    AXES,
+    DEPTH_MAPS,
+    Cloud,
+    Declared,
+    ScanFile,
+    axes_of,
+    load,
+    to_millimetres,
+    turned,
+    without_return,
+)
 from aadm_workbench.scan.pixels import is_picture, on_pixels
 
 Reader = Callable[[ScanFile, Declared], Cloud]
@@ -81,7 +91,7 @@ def read_scan(
     image
         Grey picture of the same view, pixel for pixel.
     axes
-        Of a cloud: one of :data:`~aadm_workbench.scan.axes.AXES`; None where they are to be found out.
+        Of a cloud: one of :data:`~aadm_workbench.scan.file.AXES`; None where they are to be found out.
 
     Returns
     -------

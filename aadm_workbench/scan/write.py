@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import io
 import math
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import FloatArray, Reason
-from aadm_workbench.scan.formats.pcd import compress
-from aadm_workbench.scan.formats.pcd_header import STORAGES
+from aadm_workbench.own_files import write_atomically
+from aadm_workbench.scan.formats.pcd import STORAGES, compress
 from aadm_workbench.scan.picture import encode_tiff
 
 _LARGEST_STEP = 65_535  # of 16 bits
@@ -107,31 +105,6 @@ def _pcd_body(flat: FloatArray, mode: str) -> bytes:
     planes = np.ascontiguousarray(flat.T).tobytes()
     packed = compress(planes)
     return np.array([len(packed), len(planes)], "<u4").tobytes() + packed
-
-
-def write_xyz(path: Path, points: FloatArray) -> None:
-    """Write finite points as rows of x, y and z that read back to the same numbers.
-
-    Parameters
-    ----------
-    points
-        (n, 3) or (h, w, 3) floating; those that are not finite are left out.
-    """
-    flat = _coordinates(points).reshape(-1, 3)
-    write_atomically(path, _rows(flat[np.isfinite(flat).all(axis=1)]))
-
-
-def write_npz(path: Path, points: FloatArray) -> None:
-    """Write points as the array ``points`` of a compressed NumPy archive.
-
-    Parameters
-    ----------
-    points
-        (n, 3) or (h, w, 3) floating.
-    """
-    stream = io.BytesIO()
-    np.savez_compressed(stream, points=_coordinates(points))
-    write_atomically(path, stream.getvalue())
 
 
 def _coordinates(points: FloatArray) -> np.ndarray[Any, np.dtype[Any]]:

@@ -8,11 +8,11 @@ import shutil
 import uuid
 from pathlib import Path
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.camera.frame import RECORD_NAME, Frame
 from aadm_workbench.errors import AadmError, CaptureError
 from aadm_workbench.model import Camera
 from aadm_workbench.model.reason import reason_of, renamed, said_of
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.picture import encode_float_tiff, encode_png
 from aadm_workbench.scan.write import write_pcd
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from aadm_workbench.atomic import write_atomically
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.pages.static_page import drawn, static_page
 from aadm_workbench.report.sheets.numbers import signed
 from aadm_workbench.report.words.labels import Language, Phrase, phrase, verdict_words

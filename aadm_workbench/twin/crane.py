@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.camera.frame import Closing, Device, Frame
 from aadm_workbench.errors import CaptureError, EndOfFramesError
 from aadm_workbench.model import Camera
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.write import write_depth_tiff
 from aadm_workbench.twin.camera import DEPTH_SCALE_MM, PRO_M, capture_tables
 from aadm_workbench.twin.hoisting import Hang, Stand, hanging_pose, hoisting_scan, standing_pose, true_pairs

@@ -13,9 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError
 from aadm_workbench.model import Array, Verdict
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.write import write_depth_tiff
 from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM, facing
 from aadm_workbench.twin.noise import CameraNoise

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.model import Array, FloatArray
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.write import write_pcd, write_ply
 from aadm_workbench.twin.noise import CameraNoise
 from aadm_workbench.twin.scene import TrueScan, scan_of

@@ -14,9 +14,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.recognise.pattern import inline_design, label_order
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Json
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.write import write_depth_tiff, write_pcd, write_ply
 from aadm_workbench.twin.camera import DEPTH_SCALE_MM, PRO_M, capture_tables
 from aadm_workbench.twin.filters import NO_FILTERS, Filters, filtered
@@ -172,7 +172,7 @@ def scan_truth(scan: TrueScan, design: tuple[AssemblyPoint, ...]) -> dict[str, J
 
 def _job_text(setting: Setting, seed: int, scan_format: str, taken: Taken) -> str:
     slip, made_with = taken.slip, taken.words
-    foot, bars = ("bars", "foot") if slip.swapped else ("foot", "bars")
+    foot, bars = ("bars", "foot") if slip.swapped else ("bars" if slip.twice else "foot", "bars")
     design = "".join(f"{key} = {value}\n" for key, value in design_table(setting).items())
     command = f"aadm simulate pair --setting {setting.name} --seed {seed}{made_with}"
     return f"""# Synthetic scans of a virtual camera: {command}

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.calibration.plate.file import plate_text
 from aadm_workbench.calibration.plate.plate import Place, Plate
 from aadm_workbench.model import Array, Kind
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.write import write_depth_tiff
 from aadm_workbench.twin.camera import DEPTH_SCALE_MM, PRO_M, capture_tables, facing
 from aadm_workbench.twin.noise import CameraNoise

@@ -16,6 +16,7 @@ from aadm_workbench.twin.parts import BarAsBuilt, BarGroup, Break, Cast, Foot, R
 Change: TypeAlias = Callable[[Foot, BarGroup, np.random.Generator], tuple[Foot, BarGroup]]
 """From a foot, its bars and a generator to both as the site left them."""
 
+_NEXT_SIZES = 1.2  # two sizes up: 20 mm for 24, or what stands for it; or as many down
 _SHARE = 0.25  # of the sleeves or bars, where some are spoilt and others are not
 
 
@@ -102,6 +103,24 @@ def _two_heights(foot: Foot, bars: BarGroup, rng: np.random.Generator) -> tuple[
     return foot, replace(bars, bars=tuple(replace(b, top=b.top + longer * (k % 2)) for k, b in enumerate(bars.bars)))
 
 
+def _cut_off(bar: BarAsBuilt, rng: np.random.Generator) -> BarAsBuilt:
+    return replace(bar, top=bar.top - float(rng.uniform(35.0, 80.0)))
+
+
+def _other_bars(bars: BarGroup, rng: np.random.Generator) -> BarGroup:
+    times = _other_size(rng)
+    return replace(bars, bars=tuple(replace(b, core_diameter=b.core_diameter * times) for b in bars.bars))
+
+
+def _other_sleeves(foot: Foot, rng: np.random.Generator) -> Foot:
+    times = _other_size(rng)
+    return replace(foot, sleeves=tuple(replace(s, diameter=s.diameter * times) for s in foot.sleeves))
+
+
+def _other_size(rng: np.random.Generator) -> float:
+    return float(rng.choice([_NEXT_SIZES, 1.0 / _NEXT_SIZES]))
+
+
 def _burred(bar: BarAsBuilt, rng: np.random.Generator) -> BarAsBuilt:
     return replace(bar, burr=float(rng.uniform(0.6, 1.4)), burr_direction=_turn(rng))
 
@@ -165,6 +184,9 @@ SITE: Mapping[str, Change] = MappingProxyType(
         "kinks": _some_bars(_kinked),
         "leans": _some_bars(_leaning),
         "two-heights": _two_heights,
+        "cut-off": _some_bars(_cut_off),
+        "other-bars": lambda foot, bars, rng: (foot, _other_bars(bars, rng)),
+        "other-sleeves": _feet(_other_sleeves),
         "off-size": _feet(_off_size),
         "askew": _cast(_askew),
         "pattern-beside": _cast(_beside),
@@ -180,7 +202,8 @@ SITE: Mapping[str, Change] = MappingProxyType(
 the mouths; ``tapes`` over a third to half of a quarter of them; ``taped-spalls``, where that quarter is wholly under
 tape and spalled beside it; ``proud-rings`` 2 mm before the face; ``plugs`` 10 mm inside; ``burrs`` of 0.6 to 1.4 mm on
 one side of half of the bars; ``caps`` of plastic on a quarter; ``kinks`` of a quarter; ``leans`` of 3 degrees of a
-quarter; ``two-heights``, every other bar 30 to 80 mm longer.
+quarter; ``two-heights``, every other bar 30 to 80 mm longer; ``cut-off``, a quarter 35 to 80 mm shorter.
+``other-bars`` and ``other-sleeves`` are a fifth thicker or wider than designed, or as much less.
 
 Of the foot's own section: ``off-size``, sides off by 1.5 to 6 mm; ``askew`` by 0.2 to 0.6 degrees; ``pattern-beside``,
 the sleeves 1 to 4 mm beside their place in it and turned by 0.1 to 0.4 degrees; ``bowed`` and ``warped`` faces, by 2 to

@@ -22,7 +22,8 @@ class Slip:
     """What the job says that is not so, as factors of the truth, and what the scans lack.
 
     ``focal`` of fx and fy; ``principal_px`` is added to cx and cy; ``lengths`` of depths that were measured;
-    ``unit`` is that of the job; ``up_deg`` is added to the direction of the image's top; ``swapped`` files;
+    ``unit`` is that of the job; ``up_deg`` is added to the direction of the image's top; ``swapped`` files; the bars'
+    file ``twice``; ``mirrored`` pictures were stored as in a mirror;
     ``outliers`` is the share of pixels that lie up to 80 mm off; without ``floor`` the bars' depth range ends above it.
     """
 
@@ -32,6 +33,8 @@ class Slip:
     unit: str = "mm"
     up_deg: float = 0.0
     swapped: bool = False
+    twice: bool = False
+    mirrored: bool = False
     outliers: float = 0.0
     floor: bool = True
 
@@ -49,6 +52,8 @@ SLIPS: Mapping[str, Slip] = MappingProxyType(
         "unit": Slip(unit="m"),
         "up": Slip(up_deg=180.0),
         "swapped": Slip(swapped=True),
+        "twice": Slip(twice=True),
+        "mirrored": Slip(mirrored=True),
         "outliers": Slip(outliers=_OUTLIERS),
         "no-floor": Slip(floor=False),
     }
@@ -88,10 +93,18 @@ def told_camera(camera: Camera, slip: Slip) -> Camera:
 
 def seen_with(scan: TrueScan, slip: Slip, rng: np.random.Generator, *, is_foot: bool = False) -> TrueScan:
     """The scan with what a slip does to scans themselves: outliers, and no floor under bars."""
+    if slip.mirrored:
+        scan = _mirrored(scan)
     depth = scan.depth if slip.floor or is_foot else _without_floor(scan)
     if slip.outliers:
         depth = _strewn(depth, slip.outliers, rng)
     return replace(scan, depth=depth)
+
+
+def _mirrored(scan: TrueScan) -> TrueScan:
+    """Left and right the wrong way round, which the job does not know; the truth stays that of the scene."""
+    camera = scan.camera
+    return replace(scan, depth=scan.depth[:, ::-1], camera=replace(camera, cx=camera.width - 1.0 - camera.cx))
 
 
 def told_scan(scan: TrueScan, slip: Slip) -> TrueScan:

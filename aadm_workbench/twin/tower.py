@@ -15,8 +15,8 @@ from pathlib import Path
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.model import Array
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.write import write_depth_tiff
 from aadm_workbench.twin.camera import CAPTURE_TABLES, DEPTH_SCALE_MM
 from aadm_workbench.twin.pair import Pair, design_table, scan_truth, simulated_pair

@@ -9,8 +9,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..exit_codes import ALL_PASS
-from ..switches import add_switches
+from ..switches import ALL_PASS, add_switches
 
 EXAMPLE = """\
 examples:
@@ -29,8 +28,8 @@ def run(options: argparse.Namespace) -> int:
     """Answer."""
     import json
 
-    from aadm_workbench.atomic import write_atomically
     from aadm_workbench.errors import JobError
+    from aadm_workbench.own_files import write_atomically
 
     from ..answers import ANSWERS
 

@@ -15,8 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS, exit_code_of
-from ..switches import add_switches, length, whole_number
+from ..switches import ALL_PASS, add_switches, exit_code_of, length, whole_number
 from .camera_reversal import add_reversal
 
 if TYPE_CHECKING:
@@ -158,9 +157,9 @@ def _plate_and_captures(options: argparse.Namespace, files: Sequence[Path]) -> t
 
 
 def _learn(options: argparse.Namespace) -> int:
-    from aadm_workbench.atomic import write_atomically
     from aadm_workbench.calibration.learn.learn import learned
     from aadm_workbench.calibration.learn.profile import figures_text, learned_document, profile_of
+    from aadm_workbench.own_files import write_atomically
     from aadm_workbench.report.json import encode
     from aadm_workbench.scan.camera_profile import profile_text
 

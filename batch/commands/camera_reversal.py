@@ -5,8 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..exit_codes import exit_code_of
-from ..switches import add_switches
+from ..switches import add_switches, exit_code_of
 
 
 def add_reversal(parser: argparse.ArgumentParser) -> None:

@@ -15,8 +15,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS, ERRORS
-from ..switches import add_switches
+from ..switches import ALL_PASS, ERRORS, add_switches
 
 if TYPE_CHECKING:
     from aadm_workbench.camera.frame import Device

@@ -14,8 +14,7 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS, ERRORS
-from ..switches import add_switches, duration, whole_number
+from ..switches import ALL_PASS, ERRORS, add_switches, duration, whole_number
 
 if TYPE_CHECKING:
     from aadm_workbench.camera.frame import Frame

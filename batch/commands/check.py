@@ -20,9 +20,9 @@ from typing import TYPE_CHECKING
 
 from aadm_workbench.errors import AadmError, JobError
 
-from ..exit_codes import INTERNAL, INTERRUPTED
 from ..job.command import add_job_arguments, pool_options, report_folder
 from ..report_files import add_format_switches, chosen_formats, require_packages
+from ..switches import INTERNAL, INTERRUPTED, spoken
 
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from ..runner.journal import Journal
     from ..runner.run import JobRun
     from ..shown.progress import Events, ShownCheck
+    from ..tower_plan import Tower
 
 EXAMPLE = """\
 examples:
@@ -95,7 +96,7 @@ def run(options: argparse.Namespace) -> int:
         if journal.put_aside:
             say(f"an unfinished check lay in {folder}; its results are in {PREVIOUS_NAME} (--resume goes on with such)")
         try:
-            with ShownCheck(events, quiet=options.quiet, language=options.language or "en") as shown:
+            with ShownCheck(events, quiet=options.quiet, language=spoken(options.language)) as shown:
                 run_options = RunOptions(options.method, tuple(options.only), pool_options(options), options.verify)
                 done = run_job(job, run_options, shown, journal, folder)
         except (AadmError, KeyboardInterrupt) as stop:
@@ -168,7 +169,7 @@ def _hand_over(
 
     ``remembered`` is what the journal knows of the report that an earlier run has written.
     """
-    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.own_files import write_atomically
     from aadm_workbench.report.json import encode
 
     from ..made_report import still_there, written
@@ -180,11 +181,11 @@ def _hand_over(
     path = folder / "report.json"
     basis = f"{done.basis}{' absolute' * options.absolute_paths}" if done.basis else ""
     code, made = INTERNAL, still_there(remembered, basis, path)
-    served = _Served(done, job, options.absolute_paths)
+    served = _Served(done, job, folder, options.absolute_paths)
     try:
         made = made or written(served.report, basis, path)
         write_atomically(folder / "timing.json", encode(done.seconds))
-        code = made.exit_code if _write_reports(job, folder, options) else INTERNAL
+        code = made.exit_code if _write_reports(served, options) else INTERNAL
     except AadmError as error:
         # Everything was checked, so this is not the "nothing was checked" that other errors mean.
         _complain(error, options)
@@ -192,25 +193,48 @@ def _hand_over(
     with suppress(AadmError) if made is None else nullcontext():
         _show(served, None if made is None else path, options)
     if options.write_ifc and code != INTERNAL:
-        code = _write_model(job, folder, options) or code
+        code = _write_model(served, options) or code
     return code, made
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class _Served:
-    """The report of a run as it is handed over, made where it is needed."""
+    """The report of a run as it is handed over, made where it is needed; and what else is made of the same run."""
 
     done: JobRun
     job: Job
+    folder: Path
     absolute_paths: bool
+    _tower: Tower | None = None
 
     @cached_property
     def report(self) -> JobReport:
-        from ..served_report import without_absolute_paths
+        from ..made_report import without_absolute_paths
 
-        report = _with_setting(self.done.report, self.job)
+        report = self.done.report
+        if self.job.stack is not None:
+            from ..tower_plan import Tower
+
+            self._tower = Tower(report, self.job.model_path)
+            report = self._tower.in_report()
         report.verdicts()  # once, before every text is looked at
         return report if self.absolute_paths else without_absolute_paths(report, self.job)
+
+    @cached_property
+    def written(self) -> JobReport:
+        """What report.json holds."""
+        from aadm_workbench.report.read import read_report
+
+        return read_report(self.folder / "report.json")
+
+    @property
+    def tower(self) -> Tower:
+        """The tower that the report was made with; of an earlier run's report the one that follows from it."""
+        if self._tower is None:
+            from ..tower_plan import Tower
+
+            self._tower = Tower(self.written, self.job.model_path)
+        return self._tower
 
 
 def _show(served: _Served, path: Path | None, options: argparse.Namespace) -> None:
@@ -224,15 +248,7 @@ def _show(served: _Served, path: Path | None, options: argparse.Namespace) -> No
     elif not options.quiet and options.events != "-":
         from ..shown.verdict_table import show_verdicts
 
-        show_verdicts(served.report, path, options.language or "en")
-
-
-def _with_setting(report: JobReport, job: Job) -> JobReport:
-    if job.stack is None:
-        return report
-    from ..tower_plan import with_setting
-
-    return with_setting(report, job.model_path)
+        show_verdicts(served.report, path, spoken(options.language))
 
 
 def _complain(error: AadmError, options: argparse.Namespace) -> None:
@@ -242,30 +258,27 @@ def _complain(error: AadmError, options: argparse.Namespace) -> None:
     say(f"aadm: {told(error, options)}")
 
 
-def _write_reports(job: Job, folder: Path, options: argparse.Namespace) -> bool:
+def _write_reports(served: _Served, options: argparse.Namespace) -> bool:
     """The other reports that were asked for, from what report.json holds; whether all were written."""
     formats = chosen_formats(options)
     if not formats:
         return True
-    from aadm_workbench.report.read import read_report
-
     from ..report_files import HowReports, write_reports
 
-    how = HowReports.asked(options, job.model_path)
-    written = write_reports(read_report(folder / "report.json"), formats, folder, how)
+    written = write_reports(served.written, formats, served.folder, HowReports.asked(options, served.tower))
     written.say(options)
     return not written.failed
 
 
-def _write_model(job: Job, folder: Path, options: argparse.Namespace) -> int:
+def _write_model(served: _Served, options: argparse.Namespace) -> int:
     """Write the model with the results; 0 where that went well."""
-    from aadm_workbench.report.read import read_report
-
-    from ..model_results import write_checked_model, written_lines
+    from ..model_results import ifc_model_of, write_results, written_lines
     from ..shown.terminal import say
 
     try:
-        written = write_checked_model(read_report(folder / "report.json"), job, folder)
+        model, folder = ifc_model_of(served.job), served.folder
+        out, setting = folder / f"{model.stem}-checked.ifc", served.tower.properties()
+        written = write_results(served.written, folder, model, out, setting=setting)
     except AadmError as error:
         _complain(error, options)
         return INTERNAL

@@ -16,8 +16,7 @@ from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS, ERRORS
-from ..switches import add_switches
+from ..switches import ALL_PASS, ERRORS, add_switches
 
 if TYPE_CHECKING:
     from rich.table import Table

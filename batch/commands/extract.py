@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS, UNDECIDED
 from ..job.command import SCAN_METHODS
-from ..switches import add_switches, length, whole_number
+from ..switches import ALL_PASS, UNDECIDED, add_switches, length, whole_number
 
 if TYPE_CHECKING:
     from rich.table import Table

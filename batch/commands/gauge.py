@@ -16,8 +16,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import exit_code_of
-from ..switches import add_switches
+from ..switches import add_switches, exit_code_of
 
 if TYPE_CHECKING:
     from aadm_workbench.calibration.gauge.captures import Capture

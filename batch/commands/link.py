@@ -13,8 +13,7 @@ import asyncio
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS
-from ..switches import add_switches, length
+from ..switches import ALL_PASS, add_switches, length, port
 
 if TYPE_CHECKING:
     from ..link.publish import Link
@@ -45,13 +44,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seconds", type=length, metavar="S", help="end after this time")
     add_switches(parser, prints_json="what was shown last")
     parser.set_defaults(run=run)
-
-
-def port(text: str) -> int:
-    """A TCP port."""
-    if not text.isdecimal() or not 0 < int(text) < 2**16:
-        raise argparse.ArgumentTypeError(f"{text!r} is no port; write a number from 1 to 65535")
-    return int(text)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -15,8 +15,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import INTERNAL, exit_code_of
 from ..job.command import add_job_arguments, pool_options, report_folder
+from ..switches import INTERNAL, exit_code_of
 
 if TYPE_CHECKING:
     from ..matching.run import MatchRun
@@ -39,9 +39,9 @@ def run(options: argparse.Namespace) -> int:
     from ..job.file import read_job
 
     job = read_job(options.job)
+    from ..made_report import without_absolute_paths
     from ..matching.run import run_match
     from ..runner.run import RunOptions
-    from ..served_report import without_absolute_paths
     from ..shown.progress import StepProgress
 
     folder = report_folder(options)
@@ -52,8 +52,8 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _hand_over(done: MatchRun, folder: Path, options: argparse.Namespace) -> int:
-    from aadm_workbench.atomic import write_atomically
     from aadm_workbench.errors import AadmError
+    from aadm_workbench.own_files import write_atomically
     from aadm_workbench.report.json import encode, shipment_document
 
     from ..shown.match_table import match_tables

@@ -10,9 +10,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS, UNDECIDED
-from ..job.direction import NEAR
-from ..switches import add_switches, length
+from ..job.table import NEAR
+from ..switches import ALL_PASS, UNDECIDED, add_switches, length
 
 if TYPE_CHECKING:
     from rich.table import Table

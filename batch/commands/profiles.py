@@ -9,8 +9,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS
-from ..switches import add_switches
+from ..switches import ALL_PASS, add_switches
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -15,9 +15,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS, INTERNAL
 from ..report_files import add_format_switches, chosen_formats, require_packages
-from ..switches import add_switches
+from ..switches import ALL_PASS, INTERNAL, add_switches
 
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
@@ -69,12 +68,13 @@ def _reports(options: argparse.Namespace) -> Written:
     from aadm_workbench.report.read import read_report
 
     from ..report_files import HowReports, write_reports
+    from ..tower_plan import Tower
 
     formats = chosen_formats(options) or ("html",)
     require_packages(formats)
     report = only_columns(read_report(options.report), options.only, options.report)
     folder = _folder(options, options.report.parent)
-    return write_reports(report, formats, folder, HowReports.asked(options, options.model))
+    return write_reports(report, formats, folder, HowReports.asked(options, Tower(report, options.model)))
 
 
 def _cards_of_job(options: argparse.Namespace) -> dict[str, Path]:

@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
-from ..exit_codes import ALL_PASS
-from ..switches import add_switches, whole_number
+from ..switches import ALL_PASS, add_switches, whole_number
 
 EXAMPLE = """\
 example:
@@ -41,12 +40,13 @@ _FILTER = (
 )
 _SITE = (
     "what the site did, again for each: rough, keyed (feet), spalls, tapes, taped-spalls, proud-rings, plugs, burrs, "
-    "caps, kinks, leans, two-heights; of the foot's own section off-size, askew, pattern-beside, bowed, warped, "
-    "broken-corners, broken-edges"
+    "caps, kinks, leans, two-heights, cut-off, other-bars, other-sleeves; of the foot's own section off-size, askew, "
+    "pattern-beside, bowed, warped, broken-corners, broken-edges"
 )
 _SLIP = (
     "what goes wrong between camera and job, again for each: focal-half, focal-double, focal-2-percent, "
-    "principal-point, depth-x10, depth-by-10, unit, up, swapped (of the job); outliers, no-floor (of the scans)"
+    "principal-point, depth-x10, depth-by-10, unit, up, swapped, twice (of the job); outliers, no-floor, mirrored (of "
+    "the scans)"
 )
 _OWN = "so many sound columns C-301, C-302, …, whose job brings its own design, instead of the sample floor"
 _DEFECT = (

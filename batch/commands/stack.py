@@ -16,8 +16,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import UNDECIDED, exit_code_of
-from ..switches import add_switches
+from ..switches import UNDECIDED, add_switches, exit_code_of
 from ..tower_plan import PROFILE, planned
 
 if TYPE_CHECKING:

@@ -7,10 +7,9 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..exit_codes import ALL_PASS
 from ..job.command import METHODS, SCAN_METHODS
 from ..study_loop import add_loop_study
-from ..switches import add_switches, whole_number
+from ..switches import ALL_PASS, add_switches, whole_number
 
 if TYPE_CHECKING:
     from aadm_workbench.twin.study.hoisting import HoistingStudy
@@ -140,7 +139,7 @@ def _encoded(study: MethodStudy, *, quick: bool) -> bytes:
 
 
 def _write(study: MethodStudy, summary: bytes, folder: Path) -> list[Path]:
-    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.own_files import write_atomically
     from aadm_workbench.twin.study.files import write_tables
     from aadm_workbench.twin.study.plots import write_plots
 
@@ -206,7 +205,7 @@ def _study_hoisting(options: argparse.Namespace) -> int:
 
 
 def _write_hoisting(study: HoistingStudy, summary: bytes, folder: Path) -> list[Path]:
-    from aadm_workbench.atomic import write_atomically
+    from aadm_workbench.own_files import write_atomically
     from aadm_workbench.twin.study.hoisting_plots import write_hoisting_plots
 
     path = folder / f"{study.name}.json"

@@ -15,9 +15,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import exit_code_of
-from ..job.direction import NEAR
-from ..switches import add_switches, duration, length, whole_number
+from ..job.table import NEAR
+from ..switches import add_switches, duration, exit_code_of, length, whole_number
 
 if TYPE_CHECKING:
     from ..watch.run import Live

@@ -11,8 +11,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..exit_codes import ALL_PASS
-from ..switches import add_switches
+from ..switches import ALL_PASS, add_switches
 
 if TYPE_CHECKING:
     from aadm_workbench.report.ifc.model import WriteBack
@@ -56,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
     """Write the results into a model, or take them out."""
     done = _remove(options) if options.remove else _write(options)
     if options.ids is not None:
-        from aadm_workbench.atomic import write_atomically
+        from aadm_workbench.own_files import write_atomically
         from aadm_workbench.report.ifc.model import ids_path
 
         write_atomically(options.ids, ids_path().read_bytes())

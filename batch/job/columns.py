@@ -7,10 +7,9 @@ from aadm_workbench.errors import DesignError
 from aadm_workbench.inspection.job import JobColumn
 from aadm_workbench.model import ColumnDesign, ControlPoint, Vector3
 from aadm_workbench.model.reports import LONGEST_ID
-from aadm_workbench.scan.axes import AXES
+from aadm_workbench.scan.file import AXES
 
-from .direction import near_corner, read_frames, up_deg
-from .table import JobTable
+from .table import JobTable, near_corner, read_frames, up_deg
 
 _SCANS = ("sleeves", "rebars", "hoisting", "sleeves_image", "rebars_image")
 _COLUMN = ("id", *_SCANS, "up", "sleeves_up", "rebars_up", "axes", "near", "design", "control_points", "set_pose")

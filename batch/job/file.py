@@ -17,7 +17,7 @@ from aadm_workbench.inspection.job import Job, JobModel
 from aadm_workbench.model import Camera, CameraProfile, Profile, StackSettings
 from aadm_workbench.scan.file import load
 
-from ..shown.printable import steering_character
+from ..switches import steering_character
 from .columns import read_columns
 from .table import JobTable, Lines
 
@@ -109,9 +109,11 @@ def _parsed(content: bytes, source: str) -> JobTable:
     except RecursionError as error:
         raise JobError.because("jobfile.too_deep", file=source) from error
     except ValueError as error:
+        from aadm_workbench.bounded import toml_fault
+
         place = re.search(r"\(at line (\d+), column \d+\)", str(error))
         line = int(place[1]) if place else text.count("\n") + 1
-        what = re.sub(r"\s*\(at [^)]*\)$", "", str(error))
+        what = toml_fault(re.sub(r"\s*\(at [^)]*\)$", "", str(error)))
         escaped = "\\" in text.split("\n")[line - 1]  # a path of Windows, in which TOML takes backslashes for its own
         code = "jobfile.no_toml.backslashes" if escaped else "jobfile.no_toml"
         raise JobError.because(code, file=source, line=line, what=what) from error

@@ -63,5 +63,7 @@ def carried_settings(job: Mapping[str, str]) -> StackSettings | None:
     try:
         values = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise JobError.because("jobfile.report_no_toml", file=source, error=error) from error
+        from aadm_workbench.bounded import toml_fault
+
+        raise JobError.because("jobfile.report_no_toml", file=source, error=toml_fault(error)) from error
     return read_stack(JobTable({"stack": values}, (), "the job", source, Lines("")))

@@ -11,8 +11,8 @@ import socket
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError
+from aadm_workbench.own_files import write_atomically
 
 if TYPE_CHECKING:
     from cryptography.x509 import Certificate

@@ -14,10 +14,9 @@ from aadm_workbench.errors import DesignError, JobError
 from aadm_workbench.inspection.column import attempt, read_scans
 from aadm_workbench.inspection.job import Job
 from aadm_workbench.inspection.measure import CheckSettings, Measured, measure_column
-from aadm_workbench.inspection.stopwatch import Stopwatch
-from aadm_workbench.inspection.tasks import ColumnTask, job_entry, plan_job, tool_entry
+from aadm_workbench.inspection.tasks import ColumnTask, Stopwatch, job_entry, plan_job, tool_entry
 from aadm_workbench.model import ColumnDesign, Kind, Verdict
-from aadm_workbench.model.shipment import Assignment, FitCell, ShipmentGroup, ShipmentProblem, ShipmentReport
+from aadm_workbench.model.across import Assignment, FitCell, ShipmentGroup, ShipmentProblem, ShipmentReport
 
 from ..job.inputs import read_for_shipping
 from ..runner.engine import Unwatched, work_through

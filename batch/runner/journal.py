@@ -17,9 +17,8 @@ from pathlib import Path
 from time import monotonic
 from types import MappingProxyType
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError
-from aadm_workbench.own_files import UnsafeFileError, looked_up, open_to_read, open_to_write
+from aadm_workbench.own_files import UnsafeFileError, looked_up, open_to_read, open_to_write, write_atomically
 
 from .record import Record, read_record
 

@@ -12,7 +12,7 @@ import os
 import signal
 import sys
 
-from .machine import calculate_in_one_thread
+from ..switches import calculate_in_one_thread
 from .pipes import answer, own_ends, receive, send
 
 _SET_SIGNAL_OF_PARENTS_DEATH = 1  # PR_SET_PDEATHSIG of prctl(2)

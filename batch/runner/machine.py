@@ -1,4 +1,4 @@
-"""What this machine has to give: cores and memory, as a container or a queue bounds them, and one thread of each."""
+"""What this machine has to give: cores and memory, as a container or a queue bounds them."""
 
 from __future__ import annotations
 
@@ -10,27 +10,12 @@ from typing import Any
 
 from aadm_workbench.errors import MissingDependencyError
 
-_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 _LIMITS_OF_CONTAINERS = (
     "/sys/fs/cgroup/memory.max",
     "/sys/fs/cgroup/memory.high",
     "/sys/fs/cgroup/memory/memory.limit_in_bytes",
 )
 """Where Linux says what a container may hold: control groups of version 2, and of version 1."""
-
-
-def calculate_in_one_thread() -> None:
-    """Bind the libraries under numpy and scipy to one thread; to be called before either is imported.
-
-    So the last bits of a sum do not depend on the machine's load or cores. The matrices here are small, so nothing is
-    lost; columns are spread over processes instead.
-    """
-    os.environ.update(dict.fromkeys(_THREADS, "1"))
-
-
-def is_in_one_thread() -> bool:
-    """Whether this process was bound to one thread before it began."""
-    return all(os.environ.get(name) == "1" for name in _THREADS)
 
 
 def load_psutil() -> Any:

@@ -15,14 +15,12 @@ from pathlib import Path
 
 from aadm_workbench.errors import AadmError
 from aadm_workbench.inspection.job import Job
-from aadm_workbench.inspection.stopwatch import Stopwatch
-from aadm_workbench.inspection.tasks import ColumnTask, JobPlan, chosen_columns, plan_job, report_of
+from aadm_workbench.inspection.tasks import ColumnTask, JobPlan, Stopwatch, chosen_columns, plan_job, report_of
 from aadm_workbench.model import ColumnReport, JobReport
 from aadm_workbench.model.made import Made
 from aadm_workbench.report.json import encode
 
-from ..job.inputs import Looks, looks, order_key
-from ..program import program_key
+from ..job.inputs import Looks, looks, order_key, program_key
 from .engine import Death, Pool, work_through
 from .journal import Journal, Unkept
 from .pools import PoolOptions, opened_pool

@@ -15,10 +15,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import IO, Any
 
-from ..job.inputs import ShippedFile, content_hash, unpack
-from ..program import difference, program_versions
+from ..job.inputs import ShippedFile, content_hash, difference, program_versions, unpack
+from ..switches import is_in_one_thread
 from .engine import Death
-from .machine import is_in_one_thread
 
 LOOK_S, LOOK_SOON_S = 0.5, 0.1
 """So often is looked which workers there are; more often while some are starting."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from rich.table import Table
 from rich.text import Text
 
-from aadm_workbench.model.shipment import FitCell, ShipmentGroup, ShipmentReport
+from aadm_workbench.model.across import FitCell, ShipmentGroup, ShipmentReport
 
 from .terminal import new_table, verdict_text
 

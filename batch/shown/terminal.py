@@ -19,7 +19,7 @@ from rich.text import Text
 from aadm_workbench.model import Verdict
 from aadm_workbench.model.reason import Language, sentence
 
-from .printable import printable
+from ..switches import printable
 
 STYLE = {
     Verdict.PASS: ("✓", "green"),

@@ -11,7 +11,7 @@ from aadm_workbench.camera.frame import RECORD_NAME
 from aadm_workbench.camera.record import record_of
 from aadm_workbench.scan.read import supported_formats
 
-from ..job.direction import NEAR
+from ..job.table import NEAR
 
 _STEADY_LOOKS = 2  # in a row with the same size: a file that grows changes between them
 _PATIENCE_LOOKS = 8  # a second or so, until a file of full size also has its content

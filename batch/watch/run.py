@@ -13,7 +13,6 @@ from typing import Protocol
 import numpy as np
 
 from aadm_workbench.assembly.tolerances import rules_for
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import AadmError, DesignError, JobError, ScanError
 from aadm_workbench.hoisting.swing.motion import Look, Motion, Running, combined, look_at, motion_of, with_look
 from aadm_workbench.inspection.column import inspect_column
@@ -21,6 +20,7 @@ from aadm_workbench.inspection.hoisting import Before, measure_frame, unread
 from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.model import HoistingMeasurement, Scan, Verdict
 from aadm_workbench.model.reason import reason_of, renamed
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.json import encode
 
 from .corners import Corners

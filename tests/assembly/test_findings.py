@@ -192,6 +192,23 @@ def test_a_bar_that_is_cut_off_or_too_long_is_named(exposed_mm: float, design_ex
     assert finding.values["expected_mm"] == pytest.approx(150.0, abs=2.0)
 
 
+@pytest.mark.parametrize(
+    ("lengths", "embedded_mm", "named"),
+    [
+        ([150.0, 149.0, 95.0], 150.0, [("R3",)]),
+        ([152.0, 149.0, 230.0], 150.0, []),  # longer than it goes in by right: nobody says by how much
+        ([150.0, 149.0, 95.0], None, []),
+    ],
+)
+def test_few_bars_are_at_least_as_long_as_they_go_in(
+    lengths: list[float], embedded_mm: float | None, named: list[tuple[str]]
+) -> None:
+    row = [complex(x) for x in (-90.0, 0.0, 100.0)]
+    bars = group(row, kind=Kind.REBAR, design_mm=20.0, exposed_mm=lengths)
+    findings = found_in(bars, places=row, embedded_length_mm=embedded_mm)
+    assert [finding.about for finding in findings] == named
+
+
 def test_tops_that_differ_by_centimetres_by_right_are_no_finding() -> None:
     for seed in range(50):
         lengths = np.random.default_rng(seed).uniform(110.0, 190.0, 12).tolist()

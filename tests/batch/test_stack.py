@@ -16,6 +16,7 @@ from aadm_workbench.errors import JobError
 from aadm_workbench.inspection.measure import CheckSettings
 from aadm_workbench.inspection.tasks import JobPlan, job_entry
 from aadm_workbench.report.ifc.model import ids_path
+from aadm_workbench.stack.plan import plan_stack
 from batch.job.file import read_job
 from batch.job.stack import carried_settings
 from batch.main import main
@@ -101,6 +102,33 @@ def test_workbook_and_table_hold_the_tower(folder: Path, tmp_path: Path) -> None
     assert main(["report", str(folder / "report.json"), *words[1:], "--out", str(tmp_path / "without")]) == 0
     assert "Tower" not in openpyxl.load_workbook(tmp_path / "without" / "report.xlsx").sheetnames
     assert not (tmp_path / "without" / "setting-out.csv").exists()
+
+
+def test_a_tower_is_planned_once_for_all_that_tells_of_it(
+    folder: Path, repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plans = []
+
+    def counted(*given: Any) -> Any:
+        plans.append(plan_stack(*given))
+        return plans[-1]
+
+    monkeypatch.setattr("aadm_workbench.stack.plan.plan_stack", counted)
+    lab = repository / "samples" / "lab"
+    text = (lab / "job.toml").read_text("utf-8").replace('"scans/', f'"{(lab / "scans").as_posix()}/')
+    job = tmp_path / "job.toml"
+    job.write_text(f"{text}\n[stack]\nheight_mm = 3000.0\n", "utf-8")
+    words = ("--html", "--csv", "--xlsx", "--quiet", "--out", str(tmp_path))
+    assert main(["check", str(job), "--only", "L-1", *words]) == 0
+    assert len(plans) == 1
+    report = json.loads((tmp_path / "report.json").read_text("utf-8"))
+    assert report["columns"][0]["setting"]
+    assert '<section id="tower"' in (tmp_path / "report.html").read_text("utf-8")
+    # What nothing has changed of is told from report.json, again once.
+    assert main(["check", str(job), "--only", "L-1", "--resume", *words]) == 0
+    assert len(plans) == 2
+    assert main(["report", str(tmp_path / "report.json"), *words]) == 0
+    assert len(plans) == 3
 
 
 def test_a_model_that_cannot_be_read_costs_the_beams_alone(folder: Path, tmp_path: Path) -> None:

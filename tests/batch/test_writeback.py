@@ -10,9 +10,9 @@ from typing import Any
 
 import pytest
 
-from aadm_workbench.report.ifc.read import read_ifc_results
 from batch.main import main
 from tests.report.floor_schemas import SCHEMAS, converted
+from tests.report.ifc_results import read_ifc_results
 
 FLOOR = Path(__file__).resolve().parents[2] / "samples" / "floor"
 CHECKED = ("C-304", "C-307")

@@ -7,7 +7,7 @@ each place. A bore is a place without a floor.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -86,6 +86,29 @@ def scanned(
     gone = rng.random(z.shape) < np.where(deep, lost_in_bores, lost)
     z = np.where(gone, np.nan, z + rng.normal(0.0, noise_mm, z.shape))
     return Scan(depth_to_points(z.astype(np.float32), camera), "foot", "", camera, np.zeros(3))
+
+
+def with_slips(
+    scan: Scan, foot: SpoiltFoot, distance_mm: float, rng: np.random.Generator, *, end_mm: float, before_mm: float
+) -> Scan:
+    """The scan where bores end and light bounces: what is lit there is seen, the rest returns from before the face.
+
+    Projected is from 270 mm beside the camera; of what is not lit a tenth is lost.
+    """
+    camera, z = scan.camera, scan.points[..., 2].astype(np.float64)
+    assert camera is not None
+    u, v = np.meshgrid(np.arange(camera.width), np.arange(camera.height))
+    x, y = (u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy
+    shift_mm = 270.0 * end_mm / distance_mm
+    far_mm = distance_mm + end_mm
+    for cx, cy, _ in true_points(foot, distance_mm):
+        open_ = np.isnan(z) & (np.hypot(x * distance_mm - cx, y * distance_mm - cy) < foot.radius - 0.5)
+        spot = np.hypot(x * far_mm - cx * far_mm / distance_mm + shift_mm, y * far_mm - cy * far_mm / distance_mm)
+        lit = open_ & (spot < foot.radius)
+        slipped = open_ & ~lit & (rng.random(z.shape) > 0.1)
+        z = np.where(lit, far_mm, np.where(slipped, distance_mm - before_mm, z))
+    z += rng.normal(0.0, 0.1, z.shape)
+    return replace(scan, points=depth_to_points(z.astype(np.float32), camera))
 
 
 def true_points(foot: SpoiltFoot, distance_mm: float) -> Floats:

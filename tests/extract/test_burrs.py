@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aadm_workbench.extract.burrs import burr_u_mm
 from aadm_workbench.extract.circle import Outlines
+from aadm_workbench.extract.tops import burr_u_mm
 from aadm_workbench.model import Array
 
 ANGLE = np.linspace(0.0, 2.0 * np.pi, 120, endpoint=False)

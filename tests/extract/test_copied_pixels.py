@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy import ndimage
 
-from aadm_workbench.extract.copied_pixels import copies_depths
+from aadm_workbench.extract.filter_signs import copies_depths
 from aadm_workbench.model import Array, Scan
 
 SIDE = 420

@@ -17,12 +17,12 @@ from aadm_workbench.extract.circle import (
     thinned_rows,
 )
 from aadm_workbench.extract.foot_face import find_discs, rastered
+from aadm_workbench.extract.own_tops import top_planes
 from aadm_workbench.extract.patches import patches_around
 from aadm_workbench.extract.plane import facing, find_plane, find_planes, from_plane, in_plane
 from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw
 from aadm_workbench.extract.pooled.fit import CircleEvidence, likeliest_circles
 from aadm_workbench.extract.sample import thinned
-from aadm_workbench.extract.top_planes import top_planes
 from aadm_workbench.model import Camera, Plane, Scan
 
 

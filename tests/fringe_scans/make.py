@@ -18,9 +18,12 @@ from aadm_workbench.twin.fringe.rig import FringeRig, Lenses, Projector
 from aadm_workbench.twin.fringe.shot import FringeCamera, Materials, fringe_image
 from aadm_workbench.twin.meshes import bars_surface, foot_surface
 from aadm_workbench.twin.scenes import FIELD, LAB, Setting, random_bars, random_foot, random_pose
+from benchmarks.site_scenes import built_column
+from benchmarks.sites import TROUBLES
 
 HERE = Path(__file__).parent
 STEP_MM, STEPS_MAX = 0.025, 65535
+SITE_STEP_MM = 0.05  # they are farther away
 
 
 @dataclass(frozen=True)
@@ -44,6 +47,15 @@ SCENES = {
     "b-field1": Scene(201, distance=1250.0),
     "b-lab1": Scene(203, LAB, 780.0, 800.0, "zinc", ribs=0.8),
     "b-zinc": Scene(204, distance=1200.0, metal="zinc", ribs=0.0, chamfer=0.0),
+}
+
+# kinds and numbers of the benchmark of sites
+SITES = {
+    "a-site-plugs": ("plugs", 5400041),
+    "a-site-rough": ("rough", 5400026),
+    "a-site-washed": ("rough", 5400004),
+    "b-site-plugs": ("plugs", 5400050),
+    "b-site-taped-spalls": ("taped-spalls", 5400042),
 }
 
 
@@ -84,9 +96,27 @@ def make(name: str, folder: Path) -> None:
     (folder / "truth.json").write_text(json.dumps(true, indent=1))
 
 
+def make_site(name: str, folder: Path) -> None:
+    """Render the foot of a column of the benchmark of sites, with what a site did to it; a small part of the image."""
+    kind, number = SITES[name]
+    column = built_column(TROUBLES[kind].scenario, number, "fringe")
+    scan, camera = column.sleeves, column.sleeves.camera
+    write_depth_tiff(folder / "foot.tiff", scan.depth, SITE_STEP_MM)
+    true = {
+        "diameter_mm": column.setting.sleeve_diameter,
+        "camera": [camera.fx, camera.fy, camera.cx, camera.cy],
+        "size": [camera.width, camera.height],
+        "sleeves_scan": np.round(scan.points_scan(), 4).tolist(),
+        "measurable": [sleeve.taped < 1.0 for sleeve in column.foot.sleeves],
+    }
+    (folder / "truth.json").write_text(json.dumps(true, indent=1) + "\n")
+
+
 def _seen(T_scan_column: np.ndarray, points: np.ndarray) -> list[list[float]]:
     return (points @ T_scan_column[:3, :3].T + T_scan_column[:3, 3]).tolist()
 
 
 if __name__ == "__main__":
-    make(sys.argv[1], Path(sys.argv[2]) if len(sys.argv) > 2 else HERE / sys.argv[1])
+    into = Path(sys.argv[2]) if len(sys.argv) > 2 else HERE / sys.argv[1]
+    into.mkdir(exist_ok=True)
+    (make_site if sys.argv[1] in SITES else make)(sys.argv[1], into)

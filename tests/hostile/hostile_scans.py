@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from aadm_workbench.model import Array
-from aadm_workbench.scan.write import write_npz, write_ply
+from aadm_workbench.scan.write import write_ply
+from tests.scan.numpy_files import write_npz
 
 BILLION = 1_000_000_000
 TRILLION = 1_000_000_000_000

@@ -16,10 +16,10 @@ from aadm_workbench.model import ColumnReport, Verdict
 from aadm_workbench.report.json import encode
 from aadm_workbench.report.read import read_report
 from batch.job.file import read_job
+from batch.made_report import without_absolute_paths
 from batch.main import main
-from batch.served_report import without_absolute_paths
 from batch.shown import terminal
-from batch.shown.printable import printable
+from batch.switches import printable
 
 from .test_pipeline import DESIGN, column
 

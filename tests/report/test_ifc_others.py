@@ -14,10 +14,10 @@ import ifcopenshell.validate
 import pytest
 
 from aadm_workbench.report.ifc.model import remove_ifc, write_ifc
-from aadm_workbench.report.ifc.read import read_ifc_results
 from tests.design.authoring import Author
 from tests.report.floor_schemas import made_report
 from tests.report.ifc_models import one_column
+from tests.report.ifc_results import read_ifc_results
 from tests.report.typed import typed
 
 

@@ -12,10 +12,10 @@ import pytest
 from aadm_workbench.errors import ReportError
 from aadm_workbench.report.bcf.findings import topic_guid
 from aadm_workbench.report.ifc.model import remove_ifc, write_ifc
-from aadm_workbench.report.ifc.read import read_ifc_results
 from tests.design.authoring import Author
 from tests.report.floor_schemas import made_report
 from tests.report.ifc_models import CORNERS
+from tests.report.ifc_results import read_ifc_results
 from tests.report.typed import typed
 
 

@@ -11,7 +11,8 @@ import pytest
 
 from aadm_workbench.model import Array, Camera
 from aadm_workbench.scan.read import read_scan
-from aadm_workbench.scan.write import write_depth_tiff, write_npz, write_pcd, write_ply, write_xyz
+from aadm_workbench.scan.write import write_depth_tiff, write_pcd, write_ply
+from tests.scan.numpy_files import write_npz, write_xyz
 
 from .formats.test_e57 import cartesian, write_e57
 from .formats.test_ptx import block

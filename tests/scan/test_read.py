@@ -13,7 +13,8 @@ import pytest
 from aadm_workbench.errors import CameraError, MissingDependencyError, ScanError
 from aadm_workbench.model import Camera, FloatArray
 from aadm_workbench.scan.read import read_scan, supported_formats
-from aadm_workbench.scan.write import write_npz, write_pcd, write_ply, write_xyz
+from aadm_workbench.scan.write import write_pcd, write_ply
+from tests.scan.numpy_files import write_npz, write_xyz
 
 from .formats.test_e57 import cartesian, write_e57
 from .test_formats_agree import write_las

@@ -8,10 +8,10 @@ import pytest
 from aadm_workbench.errors import AadmError
 from aadm_workbench.model import FloatArray
 from aadm_workbench.scan.read import read_scan
-from aadm_workbench.scan.write import write_npz, write_pcd, write_ply, write_xyz
+from aadm_workbench.scan.write import write_pcd, write_ply
 
 
-@pytest.mark.parametrize("write", [write_ply, write_pcd, write_xyz, write_npz])
+@pytest.mark.parametrize("write", [write_ply, write_pcd])
 def test_the_same_points_give_the_same_bytes_and_nothing_else(tmp_path: Path, cloud: FloatArray, write) -> None:  # type: ignore[no-untyped-def]
     write(tmp_path / "a", cloud)
     write(tmp_path / "b", cloud)
@@ -19,19 +19,12 @@ def test_the_same_points_give_the_same_bytes_and_nothing_else(tmp_path: Path, cl
     assert {path.name for path in tmp_path.iterdir()} == {"a", "b"}
 
 
-@pytest.mark.parametrize("write", [write_ply, write_pcd, write_xyz, write_npz])
+@pytest.mark.parametrize("write", [write_ply, write_pcd])
 @pytest.mark.parametrize("shape", [(5,), (5, 4), (2, 2, 2, 3)])
 def test_arrays_that_are_no_points(tmp_path: Path, write, shape: tuple[int, ...]) -> None:  # type: ignore[no-untyped-def]
     with pytest.raises(ValueError, match="neither"):
         write(tmp_path / "scan", np.ones(shape))
     assert not list(tmp_path.iterdir())
-
-
-def test_xyz_leaves_out_what_is_not_finite(tmp_path: Path, grid: FloatArray) -> None:
-    write_xyz(tmp_path / "scan.xyz", grid)
-    scan = read_scan(tmp_path / "scan.xyz")
-    np.testing.assert_array_equal(scan.points.astype(np.float32), grid[np.isfinite(grid).all(axis=-1)])
-    assert scan.dropped == 0
 
 
 def test_points_that_do_not_shrink_are_packed_all_the_same(tmp_path: Path) -> None:

@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.model import Camera
 from aadm_workbench.twin.blocks import rough_block, rough_heights
 from aadm_workbench.twin.camera import PRO_M
 from aadm_workbench.twin.parts import Roughness
+from aadm_workbench.twin.scene import TrueScan
 from aadm_workbench.twin.scenes import LAB, random_bars, random_foot
 from aadm_workbench.twin.site import SITE, left_by_site
-from aadm_workbench.twin.slips import Slip, slip_of, told_camera
+from aadm_workbench.twin.slips import Slip, seen_with, slip_of, told_camera
 
 GRID = np.linspace(-100.0, 100.0, 201)
 
@@ -46,6 +48,26 @@ def test_a_site_changes_one_part_and_leaves_every_centre(name: str) -> None:
     assert (left == foot) != (stood == bars)
     assert [(s.x, s.y) for s in left.sleeves] == [(s.x, s.y) for s in foot.sleeves]
     assert [(b.x, b.y) for b in stood.bars] == [(b.x, b.y) for b in bars.bars]
+
+
+def test_a_mirrored_picture_shows_what_the_mirrored_scene_would() -> None:
+    depth = np.array([[1.0, 2.0, 3.0, 4.0]], np.float32) * 1000.0
+    camera = Camera(2000.0, 2000.0, 1.2, 0.0, 4, 1)
+    seen = TrueScan(depth, camera, (), np.eye(4))
+    flipped = seen_with(seen, Slip(mirrored=True), np.random.default_rng(0))
+    straight, turned = (one.scan().points.reshape(-1, 3) for one in (seen, flipped))
+    assert turned[::-1] == pytest.approx(straight * [-1.0, 1.0, 1.0], abs=1e-3)
+
+
+def test_bars_and_sleeves_of_another_size_are_all_of_one() -> None:
+    rng = np.random.default_rng(5)
+    foot, bars = random_foot(LAB, rng), random_bars(LAB, rng)
+    wide, thick = left_by_site(["other-sleeves", "other-bars"], foot, bars, rng)
+    for ratio in (
+        {round(b.diameter / a.diameter, 6) for a, b in zip(foot.sleeves, wide.sleeves, strict=True)},
+        {round(b.core_diameter / a.core_diameter, 6) for a, b in zip(bars.bars, thick.bars, strict=True)},
+    ):
+        assert ratio in ({1.2}, {round(1.0 / 1.2, 6)})
 
 
 def test_slips_add_up_and_unknown_ones_are_refused_with_those_that_there_are() -> None:

@@ -13,10 +13,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
-from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
+from aadm_workbench.assembly.pairs import PlacedPoint, flat_covariance
 from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
 from aadm_workbench.extract.method import distinct_sizes
-from aadm_workbench.extract.own_diameters import OwnDiameters, own_diameters
+from aadm_workbench.extract.own_tops import OwnDiameters, own_diameters
 from aadm_workbench.model import Array, AssemblyPoint, Finding, Kind, Measure, Scan
 
 CORE_BELOW = 0.06
@@ -168,13 +168,24 @@ def odd_bar_findings(
     own = _own(group, scan, rng)
     design_mm = group.design[0].diameter_mm
     low_mm, high_mm = allowed_mm(group.kind, design_mm)
-    expanded_mm = COVERAGE * own.u_mm
-    for target, measured_mm in zip(group.design, own.diameters_mm.tolist(), strict=True):
+    shared = _shared_diameter(group, low_mm, high_mm)
+    expanded_mm = COVERAGE * math.hypot(own.u_mm, shared.u)
+    for target, measured_mm in zip(group.design, (own.diameters_mm + shared.value).tolist(), strict=True):
         if target.label in about or not (measured_mm < low_mm - expanded_mm or measured_mm > high_mm + expanded_mm):
             continue
         values = {"measured_mm": measured_mm, "U_mm": expanded_mm, "design_mm": design_mm}
         fits = {"least_mm": low_mm, "most_mm": high_mm, "seems": sizes_in_words([measured_mm])}
         yield make_finding("diameter_differs.rebar", [target.label], **values, **fits)
+
+
+def _shared_diameter(group: SeenGroup, low_mm: float, high_mm: float) -> Measure:
+    """What is to be added to the diameter that all bars share, mm, and how sure it is then.
+
+    Nothing contradicts the design in it, or that was told: where the edges leave it open, it is one of sound bars.
+    """
+    measured_mm = float(np.median([point.point.diameter_mm for _, point in group.placed()]))
+    u_mm = min(_shared_u_mm(group), (high_mm - low_mm) / 2.0 / _EVENLY)
+    return Measure(min(max(measured_mm, low_mm), high_mm) - measured_mm, u_mm)
 
 
 def _own(group: SeenGroup, scan: Scan, rng: np.random.Generator) -> OwnDiameters:

@@ -12,7 +12,7 @@ from itertools import islice
 from typing import Any
 
 from aadm_workbench.assembly.matching.match import Match
-from aadm_workbench.assembly.place import PlacedPoint, place_points
+from aadm_workbench.assembly.pairs import PlacedPoint, place_points
 from aadm_workbench.model import (
     AssemblyPoint,
     ColumnReport,

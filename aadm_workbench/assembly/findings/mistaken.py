@@ -20,16 +20,15 @@ from aadm_workbench.assembly.findings.diameters import CORE_ABOVE, CORE_BELOW, s
 from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
-from aadm_workbench.extract.copied_pixels import COPIED
 from aadm_workbench.extract.edges.bend import BLURRED
-from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
+from aadm_workbench.extract.filter_signs import COPIED, GAPS_FILLED, SMOOTHED
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Finding, Kind, codes_of
 
 _BADLY_BUILT_MM = 3.0  # root mean square: a half more than the limit of every single point
 _FITS_BETTER = 2.0  # on its own design, or on one like it, a group scatters by as much: by half is no chance
 _LOOKS = 3  # in one scan, for other columns' sizes: each takes as long as a check
 _UNFIT = {SMOOTHED.code, GAPS_FILLED.code, COPIED.code, BLURRED.code}
-_NEXT_BORE = 1.15  # sleeves for the next bar are 2 to 6 mm wider; found are those within 8 %
+_NEXT_BORES = 1.1, 1.2  # sleeves for the next bars are 2 to 6 mm wider; found are those within 4 to 8 %
 _SIZES_EACH_WAY = 2  # bars two sizes off have been delivered; more would be seen from afar
 
 UNIT_FACTORS = (10.0, 0.1, 100.0, 0.01, 25.4, 1.0 / 25.4)
@@ -177,7 +176,7 @@ def _of_other_sizes(group: SeenGroup, scan: NamedScan) -> Finding | None:
 
 def _bores_about(designed_mm: Sequence[float]) -> list[float]:
     """Bores that no sleeve of the design can be taken for: the next sizes to either side."""
-    return [designed_mm[0] / _NEXT_BORE, designed_mm[-1] * _NEXT_BORE]
+    return [bore for times in _NEXT_BORES for bore in (designed_mm[0] / times, designed_mm[-1] * times)]
 
 
 def _sizes_about(designed_mm: Sequence[float]) -> list[float]:

@@ -14,7 +14,7 @@ from aadm_workbench.assembly.findings.diameters import odd_bar_findings
 from aadm_workbench.assembly.findings.finding import SeenGroup, held_back, make_finding
 from aadm_workbench.assembly.findings.mistaken import NamedScan, mistaken_findings
 from aadm_workbench.assembly.findings.rules import findings_of
-from aadm_workbench.assembly.section.findings import section_findings
+from aadm_workbench.assembly.findings.section import section_findings
 from aadm_workbench.assembly.tolerances import sum_up
 from aadm_workbench.extract.method import BY_DESIGN, extract_sizes
 from aadm_workbench.model import (

@@ -2,7 +2,7 @@
 
 Bars that stick out of the floor too little or too much to be what the sleeves need. Where the design says how far they
 stick out, that is what they are held against; elsewhere the other bars are, whose tops may differ by centimetres by
-right: then only what lies far outside of their own spread is told.
+right: then only what lies far outside of their own spread is told; few bars have to be as long as they go in.
 
 A lean that all sleeves, or all bars, share: theirs, or that of a principal point that is not the camera's. A principal
 point that is off by p pixels shears all that is measured: whatever is farther away moves sideways by p/f of its depth.
@@ -23,13 +23,12 @@ from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.findings.scale import scale_findings
 from aadm_workbench.assembly.matching.match import FAR_FROM_DECLARED
 from aadm_workbench.assembly.pose.eopa import wrap
-from aadm_workbench.extract.copied_pixels import COPIED
-from aadm_workbench.extract.filter_signs import GAPS_FILLED, SMOOTHED
-from aadm_workbench.extract.pooled.leans import USUAL_LEAN
+from aadm_workbench.extract.filter_signs import COPIED, GAPS_FILLED, SMOOTHED
+from aadm_workbench.extract.pooled.fit import USUAL_LEAN
 from aadm_workbench.extract.pooled.system import Priors
 from aadm_workbench.extract.sleeves import BORE_LEAN_U
 from aadm_workbench.model import Array, ColumnDesign, Finding, Kind, codes_of
-from aadm_workbench.model.scatter import OF_MEDIAN, TO_SIGMA
+from aadm_workbench.model.measured import OF_MEDIAN, TO_SIGMA
 
 _FILTERS = {SMOOTHED.code: "smoothed", GAPS_FILLED.code: "gaps_filled", COPIED.code: "edges_fattened"}
 
@@ -67,7 +66,7 @@ def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Find
     found += profile_findings(groups)
     for group in groups:
         found += diameter_findings(group)
-        found += exposed_length_findings(group, design.exposed_length_mm)
+        found += exposed_length_findings(group, design.exposed_length_mm, design.embedded_length_mm)
     return tuple(found)
 
 
@@ -116,8 +115,13 @@ def _direction_deg(angle: float | None) -> float:
     return float(round(math.degrees(angle or 0.0)) % 360)
 
 
-def exposed_length_findings(group: SeenGroup, design_exposed_mm: float | None) -> Iterator[Finding]:
-    """One finding for each bar that is too short, or too long."""
+def exposed_length_findings(
+    group: SeenGroup, design_exposed_mm: float | None, embedded_mm: float | None = None
+) -> Iterator[Finding]:
+    """One finding for each bar that is too short, or too long.
+
+    Where neither the design nor the other bars say how far they stick out, it is at least the embedded length.
+    """
     if group.kind is not Kind.REBAR:
         return
     seen = [
@@ -125,7 +129,9 @@ def exposed_length_findings(group: SeenGroup, design_exposed_mm: float | None) -
         for target, point in group.placed()
         if point.exposed_length_mm is not None
     ]
-    if not seen or (design_exposed_mm is None and len(seen) < _FEWEST_KNOWN):
+    at_least = design_exposed_mm is None and len(seen) < _FEWEST_KNOWN
+    design_exposed_mm = embedded_mm if at_least else design_exposed_mm
+    if not seen or (at_least and embedded_mm is None):
         return
     # A bar that is designed to end higher sticks out further.
     heights = np.array([float(target.centre[2]) for target, _ in seen])
@@ -135,7 +141,7 @@ def exposed_length_findings(group: SeenGroup, design_exposed_mm: float | None) -
     threshold_mm = PLAY_MM + _LENGTH_SIGMAS * float(np.hypot(U_MM, spread_mm))
     of = "as the others do" if design_exposed_mm is None else "by design"
     for (target, length), deviation in zip(seen, over - usual_mm, strict=True):
-        if abs(deviation) > threshold_mm:
+        if abs(deviation) > threshold_mm and not (at_least and deviation > 0.0):
             name = "short" if deviation < 0.0 else "long"
             yield make_finding(
                 f"exposed_length_differs.{name}",

@@ -18,7 +18,7 @@ import numpy as np
 from aadm_workbench.assembly.matching.match import Match, Placement
 from aadm_workbench.assembly.matching.overlap import Overlap, View, overlap_of
 from aadm_workbench.assembly.matching.pattern_search import DISTINCT_LOG_RATIO
-from aadm_workbench.assembly.place import moved_point
+from aadm_workbench.assembly.pairs import moved_point
 from aadm_workbench.model import AssemblyPoint, Extraction, Reason
 
 _SHARED_MIN = 3  # a pose has three unknowns, and two points leave nothing to check it by

@@ -22,9 +22,6 @@ from aadm_workbench.model import Array, Reason
 COLLINEAR_RATIO = 1e-6
 """Points whose second extent is below this part of the first lie on a line, and leave a turn about it open."""
 
-ROBUST_ROUNDS = 50
-"""A cap: weights settle to twelve digits, or creep along where one point is at the bend of its law."""
-
 _ROUNDS = 60  # a cap: a choice, not tuned since
 _SMALLEST_MM = 0.02
 """Distances below this count alike: no scan resolves less, and a weight may not grow without end."""
@@ -52,8 +49,6 @@ class EopaFit:
         (k,) float64, mm.
     residuals
         (n, k) float64, mm: E = Y − XR − jtᵀ, target minus aligned source.
-    weights
-        (n,) float64, those of the last round.
     rms_mm
         Root of the weighted mean of the squared lengths of the residuals.
     scale
@@ -63,7 +58,6 @@ class EopaFit:
     R: Array
     t: Array
     residuals: Array
-    weights: Array
     rms_mm: float
     scale: float
 
@@ -82,7 +76,7 @@ class EopaFit:
         return float(np.arctan2(self.R[0, 1], self.R[0, 0]))
 
 
-def fit_eopa(X: Array, Y: Array, weights: Array | None = None, huber_mm: float | None = None) -> EopaFit | NoFit:
+def fit_eopa(X: Array, Y: Array, weights: Array | None = None) -> EopaFit | NoFit:
     """Rigid pose in space that maps points X onto points Y with the smallest (weighted) sum of squares.
 
     Parameters
@@ -91,8 +85,6 @@ def fit_eopa(X: Array, Y: Array, weights: Array | None = None, huber_mm: float |
         (n, 3) float64, mm, in the source and in the target frame; row i of one belongs to row i of the other.
     weights
         (n,) float64, none negative; all equal by default.
-    huber_mm
-        With it, residuals longer than this count only linearly (iteratively reweighted).
 
     Returns
     -------
@@ -110,10 +102,10 @@ def fit_eopa(X: Array, Y: Array, weights: Array | None = None, huber_mm: float |
     _check_shapes(X, Y, 3)
     if len(X) < 3:
         return NoFit(Reason("assembly.fit_few_space", count=len(X)))
-    return _fit(X, Y, weights, huber_mm, rank=2)
+    return _fit(X, Y, weights, rank=2)
 
 
-def fit_eopa_planar(X: Array, Y: Array, weights: Array | None = None, huber_mm: float | None = None) -> EopaFit | NoFit:
+def fit_eopa_planar(X: Array, Y: Array, weights: Array | None = None) -> EopaFit | NoFit:
     """Shift and turn in the plane (dx, dy, yaw) that map points X onto points Y with the smallest sum of squares.
 
     As :func:`fit_eopa`, for X and Y (n, 2) in mm whose frames share the z axis.
@@ -125,7 +117,7 @@ def fit_eopa_planar(X: Array, Y: Array, weights: Array | None = None, huber_mm: 
     _check_shapes(X, Y, 2)
     if len(X) < 2:
         return NoFit(Reason("assembly.fit_few_plane", count=len(X)))
-    return _fit(X, Y, weights, huber_mm, rank=1)
+    return _fit(X, Y, weights, rank=1)
 
 
 def _check_shapes(X: Array, Y: Array, width: int) -> None:
@@ -133,19 +125,12 @@ def _check_shapes(X: Array, Y: Array, width: int) -> None:
         raise AadmError.because("assembly.eopa_shapes", width=width, first=str(X.shape), second=str(Y.shape))
 
 
-def _fit(X: Array, Y: Array, weights: Array | None, huber_mm: float | None, rank: int) -> EopaFit | NoFit:
+def _fit(X: Array, Y: Array, weights: Array | None, rank: int) -> EopaFit | NoFit:
     prior = np.ones(len(X)) if weights is None else np.asarray(weights, dtype=np.float64)
     reason = _why_not(X, Y, prior, rank)
     if reason:
         return NoFit(reason)
-    fit = _weighted(X, Y, prior)
-    for _ in range(ROBUST_ROUNDS if huber_mm is not None else 0):
-        lengths = np.linalg.norm(fit.residuals, axis=1)
-        updated = prior * (huber_mm or 0.0) / np.maximum(lengths, huber_mm or 0.0)
-        if np.allclose(updated, fit.weights, rtol=1e-12, atol=0.0):
-            break
-        fit = _weighted(X, Y, updated)
-    return fit
+    return _weighted(X, Y, prior)
 
 
 def _why_not(X: Array, Y: Array, weights: Array, rank: int) -> str:
@@ -178,7 +163,7 @@ def _weighted(X: Array, Y: Array, weights: Array) -> EopaFit:
     residuals = centred_y - centred_x @ R
     scale = float(np.trace(R.T @ U) / (share @ (centred_x**2).sum(axis=1)))
     rms_mm = float(np.sqrt(share @ (residuals**2).sum(axis=1)))
-    return EopaFit(R, centre_y - centre_x @ R, residuals, weights, rms_mm, scale)
+    return EopaFit(R, centre_y - centre_x @ R, residuals, rms_mm, scale)
 
 
 def robust_offsets(measured: Array, design: Array) -> Array:

@@ -22,7 +22,7 @@ from aadm_workbench.assembly.decision import (
     standard_uncertainty,
 )
 from aadm_workbench.assembly.inspect import NO_ABSOLUTE_POSITION
-from aadm_workbench.assembly.place import PlacedPoint, flat_covariance
+from aadm_workbench.assembly.pairs import PlacedPoint, flat_covariance
 from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.position import as_vector
 from aadm_workbench.assembly.survey.control import ControlPose

@@ -20,7 +20,7 @@ from aadm_workbench.assembly.pose.best_pose import BestFit
 from aadm_workbench.assembly.pose.eopa import planar_transform, turn
 from aadm_workbench.assembly.tolerances import describe_limit
 from aadm_workbench.model import Array, BestPair, BestPose, PairResult, Reason, Rule, TrialPose, Verdict, in_one, worst
-from aadm_workbench.model.scatter import OF_MEDIAN, TO_SIGMA
+from aadm_workbench.model.measured import OF_MEDIAN, TO_SIGMA
 
 _FEWEST = 4
 """With fewer axes, that they agree says little."""

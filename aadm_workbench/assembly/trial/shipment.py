@@ -10,15 +10,14 @@ import numpy as np
 
 from aadm_workbench.assembly.matching.match import Match
 from aadm_workbench.assembly.matching.symmetry import SymmetricTurn, symmetric_turns
-from aadm_workbench.assembly.pairs import form_pairs
-from aadm_workbench.assembly.place import in_column_frame
+from aadm_workbench.assembly.pairs import form_pairs, in_column_frame
 from aadm_workbench.assembly.pose.best_pose import fit_best_pose
 from aadm_workbench.assembly.pose.eopa import NoFit
 from aadm_workbench.assembly.tolerances import applicable_rules
 from aadm_workbench.assembly.trial.pose import evaluate_pose
 from aadm_workbench.assembly.trial.virtual import distance_limits, open_ways
 from aadm_workbench.model import AssemblyPoint, ColumnDesign, Extraction, Profile, Reason
-from aadm_workbench.model.shipment import FitCell
+from aadm_workbench.model.across import FitCell
 
 SAME_PLACE_MM = 0.5
 """Columns of one mark differ by less: a quarter of what a sleeve may stand off."""

@@ -22,8 +22,7 @@ from aadm_workbench.assembly.decision import DecisionRule, agreed
 from aadm_workbench.assembly.inspect import describe_ambiguity
 from aadm_workbench.assembly.matching.match import Match, Placement
 from aadm_workbench.assembly.matching.symmetry import SymmetricTurn, symmetric_turns
-from aadm_workbench.assembly.pairs import Pair, embedded_length_mm, form_pairs
-from aadm_workbench.assembly.place import in_column_frame
+from aadm_workbench.assembly.pairs import Pair, embedded_length_mm, form_pairs, in_column_frame
 from aadm_workbench.assembly.pose.best_pose import fit_best_pose
 from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar
 from aadm_workbench.assembly.pose.minimax import fit_minimax

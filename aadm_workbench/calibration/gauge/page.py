@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.calibration.gauge.anova import Estimate
 from aadm_workbench.calibration.gauge.drawing import captures_sketch, components_sketch, style_of
 from aadm_workbench.calibration.gauge.study import GaugeStudy, QuantityStudy
 from aadm_workbench.model import Verdict, worst
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.pages.static_page import drawn, static_page
 from aadm_workbench.report.words.labels import Language, Phrase, phrase, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.calibration.learn.capture import PlateCapture
 from aadm_workbench.calibration.learn.stretch import one_capture
 from aadm_workbench.calibration.plate.plate import Plate
 from aadm_workbench.errors import ReportError
 from aadm_workbench.model import CameraProfile, Kind, Verdict
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.drawing.sketch import Circle, Label, Polyline, Shape, Sketch
 from aadm_workbench.report.pages.svg import svg_of, svg_styles
 from aadm_workbench.scan.file import load

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.calibration.plate.plate import Plate
 from aadm_workbench.model import Kind
+from aadm_workbench.own_files import write_atomically
 
 _LAYERS = {Kind.SLEEVE: "HOLES", Kind.REBAR: "PINS"}
 _TEXT_MM = 8.0  # height of labels: read on a print at 1 : 4

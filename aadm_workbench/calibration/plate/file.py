@@ -12,11 +12,12 @@ from pathlib import Path
 
 import msgspec
 
-from aadm_workbench.atomic import write_atomically
+from aadm_workbench.bounded import toml_fault
 from aadm_workbench.calibration.plate.plate import Place, Plate
 from aadm_workbench.errors import DesignError
 from aadm_workbench.model import Kind
 from aadm_workbench.model.reason import said_of
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.file import load
 
 _NAMES = {Kind.SLEEVE: "hole", Kind.REBAR: "pin"}
@@ -82,7 +83,7 @@ def read_plate(path: Path) -> Plate:
         found = msgspec.convert(tomllib.loads(content.decode("utf-8-sig")), _File, strict=False)
         places = tuple(_place(row) for row in found.places)
     except (ValueError, KeyError, msgspec.ValidationError) as error:
-        raise DesignError(said_of(path, "calibration.no_plate", why=str(error))) from error
+        raise DesignError(said_of(path, "calibration.no_plate", why=toml_fault(error))) from error
     plate = Plate(
         found.name,
         found.size_mm,

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TypeAlias
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.calibration.plate.plate import Plate
 from aadm_workbench.model import Kind
+from aadm_workbench.own_files import write_atomically
 
 _Point: TypeAlias = tuple[float, float, float]
 _Edge: TypeAlias = tuple[str, bool]

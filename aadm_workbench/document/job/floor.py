@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.bounded import BoundsError, read_bounded
 from aadm_workbench.design.directions import up_deg
 from aadm_workbench.document.column import column_design
@@ -20,6 +19,7 @@ from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.scan_cloud import KINDS, make_scan
 from aadm_workbench.document.scan_reading import unread
 from aadm_workbench.errors import DesignError, JobError
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.scan.file import DEPTH_MAPS
 
 _NO_NAMES: tuple[str, ...] = ()

@@ -45,7 +45,8 @@ class Bend:
 
     ``u_mm`` is its standard uncertainty, ``inner_mm`` the scatter of heights within, ``ratio`` that at edges over it;
     ``pitch_mm`` the distance of neighbouring lines of sight. ``reach_mm`` is how far it still bends where the edges of
-    a camera in focus are flat again.
+    a camera in focus are flat again. ``apart_u_mm``: the uncertainty with that of telling it from chamfers, which few
+    discs that are seen along one direction hardly do.
     """
 
     towards: Array
@@ -55,6 +56,7 @@ class Bend:
     pitch_mm: float
     side: float
     reach_mm: float
+    apart_u_mm: float = 0.0
 
     @property
     def height_mm(self) -> float:
@@ -80,7 +82,8 @@ class Bend:
     def blurred(self) -> bool:
         """Whether the bend goes on for more pixels than that of a camera in focus."""
         high = self.height_mm > _BLUR_FROM[self.side] * self.pitch_mm
-        return self.bent and high and self.reach_mm > _BLUR_SHARE * self.height_mm
+        sure = self.height_mm > _BENT_SIGMAS[self.side] * self.apart_u_mm
+        return self.bent and high and sure and self.reach_mm > _BLUR_SHARE * self.height_mm
 
 
 def no_bend(pitch_mm: float, side: float) -> Bend:
@@ -107,19 +110,25 @@ def bend_at_edges(lines: SightLines, centre: Array, radius_mm: float, pitch_mm: 
     # A chamfer bends the surface, too, and the discs are off along each one's own line of sight: that turns from disc
     # to disc, what the camera does has one direction.
     terms = [np.ones(distance.shape), away * slope_length, away, about_x / distance, about_y / distance]
-    towards, edge_mm = _common_bend(lines.height, terms, at_edge), _rms(lines.height[at_edge])
+    (towards, dilution), edge_mm = _common_bend(lines.height, terms, at_edge), _rms(lines.height[at_edge])
     reach_mm = 0.0
     if reached.sum() >= _FEWEST and _rms(lines.height[reached]) > _BLUR_ROUGH * inner_mm:
-        reach_mm = float(np.hypot(*_common_bend(lines.height, terms, reached)))
+        reach_mm = float(np.hypot(*_common_bend(lines.height, terms, reached)[0]))
     u_mm = edge_mm / float(np.sqrt(0.5 * at_edge.sum()))
-    return Bend(side * towards, u_mm, inner_mm, edge_mm / inner_mm, pitch_mm, side, reach_mm)
+    apart_u_mm = edge_mm * dilution
+    return Bend(side * towards, u_mm, inner_mm, edge_mm / inner_mm, pitch_mm, side, reach_mm, apart_u_mm)
 
 
 def _rms(heights: FloatArray) -> float:
     return float(np.sqrt(np.mean(heights.astype(np.float64) ** 2)))
 
 
-def _common_bend(height: FloatArray, terms: Sequence[Array], chosen: BoolArray) -> Array:
-    """The part of the heights that rises towards one direction (2,), the same about all discs; mm."""
+def _common_bend(height: FloatArray, terms: Sequence[Array], chosen: BoolArray) -> tuple[Array, float]:
+    """The part of the heights that rises towards one direction (2,), the same about all discs; mm.
+
+    And by how much the scatter of one height is multiplied in it, where it is least known.
+    """
     design = np.column_stack([term[chosen] for term in terms])
-    return np.asarray(np.linalg.lstsq(design, height[chosen].astype(np.float64), rcond=None)[0][-2:])
+    values = np.linalg.lstsq(design, height[chosen].astype(np.float64), rcond=None)[0]
+    dilution = float(np.sqrt(np.linalg.eigvalsh(np.linalg.pinv(design.T @ design)[-2:, -2:])[-1]))
+    return np.asarray(values[-2:]), dilution

@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.model import Array, BoolArray
-from aadm_workbench.model.scatter import TO_SIGMA
+from aadm_workbench.model.measured import TO_SIGMA
 
 WALL_CORRELATION = 2.5
 """Neighbouring wall points share their errors: standard errors are this much larger."""

@@ -25,8 +25,7 @@ from aadm_workbench.extract.foot_face import FACE_BAND_MM
 from aadm_workbench.extract.plane import axes_on, facing, find_planes, from_plane, in_plane
 from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.extract.section.edge_lines import EdgeLine, FoundEdge, edge_lines, find_edge
-from aadm_workbench.extract.section.face_samples import FaceSamples, face_samples
-from aadm_workbench.extract.section.rims import KnownMouths
+from aadm_workbench.extract.section.face_samples import FaceSamples, KnownMouths, face_samples
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Extraction, Kind, Plane, Reason, Scan
 
 _SAMPLE = 90_000  # points: as many as the product looks for sleeves in

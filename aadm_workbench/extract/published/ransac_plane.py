@@ -8,7 +8,7 @@ import numpy as np
 
 from aadm_workbench.errors import install_of, needed
 from aadm_workbench.model import FloatArray, Plane
-from aadm_workbench.model.scatter import TO_SIGMA
+from aadm_workbench.model.measured import TO_SIGMA
 
 SAMPLE = 3  # points that make a plane
 SCORED = 50_000  # more of them place a plane no better

@@ -1,7 +1,7 @@
 """Straight edges of a face: by where it ends in strips across them (:mod:`.strips`).
 
 A camera that mixes what a pixel sees finds the face beyond its edge, too: how far is told by how its heights scatter
-there (:mod:`.half_lit`), for all edges of a face together. A camera that drops rings of pixels at steps shows that at
+there (:mod:`.strips`), for all edges of a face together. A camera that drops rings of pixels at steps shows that at
 the mouths, whose bores are known; whether it drops them before an empty background, too, nobody can see.
 """
 
@@ -12,17 +12,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.extract.section.face_samples import Area, FaceSamples
-from aadm_workbench.extract.section.half_lit import Overshoot, overshoot_of, pooled
-from aadm_workbench.extract.section.rims import KnownMouths, lost_at_rim, taken_in
+from aadm_workbench.extract.section.face_samples import Area, FaceSamples, KnownMouths, lost_at_rim, taken_in
 from aadm_workbench.extract.section.strips import (
     OUT_OF_PICTURE,
     Chip,
+    Overshoot,
     StripLine,
     Strips,
     chips_of,
     ends_of_strips,
     line_through,
+    overshoot_of,
+    pooled,
 )
 from aadm_workbench.model import Array, Reason
 

@@ -9,7 +9,6 @@ from typing import Any
 import FreeCAD
 from PySide import QtCore, QtGui
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.private_process import Work
 from aadm_workbench.document.report.file import encoded
@@ -20,6 +19,7 @@ from aadm_workbench.gui.panels.task_panel import WorkingPanel, show_panel
 from aadm_workbench.gui.picture import save_picture
 from aadm_workbench.gui.sentences import sentences
 from aadm_workbench.gui.view_camera import active_view
+from aadm_workbench.own_files import write_atomically
 
 translate = FreeCAD.Qt.translate
 QT_TRANSLATE_NOOP = FreeCAD.Qt.QT_TRANSLATE_NOOP

@@ -9,7 +9,6 @@ from typing import Any
 import FreeCAD
 from PySide import QtGui
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.document.display.messages import tell
 from aadm_workbench.document.ifc_file import ifc_file_of
 from aadm_workbench.document.model_properties import write_onto_model
@@ -21,6 +20,7 @@ from aadm_workbench.errors import AadmError
 from aadm_workbench.gui.panels.file_line import FileLine
 from aadm_workbench.gui.panels.task_panel import WorkingPanel, show_panel
 from aadm_workbench.gui.sentences import sentences
+from aadm_workbench.own_files import write_atomically
 
 translate = FreeCAD.Qt.translate
 

@@ -27,7 +27,7 @@ from aadm_workbench.hoisting.pattern_fit import (
     wall_terms,
 )
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
-from aadm_workbench.model.scatter import TO_SIGMA
+from aadm_workbench.model.measured import TO_SIGMA
 
 # of a bar below its top: the shortest of the settings stick out by 120, and no floor is to be taken in
 _LENGTH_MM = 110.0

@@ -13,9 +13,9 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Literal
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import ReportError
 from aadm_workbench.model import JobReport
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.bcf import markup as bcf_markup
 from aadm_workbench.report.bcf.container import (
     MARKUP,

@@ -17,14 +17,13 @@ from typing import IO, Any
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc.text.step import step_text
 from aadm_workbench.errors import ReportError
 from aadm_workbench.model import Array, ColumnReport, JobReport, PointResult, Reason
 from aadm_workbench.model.reason import listed, said_of
-from aadm_workbench.own_files import is_there
+from aadm_workbench.own_files import is_there, write_atomically
 from aadm_workbench.report.ifc import sets as ifc_sets
 from aadm_workbench.report.ifc.addition import Addition, Property
 from aadm_workbench.report.ifc.assign import Assigner

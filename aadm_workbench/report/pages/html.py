@@ -15,9 +15,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import SUMMED, JobReport, MouldDrift, Verdict
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.column_view import advice_notes, column_facts, trial_facts, window_text
 from aadm_workbench.report.drawing.mould import mould_sketch
 from aadm_workbench.report.drawing.plan import Plan, floor_plans, plan_verdict

@@ -15,7 +15,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from aadm_workbench.atomic import write_atomically
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.drawing.sketch import STYLES, Anchor, Circle, Label, Link, Shape, Sketch, arrowhead
 from aadm_workbench.report.pages.pdf_text import lines_of, prepared_font, printable, reportlab, width_of
 from aadm_workbench.report.words.labels import INK

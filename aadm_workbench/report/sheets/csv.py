@@ -12,8 +12,8 @@ import io
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.model import ColumnReport, JobReport, Kind
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.hoist import worst_first
 from aadm_workbench.report.sheets.tables import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aadm_workbench.model import ColumnReport, JobReport, Reason, Verdict
-from aadm_workbench.model.section import SectionLength, SectionReport
+from aadm_workbench.model.reports import SectionLength, SectionReport
 from aadm_workbench.report.clauses import clause_of
 from aadm_workbench.report.sheets.numbers import number_text
 from aadm_workbench.report.sheets.tables import SPACING, Row, heading

@@ -11,9 +11,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import MissingDependencyError
 from aadm_workbench.model import JobReport
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.sheets.sheets import job_tables
 from aadm_workbench.report.sheets.tables import Cell, CellKind, Table
 from aadm_workbench.report.tower import TowerShown, tower_tables

@@ -7,7 +7,7 @@ import io
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from aadm_workbench.atomic import write_atomically
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.twin.study.methods import Measurement, MethodStudy
 
 _FEATURES = (

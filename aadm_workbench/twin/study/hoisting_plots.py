@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.twin.study.hoisting import REFINED, Cell, HoistingStudy
 from aadm_workbench.twin.study.hoisting_tables import CELLS, CONDITIONS, TITLES
 from aadm_workbench.twin.study.plots import require_matplotlib

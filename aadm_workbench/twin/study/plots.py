@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from aadm_workbench.atomic import write_atomically
 from aadm_workbench.errors import needed
 from aadm_workbench.model import Array, Kind
+from aadm_workbench.own_files import write_atomically
 from aadm_workbench.twin.study.methods import MethodStudy
 from aadm_workbench.twin.study.published import TABLES
 

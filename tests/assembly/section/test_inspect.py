@@ -8,15 +8,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from aadm_workbench.assembly.section.findings import section_findings
-from aadm_workbench.assembly.section.inspect import inspect_section
+from aadm_workbench.assembly.findings.section import section_findings
+from aadm_workbench.assembly.section import inspect_section
 from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.design.recognise.pattern import inline_design
-from aadm_workbench.extract.section.face_heights import FaceHeights
-from aadm_workbench.extract.section.outline import SIDES, SeenEdge
+from aadm_workbench.extract.section.outline import SIDES, FaceHeights, SeenEdge
 from aadm_workbench.extract.section.strips import Chip
 from aadm_workbench.model import Reason, Verdict
-from aadm_workbench.model.section import SectionReport
+from aadm_workbench.model.reports import SectionReport
 
 DESIGN = inline_design(
     "C-1",

@@ -8,7 +8,7 @@ import pytest
 
 from aadm_workbench.assembly.inspect import NO_ABSOLUTE_POSITION, inspect_group
 from aadm_workbench.assembly.matching.match import match_extraction
-from aadm_workbench.assembly.place import place_points
+from aadm_workbench.assembly.pairs import place_points
 from aadm_workbench.assembly.pose.eopa import NoFit, turn
 from aadm_workbench.assembly.survey.absolute import DatumRules, inspect_absolute, results_of, with_absolute
 from aadm_workbench.assembly.survey.control import DEFAULT_U_MM, fit_control_points

@@ -13,7 +13,7 @@ from aadm_workbench.assembly.tolerances import load_profile
 from aadm_workbench.assembly.trial.shipment import interchangeable, try_margin
 from aadm_workbench.assembly.trial.virtual import try_scans
 from aadm_workbench.model import Array, ColumnDesign, Kind, Profile
-from aadm_workbench.model.shipment import FitCell
+from aadm_workbench.model.across import FitCell
 
 CN = load_profile("cn")
 Y_UP = np.array([0.0, 1.0])

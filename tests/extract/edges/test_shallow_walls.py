@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aadm_workbench.extract.edges.shallow_walls import view_by_walls
+from aadm_workbench.extract.edges.edge_shift import view_by_walls
 from aadm_workbench.extract.pooled.evidence import BracketLaw, Walls
 
 RADIUS, BORES, POINTS = 18.0, 8, 200

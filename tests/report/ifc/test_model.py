@@ -21,9 +21,9 @@ import pytest
 from aadm_workbench.design.ifc.model import read_ifc
 from aadm_workbench.errors import DesignError, ReportError
 from aadm_workbench.report.ifc.model import ids_path, remove_ifc, write_ifc
-from aadm_workbench.report.ifc.read import read_ifc_results
 from tests.report.floor_schemas import SCHEMAS, made_report
 from tests.report.ifc_models import complaints_about_additions, floor, one_column
+from tests.report.ifc_results import read_ifc_results
 from tests.report.typed import typed
 
 HOSTILE = "C'1\";<script>alert(1)</script>\n\x01灌浆😀\\X2\\"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from aadm_workbench.model import Reason, Verdict
-from aadm_workbench.model.section import PatternPlace, SectionEdge, SectionReport
+from aadm_workbench.model.reports import PatternPlace, SectionEdge, SectionReport
 from aadm_workbench.report.sheets.section_rows import section_line
 
 

@@ -17,7 +17,7 @@ from aadm_workbench.scan.depth_picture import depth_picture
 from aadm_workbench.scan.file import ScanFile
 from aadm_workbench.scan.formats.e57 import NO_ROTATION
 from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
-from aadm_workbench.scan.ray_distance import refuse_ray_distances
+from aadm_workbench.scan.plausible import refuse_ray_distances
 
 CHINESE = re.compile(r"[\u4e00-\u9fff]")
 SAME = {"ui.global_id", "ui.hash", "ui.offset_x", "ui.offset_y", "ui.u", "ui.p_value", "ui.cp", "ui.cpk"}

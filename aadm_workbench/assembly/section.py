@@ -15,11 +15,10 @@ import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule, decide_signed
 from aadm_workbench.assembly.tolerances import counted_verdict, not_assessed, rule_result, rules_for
-from aadm_workbench.extract.section.face_heights import FaceHeights
-from aadm_workbench.extract.section.outline import SIDES, SeenEdge
+from aadm_workbench.extract.section.outline import SIDES, FaceHeights, SeenEdge
 from aadm_workbench.model import Array, ColumnDesign, Profile, Reason, Rule, RuleResult, Verdict, worst
 from aadm_workbench.model.reason import in_one
-from aadm_workbench.model.section import (
+from aadm_workbench.model.reports import (
     EdgeChip,
     FaceMap,
     PatternPlace,

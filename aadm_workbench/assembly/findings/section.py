@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from aadm_workbench.assembly.findings.finding import make_finding
 from aadm_workbench.model import Finding, Verdict
-from aadm_workbench.model.section import SectionReport
+from aadm_workbench.model.reports import SectionReport
 
 _NAMED_MM = 1.0  # a pattern off its place in the section by half of what a sleeve may be is said, whatever the limit
 _COVERAGE = 2.0  # of the expanded uncertainty, 95 %

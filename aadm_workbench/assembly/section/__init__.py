@@ -1,1 +1,0 @@
-"""The section of a foot against its design."""
