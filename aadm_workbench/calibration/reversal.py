@@ -8,23 +8,23 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.assembly.matching.reversal import CameraView, Reversal, image_axes, reversal_of
-from aadm_workbench.model import Array, GroupReport, JobReport, Json, Kind, Verdict
+from aadm_workbench.model import Array, GroupReport, JobReport, Json, Kind, Reason, Verdict
 
 
 @dataclass(frozen=True, eq=False)
 class ColumnReversal:
-    """The sleeves or the rebars of one column: their labels, what was found, from how many captures."""
+    """The sleeves or the rebars of one column: their labels, from how many captures, what was found, or why nothing."""
 
     column: str
     kind: Kind
     labels: tuple[str, ...]
     captures: int
-    found: Reversal | None
+    found: Reversal | Reason
 
     @property
     def verdict(self) -> Verdict:
         """Fails where the camera bends more than the stated uncertainty; inconclusive where captures tell nothing."""
-        if self.found is None:
+        if isinstance(self.found, str):
             return Verdict.INCONCLUSIVE
         return Verdict.FAIL if self.found.contradicts else Verdict.PASS
 
@@ -79,7 +79,7 @@ def reversal_document(each: Sequence[ColumnReversal]) -> list[dict[str, Json]]:
             "kind": one.kind.plural,
             "captures": one.captures,
             "verdict": one.verdict.value,
-            **({} if one.found is None else _document(one.found, one.labels)),
+            **({"reason": one.found} if isinstance(one.found, str) else _document(one.found, one.labels)),
         }
         for one in each
     ]

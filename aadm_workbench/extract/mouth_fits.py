@@ -8,11 +8,13 @@ import numpy as np
 
 from aadm_workbench.extract.edges.bend import bend_at_edges
 from aadm_workbench.extract.edges.edge_shift import (
+    ERODED_PARTS_VIEW_MM,
     PARTS_VIEW_MM,
     BentDiscs,
     Shift,
     bent_discs,
     eroded_discs,
+    narrow_band_mm,
     shift_of_mouths,
     shift_of_rims,
     view_by_walls,
@@ -161,12 +163,14 @@ def _fit_of_bent(mouths: Mouths, discs: BentDiscs, whole: BoolArray, diameter_mm
 
 
 def fit_as_learned(
-    fit: PooledFit, mouths: Mouths, lines: SightLines, radius_mm: float, known: KnownEdges
+    fit: PooledFit, mouths: Mouths, lines: SightLines, radius_mm: float, known: KnownEdges, rings: int
 ) -> tuple[PooledFit, float]:
     """The fit, its centres drawn to discs of lines of sight set right by what was learned, and to the bores.
 
-    What chamfers do along the view moves discs, and hardly the fit of rims and bores: that part is the fit's. And how
-    many pixels those discs are larger than the bores: edges of the camera that was learned are where bores begin.
+    What chamfers do along the view moves discs, and hardly the fit of rims and bores: that part is the fit's. Where
+    ``rings`` were dropped there are no rims, and the fit's part is a law of other cameras: then half of it is that of
+    discs in a band as narrow as noise allows, into which less of chamfers and walls reaches. And how many pixels discs
+    are larger than the bores: edges of the camera that was learned are where bores begin.
     """
     lines, on = without_losses(lines, fit.centre, 1.0, known), np.abs(lines.height) < LEARNED_BAND_MM
     seen = seen_discs(lines, on, fit.centre, radius_mm, known.pitch_mm, 1.0)
@@ -177,9 +181,19 @@ def fit_as_learned(
     nothing = np.zeros((int(whole.sum()), 2, 2))
     discs = BentDiscs(seen.centre[whole], own[whole], nothing, lines.slope[whole], 0.0, seen.radius, 0.0, _BY_BORES)
     joint = _fit_of_bent(mouths, discs, whole, 2.0 * radius_mm, known.pitch_mm)
-    joint = replace(joint, centre=without_view(joint.centre, fit.centre, lines.slope))
+    like = fit.centre
+    if rings:
+        like = (like + _narrow_discs(lines, fit.centre, radius_mm, known.pitch_mm)) / 2.0
+    joint = replace(joint, centre=without_view(joint.centre, like, lines.slope))
     off_pitches = (seen.radius - float(np.median(joint.radius))) / known.pitch_mm
-    return with_learned_discs(fit, joint, whole, lines.slope, known, PARTS_VIEW_MM[1.0]), off_pitches
+    view_mm = ERODED_PARTS_VIEW_MM if rings else PARTS_VIEW_MM[1.0]
+    return with_learned_discs(fit, joint, whole, lines.slope, known, view_mm), off_pitches
+
+
+def _narrow_discs(lines: SightLines, centre: Array, radius_mm: float, pitch_mm: float) -> Array:
+    """Centres (k, 2) mm of discs about ``centre`` by what finds the face alone, as far as its noise lets one tell."""
+    band_mm = narrow_band_mm(bend_at_edges(lines, centre, radius_mm, pitch_mm, 1.0))
+    return seen_discs(lines, np.abs(lines.height) < band_mm, centre, radius_mm, pitch_mm, 1.0).centre
 
 
 def _fit_of_sharp(mouths: Mouths, diameter_mm: float, pitch_mm: float) -> PooledFit:

@@ -212,13 +212,14 @@ def _measured(
     own = patches.of(mouths.kept)
     lines = sight_lines_on_face(own) if layer.flat else None  # on what is no plane nobody knows where they end
     gaps = gaps_at_steps(own, own.height, mouths.centre, diameter_mm / 2, pitch_mm)
-    fit = fit_mouths(mouths, lines, diameter_mm, pitch_mm, rings_dropped(gaps))
+    rings = rings_dropped(gaps)
+    fit = fit_mouths(mouths, lines, diameter_mm, pitch_mm, rings)
     if fit is not None and layer.flat and lines is None:
         fit = with_unseen_edges(fit, own, diameter_mm / 2, pitch_mm)
     known, learned = known_edges(profile, Kind.SLEEVE, own.eye, axes_on(face)), dict[str, float]()
     if fit is not None and lines is not None and known is not None:
-        fit, off_pitches = fit_as_learned(fit, mouths, lines, diameter_mm / 2, known)
-        learned = {"learned_edges_off_pixels": off_pitches}
+        fit, off_pitches = fit_as_learned(fit, mouths, lines, diameter_mm / 2, known, rings)
+        learned = {"learned_edges_off_pixels": off_pitches, "rings_dropped": rings}
     if fit is not None and not layer.flat:
         u_mm = float(np.hypot(_ROUGH_U_MM, _UNKNOWN_BEND_PITCHES * pitch_mm))
         fit = replace(fit, covariance=fit.covariance + u_mm**2 * np.eye(2))

@@ -187,7 +187,7 @@ def _with_reversal(
 
     seen = [view_of(points, *one) for one in found]
     told = reversal_of([view for view in seen if view is not None])
-    if told is None:
+    if isinstance(told, str):
         return extraction
     bend = {"camera_bend_mm": told.largest_mm, "camera_bend_u_mm": told.u_mm}
     if told.contradicts:

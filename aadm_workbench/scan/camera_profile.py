@@ -47,6 +47,7 @@ class _Learned(msgspec.Struct, forbid_unknown_fields=True):
     sleeves: _Edges
     rebars: _Edges
     projector_mm: tuple[float, float] = (0.0, 0.0)
+    rings: int | None = None
 
 
 class _File(msgspec.Struct, forbid_unknown_fields=True):
@@ -60,6 +61,7 @@ class _File(msgspec.Struct, forbid_unknown_fields=True):
     learned: _Learned
     temperature_c: float | None = None
     figures: dict[str, object] = {}
+    laws: int = 0
 
 
 def profile_text(profile: CameraProfile, figures: str = "") -> str:
@@ -70,6 +72,7 @@ def profile_text(profile: CameraProfile, figures: str = "") -> str:
         "schema = 1",
         *(f"{name} = {quoted(getattr(profile, name)).decode()}" for name in ("serial", "settings", "date")),
         f"valid_days = {profile.valid_days}",
+        f"laws = {profile.laws}",
         f'plate_sha256 = "{profile.plate_sha256}"',
         "",
         "[camera]",
@@ -82,6 +85,7 @@ def profile_text(profile: CameraProfile, figures: str = "") -> str:
         f"scale = {_pair(profile.scale)}",
         f"projector_mm = [{profile.projector_mm[0]:.0f}, {profile.projector_mm[1]:.0f}]",
     ]
+    lines += [] if profile.rings is None else [f"rings = {profile.rings}"]
     for name, kind in _KINDS.items():
         edges = profile.edges[kind]
         lines += ["", f"[learned.{name}]", f"stretch = {_pair(edges.stretch)}", f"spread = {edges.spread:.4g}"]
@@ -130,6 +134,8 @@ def read_profile(path: Path, source: str = "") -> CameraProfile:
         found.plate_sha256,
         learned.captures,
         learned.projector_mm,
+        found.laws,
+        learned.rings,
     )
 
 

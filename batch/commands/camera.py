@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -21,6 +22,7 @@ from .camera_reversal import add_reversal
 if TYPE_CHECKING:
     from aadm_workbench.calibration.learn.capture import PlateCapture
     from aadm_workbench.calibration.plate.plate import Plate
+    from aadm_workbench.model import CameraProfile
 
 EXAMPLE = """\
 examples:
@@ -134,7 +136,10 @@ def _draw(options: argparse.Namespace) -> int:
     return ALL_PASS
 
 
-def _plate_and_captures(options: argparse.Namespace, files: Sequence[Path]) -> tuple[Plate, list[PlateCapture]]:
+def _plate_and_captures(
+    options: argparse.Namespace, files: Sequence[Path], profile: CameraProfile | None = None
+) -> tuple[Plate, list[PlateCapture]]:
+    """The plate, and what captures show of it: of a camera with a profile, set right by that at its edges."""
     from aadm_workbench.calibration.learn.capture import captured_plate
     from aadm_workbench.calibration.plate.file import read_plate
     from aadm_workbench.scan.camera import read_camera
@@ -151,7 +156,7 @@ def _plate_and_captures(options: argparse.Namespace, files: Sequence[Path]) -> t
         step = progress.start(len(files))
         for path in files:
             scan = read_scan(path, camera=camera, depth_scale_mm=scale_mm)
-            found.append(captured_plate(scan, plate))
+            found.append(captured_plate(replace(scan, learned=profile), plate))
             step(str(path))
     return plate, found
 
@@ -186,7 +191,7 @@ def _verify(options: argparse.Namespace) -> int:
     from ..shown.terminal import show, show_json
 
     profile = read_profile(options.profile)
-    plate, (capture,) = _plate_and_captures(options, [options.capture])
+    plate, (capture,) = _plate_and_captures(options, [options.capture], profile)
     checks: tuple[Checked, ...] = verified(capture, plate, profile)
     log = options.log or options.profile.with_name(f"{options.profile.stem}-log.csv")
     append_log(log, options.date, options.capture.name, checks)

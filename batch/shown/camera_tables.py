@@ -67,18 +67,18 @@ def verified_table(checks: Sequence[Checked]) -> Table:
 
 
 def reversal_tables(each: Sequence[ColumnReversal]) -> Iterator[Table]:
-    """One line for each group, then the part's own offsets and the bend of the first capture, where it shows."""
+    """One line for each group, with what is not told, or why; then offsets and bend of the first capture, if any."""
     numbers = ("Captures", "Bend, mm", "u", "Stated u")
     table = new_table("Column", "Group", *numbers, "Not told", "Verdict", numbers=numbers)
     for one in each:
-        cells: tuple[str, ...] = ("–",) * 4
-        if one.found is not None:
+        cells: tuple[str, ...] = (*("–",) * 3, str(one.found))
+        if not isinstance(one.found, str):
             lengths = (one.found.largest_mm, one.found.u_mm, one.found.stated_u_mm)
             cells = (*(f"{length:.3f}" for length in lengths), ", ".join(one.found.untold) or "–")
         table.add_row(one.column, one.kind.plural, str(one.captures), *cells, verdict_text(one.verdict))
     yield table
     for one in each:
-        if one.found is not None and one.found.shown:
+        if not isinstance(one.found, str) and one.found.shown:
             yield _bend_table(one, one.found)
 
 

@@ -9,13 +9,18 @@ def test_a_camera_that_bends_or_is_not_that_of_its_profile_is_told() -> None:
     sound = group(square())
     seen = {
         "camera_bends": {"camera_bend_mm": 0.3, "camera_bend_u_mm": 0.03, "camera_bend_stated_u_mm": 0.06},
-        "profile_differs": {"learned_edges_off_pixels": -0.8},
+        "profile_differs": {"learned_edges_off_pixels": -1.1},
     }
-    for code, quality in seen.items():
+    rings = ("profile_differs", {"rings_dropped": 1, "learned_rings": 0})
+    for code, quality in (*seen.items(), rings):
         told = replace(sound, extraction=replace(sound.extraction, quality={**sound.extraction.quality, **quality}))
         (found,) = found_in(told)
         assert found.code == code
         assert found.holds_back
-    quiet = {"camera_bend_mm": 0.03, "camera_bend_u_mm": 0.02, "learned_edges_off_pixels": 0.3}
+    older = {**sound.extraction.quality, "learned_by_laws": 0}
+    (found,) = found_in(replace(sound, extraction=replace(sound.extraction, quality=older)))
+    assert (found.code, found.holds_back) == ("profile_of_other_laws", False)
+    assert found.values["laws"] == 0
+    quiet = {"camera_bend_mm": 0.03, "camera_bend_u_mm": 0.02, "learned_edges_off_pixels": 0.5}
     told = replace(sound, extraction=replace(sound.extraction, quality={**sound.extraction.quality, **quiet}))
     assert found_in(told) == []

@@ -14,7 +14,7 @@ from aadm_workbench.calibration.learn.stretch import Stretches, stretches_of
 from aadm_workbench.calibration.learn.verify import append_log, verified, write_control_chart
 from aadm_workbench.calibration.plate.plate import Plate, drawn_plate
 from aadm_workbench.errors import CameraError, JobError, ReportError
-from aadm_workbench.extract.edges.learned_edges import with_learned_stretch
+from aadm_workbench.extract.edges.learned_edges import EDGE_LAWS, with_learned_stretch
 from aadm_workbench.inspection.learned import named_profile, notes_on_profile
 from aadm_workbench.model import (
     AssemblyPoint,
@@ -98,7 +98,8 @@ def profile() -> CameraProfile:
         for kind in Kind
     }
     ends = ((1300.0, 1450.0), (0.5, 4.6))
-    return CameraProfile("", "", "42", "indoor", "2026-11-01", 90, CAMERA, *ends, Measure(5e-4, 3e-5), edges, "ab", 8)
+    known = Measure(5e-4, 3e-5)
+    return CameraProfile("", "", "42", "indoor", "2026-11-01", 90, CAMERA, *ends, known, edges, "ab", 8, laws=EDGE_LAWS)
 
 
 def test_a_profile_is_read_as_it_was_written(tmp_path: Path) -> None:
@@ -109,6 +110,8 @@ def test_a_profile_is_read_as_it_was_written(tmp_path: Path) -> None:
     for name in ("stretch", "lost", "share", "apart_pitches"):
         assert getattr(read.edges[Kind.SLEEVE], name) == getattr(profile().edges[Kind.SLEEVE], name)
     assert len(read.sha256) == 64
+    path.write_text(profile_text(profile()).replace(f"laws = {EDGE_LAWS}\n", ""))
+    assert read_profile(path).laws == 0, "a file of before laws had a number"
     path.write_text(profile_text(profile()).replace("scale = [0.0005", "scale = [0.5"))
     with pytest.raises(CameraError, match="aadm camera learn"):
         read_profile(path)
@@ -126,6 +129,8 @@ def test_what_was_learned_is_taken_out_of_centres() -> None:
     assert np.array([one.centre for one in right.points]) == pytest.approx(true, abs=1e-9)
     assert right.points[0].covariance == pytest.approx(points[0].covariance)
     assert with_learned_stretch(found, None) is found
+    assert "learned_by_laws" not in right.quality
+    assert with_learned_stretch(found, replace(profile(), laws=0)).quality["learned_by_laws"] == 0
 
 
 def test_a_capture_of_the_same_camera_passes_and_one_that_drifted_fails(plate: Plate, tmp_path: Path) -> None:

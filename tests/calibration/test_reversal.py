@@ -1,5 +1,6 @@
 """Reversal by reports, as a job or the command has them: the same bend as by extractions, verdicts, and exit codes."""
 
+import json
 from pathlib import Path
 from types import SimpleNamespace
 from typing import cast
@@ -8,7 +9,7 @@ import numpy as np
 import pytest
 
 from aadm_workbench.calibration.reversal import ColumnReversal, reversal_document, reversals_of
-from aadm_workbench.model import Fit, GroupReport, JobReport, Kind, PointResult, Verdict
+from aadm_workbench.model import Fit, GroupReport, JobReport, Kind, PointResult, Reason, Verdict
 from batch.main import main
 from tests.assembly.matching.test_reversal import DESIGN, DISTANCE_MM, lens
 
@@ -68,7 +69,7 @@ def test_one_capture_is_no_reversal() -> None:
 
 @pytest.mark.parametrize("times", [1, 2])
 def test_the_command_says_what_reports_tell(times: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """One report holds nothing twice; its job beside it is the same capture, and shows no bend."""
+    """One report holds nothing twice; its job beside it is the same capture, shows no bend, and is told why."""
     main(["simulate", "pair", "--setting", "lab", "--out", str(tmp_path / "pair"), "--seed", "3", "--quiet"])
     main(["check", str(tmp_path / "pair" / "job.toml"), "--out", str(tmp_path / "out"), "--quiet"])
     capsys.readouterr()
@@ -79,6 +80,9 @@ def test_the_command_says_what_reports_tell(times: int, tmp_path: Path, capsys: 
         assert code == 2
         assert "nothing was captured twice" in printed.err
     else:
-        assert code in {0, 11}
-        assert "lab-1" in printed.out
-        assert "sleeves" in printed.out
+        assert code == 11
+        for word in ("lab-1", "sleeves", "inconclusive", "stood"):
+            assert word in printed.out
+        main(["camera", "reversal", *map(str, captures), "--json"])
+        for group in json.loads(capsys.readouterr().out):
+            assert group["reason"] == Reason("calibration.unmoved")

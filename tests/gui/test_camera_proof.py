@@ -5,13 +5,14 @@ from typing import Any
 import pytest
 
 from aadm_workbench.model import Camera, CameraProfile, Kind, LearnedEdges, Measure
-from aadm_workbench.scan.camera_profile import profile_text
+from aadm_workbench.scan.camera_profile import profile_text, read_profile
+from tests.calibration.painted_plate import Painter, painted_captures
 from tests.conftest import ROOT, FreeCADRunner
 from tests.freecad_environment import with_environment
 
 pytestmark = pytest.mark.freecad
 
-BODY = """\
+OPENED = """\
 import time
 from pathlib import Path
 import FreeCAD, FreeCADGui as Gui
@@ -44,6 +45,11 @@ Gui.runCommand("AADM_Camera")
 from aadm_workbench.gui.panels.camera_proof import CameraProofPanel
 from aadm_workbench.gui.panels.task_panel import open_panel_of
 panel = open_panel_of(CameraProofPanel)
+"""
+
+FONT = str(ROOT / "aadm_workbench" / "resources" / "fonts" / "wqy-microhei-subset.ttf")
+
+BODY = """\
 result["pages"] = [panel.pages.tabText(k) for k in range(panel.pages.count())]
 result["buttons"] = []
 for k in range(3):
@@ -86,6 +92,31 @@ result["free_again"] = spin(lambda: panel.start_button.isEnabled(), 120)
 result["said_by_no_program"] = said()
 """
 
+LEARNED = """\
+plate = folder / "a plate"
+panel.pages.setCurrentIndex(1)
+panel.plate.set_text(str(plate / "plate.toml"))
+panel.set_captures([str(plate / f"plate-{number}.tiff") for number in range(1, 5)])
+panel.camera.set_text(str(plate / "camera.toml"))
+panel.depth_step.setValue(0.025)
+panel.serial.setText("0042")
+panel.date.setText("2026-11-20")
+panel.profile.set_text(str(folder / "camera-0042.toml"))
+panel.start()
+result["busy"] = not panel.start_button.isEnabled()
+result["learned"] = spin(lambda: panel.start_button.isEnabled(), 400)
+result["said_by_learn"] = said()
+result["figures"], result["used"] = panel.found.text(), panel.in_use.text()
+picture("learned-from-captures.png")
+panel.pages.setCurrentIndex(2)
+panel.today.set_text(str(plate / "plate-5.tiff"))
+panel.start()
+result["verified"] = spin(lambda: panel.start_button.isEnabled(), 200)
+result["said_by_verify"], result["verdicts"] = said(), panel.found.text()
+result["files"] = sorted(path.name for path in folder.glob("camera-0042*"))
+picture("verified.png")
+"""
+
 
 def found(window: FreeCADRunner, locale: str) -> dict[str, Any]:
     unknown = Measure(0.0, 1e-4)
@@ -95,8 +126,7 @@ def found(window: FreeCADRunner, locale: str) -> dict[str, Any]:
         "", "", "0042", "", "2026-11-20", 90, camera, (1300.0, 1450.0), (0.5, 4.0), Measure(5e-4, 3e-5), edges, "", 8
     )
     (window.folder / "camera-0042.toml").write_text(profile_text(profile))
-    font = str(ROOT / "aadm_workbench" / "resources" / "fonts" / "wqy-microhei-subset.ttf")
-    return with_environment(window).run(f"FONT, LOCALE = {font!r}, {locale!r}\n{BODY}", timeout_s=500.0)
+    return with_environment(window).run(f"FONT, LOCALE = {FONT!r}, {locale!r}\n{OPENED}{BODY}", timeout_s=500.0)
 
 
 def test_a_plate_is_drawn_and_a_profile_is_used_and_left(freecad_window: FreeCADRunner) -> None:
@@ -116,6 +146,26 @@ def test_a_plate_is_drawn_and_a_profile_is_used_and_left(freecad_window: FreeCAD
     assert seen["free_again"]
     assert len(seen["said_by_no_program"]) == 1
     assert "not a program" in seen["said_by_no_program"][0]
+
+
+def test_a_camera_is_learned_from_captures_and_verified(freecad_window: FreeCADRunner) -> None:
+    """By the private process, as a person would: five captures of a camera whose scale is 0.05 % off."""
+    painted_captures(freecad_window.folder / "a plate", Painter(scale=5e-4), 5, seed=4)
+    seen = with_environment(freecad_window).run(
+        f"FONT, LOCALE = {FONT!r}, 'English'\n{OPENED}{LEARNED}", timeout_s=900.0
+    )
+    assert seen["busy"]
+    assert seen["learned"]
+    assert seen["said_by_learn"] == []
+    profile = read_profile(freecad_window.folder / "camera-0042.toml")
+    assert (profile.serial, profile.date, profile.captures) == ("0042", "2026-11-20", 4)
+    assert abs(profile.scale.value - 5e-4) < 3.0 * profile.scale.u
+    assert f"scale: {1e6 * profile.scale.value:+.0f}" in seen["figures"]
+    assert "camera-0042.toml" in seen["used"]
+    assert seen["verified"]
+    assert seen["said_by_verify"] == []
+    assert seen["files"] == ["camera-0042-chart.html", "camera-0042-log.csv", "camera-0042.toml"]
+    assert seen["verdicts"].count("pass") == 4
 
 
 def test_it_speaks_chinese(freecad_window: FreeCADRunner) -> None:

@@ -18,10 +18,9 @@ import numpy as np
 from scipy import stats
 
 from aadm_workbench.assembly.matching.match import Match
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Reason
 
 _TOLD_MM = 0.1  # at the edge of what is seen: what is known worse tells nothing of a camera that is to be right to that
-_LEAST_NOISE_MM = 1e-4  # the same scan twice scatters not at all
 _HALF = 0.5  # of a term that lies in what is told
 _CHANCE = 1e-3  # of sound captures so few show a bend; a floor of a thousand columns has one
 _FEWEST_SHARED = 4  # points in two captures: a pose takes three of their coordinates
@@ -133,17 +132,17 @@ def image_axes(T_design_scan: Array) -> Array:
     return np.asarray(left @ right)
 
 
-def reversal_of(views: Sequence[CameraView]) -> Reversal | None:
-    """The camera's bend by captures of one part; None where fewer than two of them share enough points."""
+def reversal_of(views: Sequence[CameraView]) -> Reversal | Reason:
+    """The camera's bend by captures of one part, or why they do not tell it."""
     count = np.sum([np.isfinite(view.offset).all(axis=1) for view in views], axis=0)
     shared = np.flatnonzero(count >= 2)
     used = [view for view in views if len(np.intersect1d(view.seen, shared)) >= _FEWEST_SHARED]
     if len(used) < 2:
-        return None
+        return Reason("calibration.few_views", used=len(used), fewest=_FEWEST_SHARED)
     return _solved(used, shared)
 
 
-def _solved(views: Sequence[CameraView], shared: IntArray) -> Reversal | None:
+def _solved(views: Sequence[CameraView], shared: IntArray) -> Reversal | Reason:
     reach = max(float(np.nanmax(np.abs(view.picture))) for view in views)
     rows, wanted, fields = [], [], []
     for number, view in enumerate(views):
@@ -157,11 +156,12 @@ def _solved(views: Sequence[CameraView], shared: IntArray) -> Reversal | None:
     free = design.shape[1] - len(_TERMS)
     freedom = len(seen) - int(np.linalg.matrix_rank(design))
     if freedom < 1:
-        return None
+        return Reason("calibration.few_views", used=len(views), fewest=_FEWEST_SHARED)
     noise_mm = max(float(np.sqrt(_left(design, seen) / freedom)), _LEAST_NOISE_MM)
     told, u_told = _told(design[:, :free], design[:, free:], noise_mm)
     if told.shape[1] == 0:
-        return None
+        unmoved = _told(design[:, :free], design[:, free:], _LEAST_NOISE_MM)[0].shape[1] == 0
+        return Reason("calibration.unmoved") if unmoved else Reason("calibration.scattered", noise_mm=noise_mm)
     reduced = np.hstack([design[:, :free], design[:, free:] @ told])
     found = np.linalg.lstsq(reduced, seen, rcond=None)[0]
     bias, u_mm = _bias(views, fields, told @ found[free:], told @ np.diag(u_told**2) @ told.T)

@@ -120,20 +120,31 @@ def _squares(effects: Array, each: int, freedom: int) -> SumOfSquares:
 
 
 def variances_of(table: Anova, rng: np.random.Generator) -> Variances:
-    """The variances, and what they may be: ``rng`` draws the mean squares of the intervals."""
-    lines = {"parts": table.parts, "repeats": table.repeats}
+    """The variances, and what they may be: ``rng`` draws the mean squares of the intervals.
+
+    An interaction that was taken for repeats may be there all the same: what is not repeats leaves it open.
+    """
+    whole = {"parts": table.parts, "repeats": table.repeats}
     if table.operators is not None and table.interaction is not None:
-        if table.pooled:
-            both = table.repeats, table.interaction
-            lines["repeats"] = SumOfSquares(sum(one.squares for one in both), sum(one.freedom for one in both))
-        else:
-            lines["interaction"] = table.interaction
-        lines["operators"] = table.operators
-    means = {name: np.array([line.mean]) for name, line in lines.items()}
-    drawn = {name: line.squares / rng.chisquare(line.freedom, _DRAWS) for name, line in lines.items()}
-    values, may_be = _components(table.count, means), _components(table.count, drawn)
+        whole |= {"operators": table.operators, "interaction": table.interaction}
+    lines = _pooled(whole) if table.pooled else whole
+    values = _components(table.count, {name: np.array([line.mean]) for name, line in lines.items()})
+    may_be, pooled = (_components(table.count, _drawn(each, rng)) for each in (whole, lines))
+    may_be |= {name: pooled[name] for name in ("repeatability", "parts")}
     found = {name: _estimate(values[name], may_be[name]) for name in values}
     return Variances(found["repeatability"], found.get("reproducibility"), found["gauge"], found["parts"])
+
+
+def _pooled(lines: Mapping[str, SumOfSquares]) -> dict[str, SumOfSquares]:
+    """The lines of a table whose interaction is taken for repeats."""
+    both = lines["repeats"], lines["interaction"]
+    repeats = SumOfSquares(sum(one.squares for one in both), sum(one.freedom for one in both))
+    return {"parts": lines["parts"], "repeats": repeats, "operators": lines["operators"]}
+
+
+def _drawn(lines: Mapping[str, SumOfSquares], rng: np.random.Generator) -> dict[str, Array]:
+    """Mean squares (n,) as they may be, each by its own chi-squared law."""
+    return {name: line.squares / rng.chisquare(line.freedom, _DRAWS) for name, line in lines.items()}
 
 
 def _components(count: tuple[int, int, int], mean: Mapping[str, Array]) -> dict[str, Array]:
@@ -151,4 +162,5 @@ def _components(count: tuple[int, int, int], mean: Mapping[str, Array]) -> dict[
 
 def _estimate(value: Array, may_be: Array) -> Estimate:
     low, high = np.quantile(may_be, [(1.0 - _LEVEL) / 2.0, (1.0 + _LEVEL) / 2.0])
-    return Estimate(float(value[0]), float(low), float(high))
+    one = float(value[0])
+    return Estimate(one, min(float(low), one), max(float(high), one))

@@ -10,6 +10,7 @@ import numpy as np
 from aadm_workbench.calibration.learn.edges import SIDES
 from aadm_workbench.calibration.learn.learn import Learned
 from aadm_workbench.calibration.plate.plate import Plate
+from aadm_workbench.extract.edges.learned_edges import EDGE_LAWS
 from aadm_workbench.model import CameraProfile, Json, Kind, Measure
 
 
@@ -32,6 +33,8 @@ def profile_of(found: Learned, plate: Plate, serial: str, settings: str, date: s
         plate.sha256,
         len(found.captures),
         found.projector_mm,
+        EDGE_LAWS,
+        found.rings,
     )
 
 

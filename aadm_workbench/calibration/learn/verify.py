@@ -45,7 +45,10 @@ class Checked:
 
 
 def verified(capture: PlateCapture, plate: Plate, profile: CameraProfile) -> tuple[Checked, ...]:
-    """The stretch of holes and pins against the profile, and how far their centres scatter."""
+    """The stretch of holes and pins against the profile, and how far their centres scatter.
+
+    The capture is one whose scan had the profile: what it loses at edges is then taken off, as it was when learned.
+    """
     found, checks = one_capture(capture, plate), []
     for kind in Kind:
         edges = profile.edges[kind]

@@ -58,6 +58,10 @@ PARTS_VIEW_MM = {1.0: _SHARP_MOUTH_VIEW[1], -1.0: _SHARP_TOP_VIEW[1]}
 
 By the side on which the surface lies, as for :func:`~aadm_workbench.extract.edges.seen_disc.seen_discs`."""
 
+ERODED_PARTS_VIEW_MM = 0.45
+"""The same of mouths where rings are dropped: how many pixels go hangs on what light comes back from the bore, too, and
+a plate has other bores than a foot. Fifteen feet of four cameras had 0.46 (rms)."""
+
 _ERODED_MOUTH_BASE_PITCHES = 0.45  # a ring: taken where the projector lights the wall, and not in its shadow
 _ERODED_MOUTH_OWN_PITCHES = 0.22  # half rims stand on fewer points, and on fewer points of the bore
 _RADIUS_U_PITCHES = 0.15  # of a radius where no ring is lost
@@ -140,6 +144,11 @@ def bent_discs(lines: SightLines, centre: Array, radius_mm: float, bend: Bend) -
     return BentDiscs(moved, own, shared, along_view, view_mm**2, radius, u_mm, eroded)
 
 
+def narrow_band_mm(bend: Bend) -> float:
+    """The narrowest band about a surface that its noise allows: least of walls and chamfers reaches into it."""
+    return max(_BANDS_MM[0], _BAND_SIGMAS * bend.inner_mm)
+
+
 def eroded_discs(lines: SightLines, centre: Array, radius_mm: float, bend: Bend, rings: int) -> BentDiscs:
     """Mouths of a camera that drops ``rings`` of pixels at steps, and with them what bent: by lines of sight.
 
@@ -147,8 +156,7 @@ def eroded_discs(lines: SightLines, centre: Array, radius_mm: float, bend: Bend,
     steeply, the wall falls by more than a filter's step from pixel to pixel, and both sides lose alike.
     """
     pitch_mm, slope = bend.pitch_mm, lines.slope
-    band = max(_BANDS_MM[0], _BAND_SIGMAS * bend.inner_mm)
-    fit = seen_discs(lines, np.abs(lines.height) < band, centre, radius_mm, pitch_mm, bend.side)
+    fit = seen_discs(lines, np.abs(lines.height) < narrow_band_mm(bend), centre, radius_mm, pitch_mm, bend.side)
     lost_mm = max(0.0, fit.radius - radius_mm)
     lost = lost_mm / pitch_mm
     per_slope = _LOST_VIEW[min(rings, len(_LOST_VIEW)) - 1]

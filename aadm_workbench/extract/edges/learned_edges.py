@@ -31,6 +31,10 @@ class Discs(Protocol):
         """(k, 2, 2) mm²."""
 
 
+EDGE_LAWS = 1
+"""The laws by which centres are found: one more whenever these move centres of a plate, for what a profile sets right
+is what they leave. ``tests/calibration/test_laws.py`` tells when."""
+
 LEARNED_BAND_MM = 1.5
 """About a surface: what is farther from it has not found it. Noise at three metres is less."""
 
@@ -116,11 +120,16 @@ def with_learned_stretch(extraction: Extraction, profile: CameraProfile | None) 
     Without a profile, without a vertical or without points the extraction is returned as it is.
     """
     learned = None if profile is None else profile.edges.get(extraction.kind)
-    if learned is None or extraction.vertical is None or not extraction.points:
+    if profile is None or learned is None or extraction.vertical is None or not extraction.points:
         return extraction
     normal = np.asarray(extraction.vertical, np.float64)
     points = tuple(_set_right(one, normal, learned) for one in extraction.points)
-    return replace(extraction, points=points, quality={**extraction.quality, "learned_stretch": learned.stretch.value})
+    quality = {**extraction.quality, "learned_stretch": learned.stretch.value}
+    if profile.rings is not None and "rings_dropped" in quality:
+        quality["learned_rings"] = profile.rings
+    if profile.laws != EDGE_LAWS:
+        quality["learned_by_laws"] = profile.laws
+    return replace(extraction, points=points, quality=quality)
 
 
 def _set_right(point: AssemblyPoint, normal: Array, learned: LearnedEdges) -> AssemblyPoint:

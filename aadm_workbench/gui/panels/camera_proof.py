@@ -139,7 +139,9 @@ class CameraProofPanel(WorkingPanel):
     def set_captures(self, files: list[str]) -> None:
         """Show these captures instead of those before."""
         self.captures.clear()
-        self.captures.addItems(files)
+        for file in files:
+            item = QtGui.QListWidgetItem(Path(file).name, self.captures)
+            item.setToolTip(file)
 
     def use(self, profile: str) -> None:
         """Check with this profile from now on; empty: with none."""
@@ -174,7 +176,7 @@ class CameraProofPanel(WorkingPanel):
     def _learn(self) -> None:
         plate = _named(self.plate, translate("AADM_Camera", "Choose the plate.toml of the plate."))
         profile = _named(self.profile, translate("AADM_Camera", "Choose the file that the profile is written to."))
-        files = [self.captures.item(row).text() for row in range(self.captures.count())]
+        files = [self.captures.item(row).toolTip() for row in range(self.captures.count())]
         if not files:
             raise AadmError(translate("AADM_Camera", "Choose the captures of the plate."))
         arguments = ["camera", "learn", str(plate), *files, "--out", str(profile), *self._words()]

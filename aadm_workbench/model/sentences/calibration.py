@@ -35,6 +35,10 @@ SENTENCES: dict[str, Sentence] = {
         "{count} holes make no square ring with pins between them: take 12, 16, 20 … up to {most}",
         "{count} 个孔不能排成中间有销的方环：请取 12、16、20……至多 {most}",
     ),
+    "calibration.few_views": Sentence(
+        "only {used:d} of the captures were matched and share {fewest:d} points or more; take two, and more points",
+        "只有 {used:d} 次采集匹配成功且共有至少 {fewest:d} 个点；需要两次采集及更多的点",
+    ),
     "calibration.no_camera_serial": Sentence(
         "the camera's profile: whether it is that of this camera is not known, a serial number is missing in "
         "[capture] or in the profile",
@@ -100,10 +104,18 @@ SENTENCES: dict[str, Sentence] = {
         "{where} is no row of places ({why}); its columns are label, x_mm, y_mm, z_mm, diameter_mm, u_mm",
         "{where} 不是位置行（{why}）；各列为 label、x_mm、y_mm、z_mm、diameter_mm、u_mm",
     ),
+    "calibration.scattered": Sentence(
+        "the captures scatter by {noise_mm:.2f} mm, too much for how little the camera was turned or moved in between",
+        "各次采集的离散为 {noise_mm:.2f} mm，而其间相机转动或移动太少，无法判断",
+    ),
     "calibration.too_old": Sentence(
         "the camera's profile was {days} days old when this was captured, it is valid for {valid_days}: verify or "
         "learn the camera again",
         "采集时相机档案已有 {days} 天，有效期为 {valid_days} 天：请重新核查或学习相机",
+    ),
+    "calibration.unmoved": Sentence(
+        "the camera stood alike in all captures: turn it by half a turn, or move it by a good part of the picture",
+        "各次采集中相机位置相同：请将相机转动半圈，或横移画面的相当一部分",
     ),
     "calibration.no_log": Sentence(
         "is no log of aadm camera verify; name another one with --log",

@@ -140,6 +140,19 @@ SENTENCES: dict[str, Sentence] = {
         "在{group:word}边缘，该相机的表现与 [camera] 中的相机档案不符：边缘偏离 {off_pixels:+.1f} 像素。"
         "可能是另一台相机，或设置、滤波与学习时不同：请指定正确的档案，或重新学习",
     ),
+    "finding.profile_differs.rings": Sentence(
+        "at the edges of the {group:word} this camera drops {rings:g} rings of pixels, and the one that the profile of "
+        "[camera] was learned from {known:g} (2: two or more): another camera, or other filters. Name the right "
+        "profile, or learn it anew",
+        "在{group:word}边缘，该相机去除 {rings:g} 圈像素，而 [camera] 中档案所学的相机去除 {known:g} 圈"
+        "（2 表示两圈或更多）：是另一台相机，或滤波不同。请指定正确的档案，或重新学习",
+    ),
+    "finding.profile_of_other_laws": Sentence(
+        "the profile of [camera] was learned by laws {laws:g} of extraction (0: not told), {group:word} are measured "
+        "by laws {now:g}: what it takes off is no longer quite what they leave. Learn it from the same captures",
+        "[camera] 中的相机档案按提取规则 {laws:g}（0 表示未注明）学习，而{group:word}按规则 {now:g} 测量："
+        "其修正量已不完全适用。请用同一批采集重新学习",
+    ),
     "finding.same_scan_twice.column": Sentence(
         "one file is named twice for this column ({source}): one of its scans is missing",
         "本柱有一个文件被指定了两次（{source}）：缺少一个扫描",

@@ -8,7 +8,7 @@ import pytest
 
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.assembly.matching.reversal import CameraView, Reversal, reversal_of, view_of
-from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind
+from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, codes_of
 
 DISTANCE_MM = 1300.0
 NOISE_MM = 0.02
@@ -59,7 +59,7 @@ def solved(turns: list[float], seed: int, **bend: float) -> tuple[Reversal, Arra
     part = rng.normal(0.0, 0.5, (len(DESIGN), 2))
     views = [view(part, turn, tuple(rng.uniform(-15.0, 15.0, 2)), rng, **bend) for turn in turns]
     found = reversal_of(views)
-    assert found is not None
+    assert isinstance(found, Reversal)
     return found, part
 
 
@@ -104,5 +104,17 @@ def test_two_captures_with_few_points_in_common_tell_nothing() -> None:
     part = np.zeros((len(DESIGN), 2))
     one, other = (view(part, turn, (0.0, 0.0), rng, p1=0.0, p2=0.0) for turn in (0.0, 180.0))
     one.offset[:9] = np.nan
-    assert reversal_of([one, other]) is None
-    assert reversal_of([other]) is None
+    assert codes_of(reversal_of([one, other])) == {"calibration.few_views"}
+    assert codes_of(reversal_of([other])) == {"calibration.few_views"}
+
+
+def test_a_camera_that_stood_still_tells_nothing_whether_its_captures_scatter_or_not() -> None:
+    """The same capture twice, one taken again from the same place, and one moved by next to nothing."""
+    part = np.zeros((len(DESIGN), 2))
+    one, again = (view(part, 0.0, (0.0, 0.0), np.random.default_rng(seed), p1=0.0, p2=0.0) for seed in (5, 6))
+    assert codes_of(reversal_of([one, one])) == {"calibration.unmoved"}
+    assert codes_of(reversal_of([one, again])) <= {"calibration.unmoved", "calibration.scattered"}
+    moved = view(part, 0.0, (25.0, 0.0), np.random.default_rng(7), p1=0.0, p2=0.0)
+    moved.offset[:] += np.random.default_rng(8).normal(0.0, 0.3, moved.offset.shape)
+    reason = reversal_of([one, moved])
+    assert codes_of(reason) == {"calibration.scattered"}
