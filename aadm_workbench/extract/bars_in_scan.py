@@ -9,13 +9,16 @@ import numpy as np
 from aadm_workbench.extract.foot_face import find_discs, rastered
 from aadm_workbench.extract.plane import axes_on, find_planes
 from aadm_workbench.extract.sample import Thinned, counts_in_cells, in_company
-from aadm_workbench.model import Array, FloatArray, Plane
+from aadm_workbench.model import Array, BoolArray, FloatArray, Plane
 
 _FLOOR_SHARE = 0.2  # of the points: less is no floor
 _FLOOR_COVERED, _ENOUGH = 0.6, 20_000  # of the floor beside bars; points that tell that: a choice, not tuned since
 # higher than a rough floor and what lies on it; the shortest connecting bars stick out several times as far
-_ABOVE_FLOOR_MM = 15.0
+ABOVE_FLOOR_MM = 15.0
+"""What does not stand so far out of the floor is no connecting bar."""
 _TOP_COUNT_MIN = 20  # points of the thinned scan: fewer are no top
+_FILLED = 1.2  # spacings: cells that are so large hold a point each
+_TOP_MM = 8.0  # a cut of 15 degrees over a 28 mm bar
 _HIGH = 0.9  # of the points of a disc lie lower than its top
 
 
@@ -40,7 +43,7 @@ def find_standing(
     best: Standing | None = None
     for floor in _floors(sample, viewpoint, radius_mm, rng):
         height = floor.height(sample.points)
-        above = sample.points[in_company(sample, height, height > _ABOVE_FLOOR_MM)]
+        above = sample.points[in_company(sample, height, height > ABOVE_FLOOR_MM)]
         centres = _discs(above, floor.normal, radius_mm)
         if len(centres) and (best is None or len(centres) > len(best.centres)):
             best = Standing(floor.normal, floor, centres, _level(above, floor.normal, centres, radius_mm))
@@ -58,17 +61,22 @@ def standing_along(sample: Thinned, vertical: Array, radius_mm: float) -> Standi
 
 
 def _level(points: FloatArray, vertical: Array, centres: Array, radius_mm: float) -> float:
-    """Height of the tops: the median over the discs of a high quantile within each."""
+    """Height of the tops: the median over the discs."""
+    return float(np.nanmedian(top_heights(points, vertical, centres, radius_mm)))
+
+
+def top_heights(points: FloatArray, vertical: Array, centres: Array, radius_mm: float) -> Array:
+    """Height (k,) mm along the vertical of what each disc holds, a high quantile; NaN where nothing lies in it."""
     local = points @ axes_on(Plane(vertical, 0.0)).T.astype(points.dtype)
     x, y, heights = local.T
-    tops = []
-    for centre in centres.astype(points.dtype):
+    tops = np.full(len(centres), np.nan)
+    for k, centre in enumerate(centres.astype(points.dtype)):
         # Four fifths of the radius: what flies at the edge of a top is no part of it.
         inside = heights[(x - centre[0]) ** 2 + (y - centre[1]) ** 2 < (0.8 * radius_mm) ** 2]
         if len(inside):
             place = int(_HIGH * (len(inside) - 1))
-            tops.append(np.partition(inside, place)[place])
-    return float(np.median(tops))
+            tops[k] = np.partition(inside, place)[place]
+    return tops
 
 
 def _floors(sample: Thinned, viewpoint: Array | None, radius_mm: float, rng: np.random.Generator) -> list[Plane]:
@@ -106,11 +114,25 @@ def _towards(sample: Thinned, viewpoint: Array | None) -> Array:
 def _discs(points: FloatArray, vertical: Array, radius_mm: float) -> Array:
     if len(points) < _TOP_COUNT_MIN:
         return np.empty((0, 2))
-    plan = points @ axes_on(Plane(vertical, 0.0))[:2].T
-    spacing_mm = _spacing(plan, radius_mm)
+    local = points @ axes_on(Plane(vertical, 0.0)).T
+    plan = local[:, :2]
     # Ten cells to a radius place a disc well enough to begin; finer than the points lie, cells would be empty.
-    raster = rastered(plan, max(radius_mm / 10, 1.2 * spacing_mm), 3 * radius_mm)
-    return find_discs(raster, radius_mm, holes=False)[0]
+    cell_mm = max(radius_mm / 10, _FILLED * _spacing(plan, radius_mm))
+    found = find_discs(rastered(plan, cell_mm, 3 * radius_mm), radius_mm, holes=False)[0]
+    top_spacing_mm = _spacing(plan[_is_on_top(local, radius_mm)], radius_mm)
+    if cell_mm > top_spacing_mm:
+        return found
+    wide = find_discs(rastered(plan, _FILLED * top_spacing_mm, 3 * radius_mm), radius_mm, holes=False)[0]
+    return wide if len(wide) > len(found) else found
+
+
+def _is_on_top(local: Array, radius_mm: float) -> BoolArray:
+    """Which points (n, 3) lie near the highest of their cell of the plan: seen from aside, sides crowd in the plan."""
+    cell = np.floor((local[:, :2] - local[:, :2].min(axis=0)) / radius_mm).astype(np.int64)
+    place = np.unique(cell[:, 0] * (int(cell[:, 1].max()) + 1) + cell[:, 1], return_inverse=True)[1]
+    highest = np.full(int(place.max()) + 1, -np.inf)
+    np.maximum.at(highest, place, local[:, 2])
+    return np.asarray(local[:, 2] > highest[place] - _TOP_MM)
 
 
 def _spacing(plan: Array, radius_mm: float) -> float:

@@ -8,6 +8,7 @@ Round holes in a plane, found on a coarse raster of the points that lie on it.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import cv2
@@ -59,11 +60,13 @@ class FootFace:
     flat: bool = True
 
 
-def face_with_holes(
+def faces_with_holes(
     scan: Scan, sample: Thinned, radius_mm: float, rng: np.random.Generator, *, may_be_rough: bool = True
-) -> tuple[FootFace, Array, float] | None:
-    """The face with most holes of a radius among the largest planes, their centres (k, 2) mm and the points' pitch."""
-    best: tuple[FootFace, Array, float] | None = None
+) -> Iterator[tuple[FootFace, Array, float]]:
+    """The largest planes, largest first; of each the centres (k, 2) mm of its holes of a radius, and its points' pitch.
+
+    A wall behind a foot may be larger, and its noise may leave holes, too: which is the foot, its mouths tell.
+    """
     noise_mm = _noise_mm(scan)
     for plane in find_planes(sample.points, rng, 3):
         plane = plane if scan.viewpoint is None else facing(plane, scan.viewpoint)
@@ -74,11 +77,7 @@ def face_with_holes(
         # Twelve cells to a radius place a mouth well enough to begin; finer than the points lie, cells would be empty.
         raster = rastered(local, max(radius_mm / 12, 1.3 * spacing_mm), 3 * radius_mm)
         centres, _ = find_discs(raster, radius_mm, holes=True)
-        if best is None or len(centres) > len(best[1]):
-            best = (face, centres, pitch_mm)
-        if len(centres) >= 3:
-            break
-    return best
+        yield face, centres, pitch_mm
 
 
 def _on_face(sample: Thinned, face: FootFace) -> Array:

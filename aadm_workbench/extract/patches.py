@@ -114,18 +114,26 @@ class Patches:
         return answer.ravel()
 
 
-def patches_around(scan: Scan, sample: Thinned, plane: Plane, centres: Array, reach_mm: float) -> Patches:
-    """The patches around some centres (k, 2) mm, in the plane's axes, at least ``reach_mm`` to every side."""
-    eye = None
+def patches_around(
+    scan: Scan, sample: Thinned, plane: Plane, centres: Array, reach_mm: float, level_mm: Array | None = None
+) -> Patches:
+    """The patches around some centres (k, 2) mm, in the plane's axes, at least ``reach_mm`` to every side.
+
+    ``level_mm`` (k,): how far over the plane what is looked for lies, where that is known: seen from aside, what lies
+    higher or lower crosses the plane beside its centre.
+    """
+    eye, appear = None, centres
     if scan.viewpoint is not None:
         eye = in_plane(scan.viewpoint[None], plane) - np.column_stack([centres, np.zeros(len(centres))])
+        if level_mm is not None:
+            appear = centres - eye[:, :2] * (level_mm / np.maximum(eye[:, 2] - level_mm, 0.1 * eye[:, 2]))[:, None]
     if sample.taken is not None:
-        low, high = _pixel_boxes(scan, sample, plane, centres, reach_mm)
+        low, high = _pixel_boxes(scan, sample, plane, appear, reach_mm)
         x, y, height = _windows(scan.points, low, high, plane, centres)
         homography = plane_of_pixel(scan, sample, plane)
         seen = (None, None) if homography is None else _crossings(homography, low, high, centres)
         return Patches(x, y, height, eye, int((high - low)[:, 1].max()), *seen)
-    return Patches(*_gathered(scan, plane, centres, reach_mm), eye, 0)
+    return Patches(*_gathered(scan, plane, centres, appear, reach_mm), eye, 0)
 
 
 def with_places(centres: Array, places: Array, radius_mm: float) -> Array:
@@ -240,11 +248,13 @@ def _windows(
     return x, y, z
 
 
-def _gathered(scan: Scan, plane: Plane, centres: Array, reach_mm: float) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """The same for clouds, each (k, n) float32, padded to the longest."""
-    low = centres.min(axis=0) - reach_mm - 2 * _LABEL_CELL_MM
-    shape = np.ceil((centres.max(axis=0) + reach_mm - low) / _LABEL_CELL_MM).astype(int) + 2
-    labels = _painted(centres - low, reach_mm, shape)
+def _gathered(
+    scan: Scan, plane: Plane, centres: Array, appear: Array, reach_mm: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The same for clouds, each (k, n) float32, padded to the longest; ``appear`` (k, 2) is where each is seen."""
+    low = appear.min(axis=0) - reach_mm - 2 * _LABEL_CELL_MM
+    shape = np.ceil((appear.max(axis=0) + reach_mm - low) / _LABEL_CELL_MM).astype(int) + 2
+    labels = _painted(appear - low, reach_mm, shape)
     kept_points, kept_labels = [], []
     for begin in range(0, len(scan.points), _CHUNK):
         chunk = scan.points[begin : begin + _CHUNK].astype(np.float64)

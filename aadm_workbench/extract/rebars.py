@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.extract.bars_in_scan import Standing, find_standing, standing_along
+from aadm_workbench.extract.bars_in_scan import ABOVE_FLOOR_MM, Standing, find_standing, standing_along, top_heights
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.edges.bend import Bend, bend_at_edges, no_bend
 from aadm_workbench.extract.edges.edge_shift import PARTS_VIEW_MM, eroded_rings, shift_of_tops, shift_of_tops_set_right
@@ -70,6 +70,8 @@ _TURNING_PRIORS = replace(BAR_PRIORS, lean=0.1)  # before the vertical is known 
 # finds more of what is larger than the last one took it for
 _OF_SIZE, _SIZES_TRIED = (0.9, 1.06), 3
 _NEAR_DISC_MM = 1.5  # between a disc and the fit: filters and ribs move one by less, a hidden top by more
+# a patch reaches 14 mm beyond its bar, and what passes a top is looked at 6 mm beyond it
+_ASIDE_MM = 4.0
 _TURNS = 3  # each is seen along what the last one's bars show: a choice, not tuned since
 
 
@@ -159,7 +161,8 @@ def _measured(
     centres = standing.centres
     if places is not None and len(places):
         centres = with_places(centres, in_plane(places, level)[:, :2], radius_mm)
-    patches = patches_around(scan, sample, level, centres, radius_mm + REACH_MM)
+    own_mm = _own_levels(scan, sample, level, centres, radius_mm)
+    patches = patches_around(scan, sample, level, centres, radius_mm + REACH_MM, own_mm)
     beside = None if patches.columns else in_plane(sample.points, level)
     planes = top_planes(patches, radius_mm, rng)
     tops = tops_in(patches, centres, radius_mm, rng, tuple(others_mm), beside, planes)
@@ -184,6 +187,16 @@ def _measured(
     if lines is not None and known is not None:
         fit, lost_mm = _drawn_to_discs(fit, lines, known), known.most_lost_mm
     return _Bars(tops, fit, _points(tops, fit, priors.lean, level, lost_mm), signs.complete)
+
+
+def _own_levels(scan: Scan, sample: Thinned, level: Plane, centres: Array, radius_mm: float) -> Array:
+    """How far over the level (k,) mm each top is looked for: as far as would show it beside its patch, or nought."""
+    if scan.viewpoint is None:
+        return np.zeros(len(centres))
+    own_mm = np.nan_to_num(top_heights(sample.points, level.normal, centres, radius_mm) - level.offset)
+    eye = in_plane(scan.viewpoint[None], level)[0]
+    aside_mm = np.hypot(*(centres - eye[:2]).T) * np.abs(own_mm) / max(float(eye[2]), 1e-9)
+    return np.where(aside_mm > _ASIDE_MM, own_mm, 0.0)
 
 
 def _lines(patches: Patches, planes: TopPlanes, tops: Tops) -> SightLines | None:
@@ -272,7 +285,8 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
     within_mm = max(AGREES_MM, 2.0 * float(np.median(tops.pitch_mm)))
     agree = agreeing_shares(tops.rims, fit.centre, fit.outline_radius, within_mm)
     right = np.abs(2 * fit.outline_radius / diameter_mm - 1.0) < _RADIUS_MISFIT
-    points = tuple(bars.points[k] for k in np.flatnonzero(right & (agree > _SOUND_SHARE)).tolist())
+    sound = np.flatnonzero(right & (agree > _SOUND_SHARE)).tolist()
+    points = tuple(bars.points[k] for k in sound if _stands_out(bars.points[k], standing.floor))
     if not points:
         return _nothing(Reason("extract.no_round_top", diameter_mm=diameter_mm))
     vertical, source = standing.vertical, "floor"
@@ -335,6 +349,11 @@ def _mean_axis(points: tuple[AssemblyPoint, ...]) -> Array:
     """Robust mean of the bar axes: their median, made a unit vector."""
     middle = np.median([point.axis for point in points], axis=0)
     return np.asarray(middle / np.linalg.norm(middle))
+
+
+def _stands_out(point: AssemblyPoint, floor: Plane | None) -> bool:
+    """Whether a top is no part of the floor: shadows and stirrups leave round pieces of it."""
+    return floor is None or float(floor.height(point.centre)) > ABOVE_FLOOR_MM
 
 
 def _exposed(point: AssemblyPoint, floor: Plane | None) -> float | None:

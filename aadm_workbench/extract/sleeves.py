@@ -6,6 +6,7 @@ hole, and fit bores and mouth edges of all sleeves together.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +18,7 @@ from aadm_workbench.extract.edges.learned_edges import (
 from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
 from aadm_workbench.extract.edges.seen_disc import sight_lines_on_face
 from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
-from aadm_workbench.extract.foot_face import FootFace, face_with_holes, level_with_rings
+from aadm_workbench.extract.foot_face import FootFace, faces_with_holes, level_with_rings
 from aadm_workbench.extract.mouth_fits import WALL_COUNT_MIN, fit_as_learned, fit_mouths, with_unseen_edges
 from aadm_workbench.extract.mouths import REACH_MM, WALL_DEPTH_MM, Mouths, mouths_in
 from aadm_workbench.extract.patches import Patches, patches_around, with_places
@@ -34,8 +35,11 @@ from aadm_workbench.model import (
     Plane,
     Reason,
     Scan,
+    codes_of,
 )
 
+_ENOUGH_MOUTHS = 3  # in a plane: what chance leaves in the noise of a wall is not round
+_NO_MOUTHS = {"extract.no_hole", "extract.no_measured_hole", "extract.no_round_mouth"}
 _SAMPLE = 90_000  # every fifth row and column of 1920 × 1200
 BORE_LEAN_U = 2e-3
 """Of a lean: light that bounces in a bore pushes its wall by less or more as it goes deeper."""
@@ -89,17 +93,39 @@ def extract_sleeves(
     if copies_depths(scan):
         return Extraction(Kind.SLEEVE, "refined", (), None, None, reason=COPIED)
     sample = thinned(scan, _SAMPLE, rng)
-    found = face_with_holes(scan, sample, diameter_mm / 2, rng)
-    if found is None:
-        return Extraction(Kind.SLEEVE, "refined", (), None, None, reason=Reason("extract.no_face"))
-    seen = _in_face(scan, sample, found, diameter_mm, places, others_mm)
-    if found[0].rough:
+
+    def measured(found: tuple[FootFace, Array, float]) -> Extraction:
+        return _in_face(scan, sample, found, diameter_mm, places, others_mm)
+
+    face, seen = _with_most_mouths(faces_with_holes(scan, sample, diameter_mm / 2, rng), measured)
+    if face is not None and face.rough:
         # Where plugs close many mouths, what lies behind the face is these, and no layer: then more are round.
-        smooth = face_with_holes(scan, sample, diameter_mm / 2, rng, may_be_rough=False)
-        as_smooth = seen if smooth is None else _in_face(scan, sample, smooth, diameter_mm, places, others_mm)
+        smooth = faces_with_holes(scan, sample, diameter_mm / 2, rng, may_be_rough=False)
+        _, as_smooth = _with_most_mouths(smooth, measured)
         if len(as_smooth.points) > len(seen.points) and _lies_in_bores(sample, as_smooth, diameter_mm / 2):
             return as_smooth
     return seen
+
+
+def _with_most_mouths(
+    faces: Iterable[tuple[FootFace, Array, float]], measured: Callable[[tuple[FootFace, Array, float]], Extraction]
+) -> tuple[FootFace | None, Extraction]:
+    """The face in which most mouths are round, and these; the first with enough of them, where there is one."""
+    best: FootFace | None = None
+    seen, most = Extraction(Kind.SLEEVE, "refined", (), None, None, reason=Reason("extract.no_face")), (0, 0)
+    for found in faces:
+        here = measured(found)
+        shown = len(here.points), min(len(found[1]), _ENOUGH_MOUTHS)
+        if best is None or shown > most:
+            best, seen, most = found[0], here, shown
+        if len(here.points) >= _ENOUGH_MOUTHS or not _may_be_a_wall(here):
+            break
+    return best, seen
+
+
+def _may_be_a_wall(seen: Extraction) -> bool:
+    """Whether a plane may be another than the foot's: what is refused for its camera's doings is not sought again."""
+    return bool(seen.points) or not _NO_MOUTHS.isdisjoint(codes_of(seen.reason))
 
 
 def _lies_in_bores(sample: Thinned, seen: Extraction, radius_mm: float) -> bool:

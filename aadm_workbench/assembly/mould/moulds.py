@@ -43,12 +43,16 @@ def assess_moulds(columns: Sequence[ColumnReport], profile: Profile) -> tuple[Mo
     """What the columns of each mould have in common, in the order of the job.
 
     Columns are of one mould where they have the same piece mark, or the same inline design. Moulds of fewer than three
-    columns are left out, and feet whose orientation is ambiguous: it is open which of their sleeves is which.
+    columns are left out, and feet whose orientation is ambiguous: it is open which of their sleeves is which. A scan
+    that is named for several columns shows one foot, and counts once.
     """
     moulds: dict[object, list[_Foot]] = {}
     first: dict[object, int] = {}
+    counted: set[tuple[Hashable, str]] = set()
     for number, foot in enumerate(each(columns, foot_of)):
-        if foot is not None:
+        if foot is not None and (foot.mould, foot.sha256) not in counted:
+            if foot.sha256:
+                counted.add((foot.mould, foot.sha256))
             moulds.setdefault(foot.mould, []).append(foot)
             first.setdefault(foot.mould, number)
     rule = next(iter(applicable_rules(profile, "sleeve_position")[0]), None)
@@ -86,6 +90,7 @@ class _Foot:
     mould: Hashable
     id: str
     piece_mark: str | None
+    sha256: str
     offsets: Array
     u_mm: Array
 
@@ -94,7 +99,7 @@ class _Foot:
         points = foot.points
         offsets = np.array([point.offset_mm or (np.nan, np.nan) for point in points])
         u_mm = np.array([np.nan if point.offset_mm is None else point.u_mm or 0.0 for point in points])
-        return cls(_mould_of(column, foot), column.id, column.piece_mark, offsets, u_mm)
+        return cls(_mould_of(column, foot), column.id, column.piece_mark, foot.sha256, offsets, u_mm)
 
 
 def _assess(first: GroupReport, feet: Sequence[_Foot], rule: Rule | None) -> MouldDrift | None:

@@ -104,6 +104,16 @@ def test_feet_of_unknown_turn_are_left_out(build: Any, square: Array) -> None:
     assert assess_moulds(open_, CN) == ()
 
 
+def test_a_scan_that_is_named_for_several_columns_counts_once(build: Any, square: Array) -> None:
+    """Three columns of one file are one foot: they agree to the last digit, which is no mould's doing."""
+    columns = feet(build, square, 3, drift_of(5, (1.5, 0.0)))
+    once = [replace(columns[0].sleeves, sha256=f"{number:064x}") for number in (7, 7, 7)]
+    same = [replace(column, sleeves=foot) for column, foot in zip(columns, once, strict=True)]
+    assert assess_moulds(same, CN) == ()
+    others = [replace(column, sleeves=replace(column.sleeves, sha256=column.id)) for column in columns]
+    assert len(assess_moulds(others, CN)[0].columns) == 3
+
+
 def test_limits_per_axis_and_none(build: Any, square: Array) -> None:
     reports = feet(build, square, 3, np.zeros((12, 2)))
     each = Rule("p", "sleeve_position", 1.5, None, "our spec", "shall", "verified", kind="per_axis")
