@@ -134,7 +134,7 @@ def _mapped(value: Any, text: Callable[[str], str]) -> Any:
         new = text(value)
         return value if new == value else new
     if isinstance(value, Made):
-        return value.changed(lambda _, item: _mapped(item, text), keeps_facts=True)
+        return value.changed(lambda _, item: _mapped(item, text))
     if isinstance(value, tuple):
         items = tuple(_mapped(item, text) for item in value)
         return value if all(one is other for one, other in zip(items, value, strict=True)) else items

@@ -110,5 +110,5 @@ class Tower:
         from aadm_workbench.stack.setting import setting_report
 
         found = {one.measured.id: setting_report(one) for one in self.plan.columns}
-        columns = changed(self.report.columns, lambda _, one: replace(one, setting=found[one.id]), keeps_facts=True)
+        columns = changed(self.report.columns, lambda _, one: replace(one, setting=found[one.id]))
         return replace(self.report, columns=columns)

@@ -27,11 +27,10 @@ from pathlib import Path
 from typing import Any
 
 import psutil
-from batch.program import program_key, program_versions
 
 from aadm_workbench.inspection.tasks import plan_job
 from batch.job.file import read_job
-from batch.job.inputs import looks, order_key, task_key
+from batch.job.inputs import looks, order_key, program_key, program_versions, task_key
 from batch.runner.journal import Journal
 from batch.runner.packed import pack, unpack
 from batch.switches import calculate_in_one_thread

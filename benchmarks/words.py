@@ -11,8 +11,8 @@ import json
 from pathlib import Path
 
 from batch.job.file import read_job
-from batch.runner.exact_json import to_exact_json
 from batch.runner.packed import words_of
+from batch.runner.record import kept_text
 from batch.runner.run import RunOptions, run_job
 from benchmarks.floors import SAMPLE
 
@@ -26,7 +26,7 @@ def main() -> None:
     """Check two columns of the sample floor and keep the words of their reports."""
     job = read_job(SAMPLE / "job.toml")
     found = {column.id: column for column in run_job(job, RunOptions(only=_COLUMNS)).report.columns}
-    words = "".join(words_of(to_exact_json(found[name])) for name in _COLUMNS)
+    words = "".join(words_of(kept_text(found[name])) for name in _COLUMNS)
     path = Path(__file__).resolve().parents[1] / "batch" / "journal_words.json"
     path.write_text(json.dumps(words[-_WINDOW_BYTES:], ensure_ascii=False) + "\n", encoding="utf-8")
 

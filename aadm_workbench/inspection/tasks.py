@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from aadm_workbench import __version__
-from aadm_workbench.assembly.findings.finding import with_same_scans
+from aadm_workbench.assembly.findings.finding import scans_of, with_same_scans
 from aadm_workbench.errors import DesignError, JobError, did_you_mean
 from aadm_workbench.inspection.job import Job, JobColumn
 from aadm_workbench.inspection.measure import CheckSettings
@@ -32,6 +32,8 @@ from aadm_workbench.model import (
     Profile,
     Scan,
 )
+from aadm_workbench.model.made import learn
+from aadm_workbench.model.reports import verdict_of
 from aadm_workbench.scan.read import read_scan
 
 _DECIMALS = 4  # 0.1 ms
@@ -285,6 +287,7 @@ def _distances(places: Array) -> tuple[int, ...]:
 def report_of(plan: JobPlan, columns: Sequence[ColumnReport]) -> JobReport:
     """The report of a job on its columns, as they were inspected one by one."""
     job, model = plan.job, plan.model
+    _learn(columns)
     columns = with_same_scans(columns)
     return JobReport(
         tool=tool_entry(),
@@ -302,6 +305,13 @@ def model_entry(model: ModelDesign) -> dict[str, str]:
     """What reports say about the model: its file, and the GlobalId of the project of an IFC model."""
     project = {"ifc_project": model.project} if model.project else {}
     return {"source": model.source, "sha256": model.sha256, **project}
+
+
+def _learn(columns: Sequence[ColumnReport]) -> None:
+    """Find what only all columns together show while each of them is at hand: results are unpacked once for it."""
+    from aadm_workbench.assembly.mould.moulds import foot_of
+
+    learn(columns, scans_of, verdict_of, *([foot_of] if len(columns) > 1 else []))
 
 
 def _mould_drift(columns: Sequence[ColumnReport], profile: Profile) -> tuple[MouldDrift, ...]:

@@ -309,7 +309,7 @@ class JobReport:
 
     def verdicts(self) -> list[Verdict]:
         """The verdict of each column."""
-        return each(self.columns, _verdict)
+        return each(self.columns, verdict_of)
 
     def summary(self) -> dict[str, int]:
         """How many columns came to each verdict: pass, fail, inconclusive, not_measured, error."""
@@ -317,5 +317,6 @@ class JobReport:
         return {verdict.value: found[verdict] for verdict in SUMMED}
 
 
-def _verdict(column: ColumnReport) -> Verdict:
+def verdict_of(column: ColumnReport) -> Verdict:
+    """The verdict of a column."""
     return column.verdict

@@ -136,6 +136,24 @@ def profile_document(profile: Profile) -> Json:
     return _rounded("", document)
 
 
+_JUDGED_TOGETHER = ("offset_mm", "u_mm")
+"""What moulds are judged by, of each sleeve; rounded before, their probabilities would be others in the last digits."""
+
+
+def as_shown(column: dict[str, Any]) -> Json:
+    """A column in plain types, its numbers as report.json shows them, but for those that moulds are judged by.
+
+    What is no number stays what it is: only report.json has no word for it.
+    """
+    shown = _rounded("", column, strange=True)
+    document: Any = shown
+    exact = column["sleeves"]
+    if exact is not None:
+        for point, kept in zip(exact["points"], document["sleeves"]["points"], strict=True):
+            kept.update({name: point[name] for name in _JUDGED_TOGETHER})
+    return shown
+
+
 _COLUMN_FIRST = ("id", "global_id", "piece_mark", "storey", "grid", "size_mm", "T_model_column")
 
 
@@ -162,33 +180,38 @@ def _known(value: object) -> object:
     return value.tolist() if isinstance(value, np.ndarray | np.generic) else str(value)
 
 
-def _rounded(name: str, value: Any) -> Json:
-    """A value, its numbers rounded by the names of their keys."""
-    if isinstance(value, str):
-        return value
-    if isinstance(value, dict):
-        return {key: _rounded(key, item) for key, item in value.items()}
-    if isinstance(value, list | tuple):
-        return _transform(value) if name.startswith("T_") else [_rounded(name, item) for item in value]
+def _rounded(name: str, value: Any, *, strange: bool = False) -> Json:
+    """A value, its numbers rounded by the names of their keys; ``strange`` keeps what is no number as it is."""
+    kind = type(value)
+    if kind is float:
+        return value if strange and not math.isfinite(value) else _number(name, value)
+    if kind is dict:
+        return {key: _rounded(key, item, strange=strange) for key, item in value.items()}
+    if kind is list or kind is tuple:
+        if name.startswith("T_"):
+            return _transform(value, strange=strange)
+        return [_rounded(name, item, strange=strange) for item in value]
     # A length that happens to be whole is written as every other length.
-    if isinstance(value, float):
-        return _number(name, value)
-    if type(value) is int and name.endswith(("_mm", "_deg")):
+    if kind is int and name.endswith(("_mm", "_deg")):
         return _number(name, float(value))
     plain_value: Json = value
     return plain_value
 
 
-def _transform(rows: Sequence[Sequence[float]]) -> Json:
+def _transform(rows: Sequence[Sequence[float]], *, strange: bool) -> Json:
     """A 4x4 transform: the directions without unit, the shift in mm to the nanometre."""
     decimals = (_DIRECTION_DECIMALS, _DIRECTION_DECIMALS, _DIRECTION_DECIMALS, _SHIFT_DECIMALS)
-    return [[_to(places, float(value)) for places, value in zip(decimals, row, strict=True)] for row in rows]
+
+    def shown(places: int, value: float) -> float | None:
+        return value if strange and not math.isfinite(value) else _to(places, float(value))
+
+    return [[shown(places, value) for places, value in zip(decimals, row, strict=True)] for row in rows]
 
 
 def _number(name: str, value: float) -> float | None:
     """A number by its name: lengths, angles and ratios to a fixed number of decimals, others to nine digits."""
     decimals = _decimals(name)
-    return _to(decimals, value) if decimals is not None else _to(None, float(f"{value:.{_OTHER_DIGITS}g}"))
+    return _to(decimals, float(f"{value:.{_OTHER_DIGITS}g}") if decimals is None else value)
 
 
 @cache

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import DesignError
 from aadm_workbench.inspection.job import JobColumn
@@ -37,8 +39,9 @@ def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColu
         raise top.wrong("columns", "jobfile.many_columns", count=len(tables), most=MOST_COLUMNS)
     columns: list[JobColumn] = []
     known: dict[str, JobTable] = {}
+    alike: dict[str, ColumnDesign] = {}
     for table in tables:
-        column = _column(table, units=units, has_model=has_model)
+        column = _column(table, alike, units=units, has_model=has_model)
         earlier = known.setdefault(column.id, table)
         if earlier is not table:
             raise table.wrong("id", "jobfile.same_id", id=column.id, line=earlier.line("id"))
@@ -46,7 +49,7 @@ def read_columns(top: JobTable, *, units: str, has_model: bool) -> tuple[JobColu
     return tuple(columns)
 
 
-def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
+def _column(table: JobTable, alike: dict[str, ColumnDesign], *, units: str, has_model: bool) -> JobColumn:
     table.allow(_COLUMN)
     table.require("id", 'id = "...", its Name, Tag, Mark, PieceMark or GlobalId in the model')
     name = table.text("id") or ""
@@ -55,7 +58,7 @@ def _column(table: JobTable, *, units: str, has_model: bool) -> JobColumn:
     up = up_deg(table, "up")
     sleeves_up, rebars_up = up_deg(table, "sleeves_up"), up_deg(table, "rebars_up")
     hoisting, hoisting_near = read_frames(table)
-    design = _design(table, name)
+    design = _design(table, name, alike)
     if design is None and not has_model:
         raise table.wrong(None, "jobfile.no_design", name=name)
     return JobColumn(
@@ -92,7 +95,8 @@ def _control_points(table: JobTable, *, units: str, has_own_design: bool) -> tup
     return read_control_points(table, units=units, has_own_design=has_own_design)
 
 
-def _design(column: JobTable, name: str) -> ColumnDesign | None:
+def _design(column: JobTable, name: str, alike: dict[str, ColumnDesign]) -> ColumnDesign | None:
+    """The design of a column as its table gives it; columns of one table share the points of the first of them."""
     table = column.table("design", "[columns.design]")
     if table is None:
         return None
@@ -107,7 +111,10 @@ def _design(column: JobTable, name: str) -> ColumnDesign | None:
             table.numbers(key, len(written))
         else:
             table.length(key)
+    written_as = repr(table.values)
+    if written_as in alike:
+        return replace(alike[written_as], id=name, names=(name,))
     try:
-        return inline_design(name, dict(table.values))
+        return alike.setdefault(written_as, inline_design(name, dict(table.values)))
     except DesignError as error:
         raise table.wrong(None, "said.sentences", parts=(error.reason,)) from error

@@ -59,25 +59,29 @@ _TICK_NS = 2_500_000_000  # FAT counts in two seconds; no other file system coun
 _LOOKS_DIGITS = 32  # 128 bits: no two alike by chance
 
 
-def order_key(task: ColumnTask, program: str) -> str:
+def order_key(task: ColumnTask, program: str, shared: dict[int, str] | None = None) -> str:
     """Hash of what a column's report follows from but for its files: program, settings, profile, design, camera.
 
-    Where the job lies is not in it, so a job may be moved.
+    Where the job lies is not in it, so a job may be moved. ``shared`` gets what all tasks of a job share, by its
+    identity, and is to be let go of with them.
     """
     said = (
         # Its own design is the task's already.
         replace(task.column, design=None),
         task.design,
-        task.settings,
         task.units,
-        task.camera,
         task.depth_scale_mm,
         task.no_design,
         task.others,
-        task.learned,
         task.learned_notes,
     )
-    return hashlib.sha256(f"{program}\n{to_exact_json(said)}\n".encode(errors="surrogatepass")).hexdigest()
+    known = {} if shared is None else shared
+    parts = [program, to_exact_json(said)]
+    for part in (task.settings, task.camera, task.learned):
+        if id(part) not in known:
+            known[id(part)] = to_exact_json(part)
+        parts.append(known[id(part)])
+    return hashlib.sha256("\n".join([*parts, ""]).encode(errors="surrogatepass")).hexdigest()
 
 
 def task_key(task: ColumnTask, order: str) -> str:

@@ -7,7 +7,8 @@ read off the annotations, so nothing in a file says which code is to run.
 from __future__ import annotations
 
 import json
-from typing import TypeVar, get_origin
+from contextlib import suppress
+from typing import Any, TypeVar, get_origin
 
 import msgspec
 import numpy as np
@@ -17,8 +18,12 @@ Noun = TypeVar("Noun")
 
 def to_exact_json(value: object) -> str:
     """A dataclass, or what such hold, as JSON on one line; numbers as the shortest text that gives them back."""
-    plain = msgspec.to_builtins(value, str_keys=True, enc_hook=_plain)
-    return json.dumps(plain, ensure_ascii=False, separators=(",", ":"))
+    return json.dumps(plainly(value), ensure_ascii=False, separators=(",", ":"))
+
+
+def plainly(value: object) -> Any:
+    """A dataclass, or what such hold, in the types that JSON knows, every number as it is."""
+    return msgspec.to_builtins(value, str_keys=True, enc_hook=_plain)
 
 
 def from_exact_json(kind: type[Noun], text: str) -> Noun:
@@ -29,6 +34,9 @@ def from_exact_json(kind: type[Noun], text: str) -> Noun:
     ValueError
         For text that is no such dataclass: another version wrote it, or it is broken.
     """
+    # What is no number, and half a character, is no JSON: the standard library reads it all the same.
+    with suppress(msgspec.DecodeError, UnicodeEncodeError, RecursionError):
+        return msgspec.json.decode(text, type=kind, dec_hook=_array)
     try:
         return msgspec.convert(json.loads(text), kind, dec_hook=_array)
     except (msgspec.ValidationError, RecursionError) as error:

@@ -24,7 +24,7 @@ from .record import Record, read_record
 
 NAME = "journal.jsonl"
 PREVIOUS_NAME = "journal.previous.jsonl"
-_FIRST_LINE = b'{"aadm_journal":1}\n'
+_FIRST_LINE = b'{"aadm_journal":2}\n'
 _FINISHED = b'{"finished":'
 _STOPPED_LINE = b'{"stopped":true}\n'
 _SECONDS_BETWEEN_FLUSHES = 1.0  # so much work is lost at most in a power failure

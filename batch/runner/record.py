@@ -1,7 +1,7 @@
 """The work on one column as it travels, and what is kept of it.
 
 An order is a pure function's input, so that it may be filled twice, anywhere; a record is one line of text, from which
-the column's report comes back bit by bit.
+the column's report comes back as report.json will show it.
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ from pathlib import Path
 from aadm_workbench.inspection.column import ColumnOutcome, inspect_column, lost
 from aadm_workbench.inspection.tasks import ColumnTask
 from aadm_workbench.model import ColumnReport, Verdict
+from aadm_workbench.report.json import as_shown
 
 from ..job.inputs import ShippedFile, read_for_shipping, task_key
-from .exact_json import from_exact_json, to_exact_json
+from .exact_json import from_exact_json, plainly, to_exact_json
 from .packed import pack, unpack
 
 _CHECKSUM = ',"crc32":"'
@@ -35,7 +36,8 @@ class Record:
         Hash of all that its report follows from; empty for a report that may come out differently the next time (an
         error: a file may have been missing, a process killed).
     report
-        The :class:`~aadm_workbench.model.ColumnReport`, as exact JSON, packed.
+        The :class:`~aadm_workbench.model.ColumnReport` as JSON, packed: its numbers as report.json shows them, and
+        exactly those that all columns together are judged by.
     seconds, where
         As of a :class:`~aadm_workbench.inspection.column.ColumnOutcome`.
     seen
@@ -57,8 +59,9 @@ class Record:
         """What is to be kept of an outcome."""
         report = outcome.report
         kept_key = "" if report.verdict is Verdict.ERROR else key
-        text = pack(to_exact_json(report))
-        return cls(report.id, kept_key, report.verdict, report.goes_on, text, outcome.seconds, outcome.where)
+        return cls(
+            report.id, kept_key, report.verdict, report.goes_on, pack(kept_text(report)), outcome.seconds, outcome.where
+        )
 
     def column(self) -> ColumnReport:
         """The column's report.
@@ -84,6 +87,11 @@ class Record:
         }
         content = to_exact_json(head)[:-1].encode(errors="surrogatepass")
         return content + f'{_CHECKSUM}{zlib.crc32(content):08x}"}}\n'.encode()
+
+
+def kept_text(report: ColumnReport) -> str:
+    """A column's report as it is kept, before it is packed."""
+    return to_exact_json(as_shown(plainly(report)))
 
 
 def read_record(line: bytes) -> Record | None:

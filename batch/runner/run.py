@@ -162,7 +162,8 @@ class _Pools:
 def _orders(tasks: tuple[ColumnTask, ...], journal: Journal | Unkept) -> list[CheckOrder]:
     """An order for each column."""
     program, known = program_key(), journal.keys
-    return [CheckOrder(task, order_key(task, program), known.get(task.column.id, "")) for task in tasks]
+    shared: dict[int, str] = {}
+    return [CheckOrder(task, order_key(task, program, shared), known.get(task.column.id, "")) for task in tasks]
 
 
 def _places_of(names: Collection[str], orders: Sequence[CheckOrder]) -> set[int]:

@@ -18,8 +18,9 @@ from .terminal import in_words, new_table, show, verdict_text
 
 def show_verdicts(report: JobReport, file: Path | None, language: Language = "en") -> None:
     """Show the table, what can be done, how many columns came to what, and where the report is if it was written."""
-    advice = list(advice_lines(report, language))
-    show(verdict_table(report, language), "", *advice, *([""] if advice else []))
+    lines = shown_columns(report, language)
+    advice = [*(line.advice for line in lines if line.advice), *mould_lines(report, language)]
+    show(_table(lines, language), "", *advice, *([""] if advice else []))
     show(summary_line(report, language))
     if file is not None:
         show(phrase("shown.report", file=file).in_language(language))
@@ -27,25 +28,49 @@ def show_verdicts(report: JobReport, file: Path | None, language: Language = "en
 
 def verdict_table(report: JobReport, language: Language = "en") -> Table:
     """Verdict, column, its worst point with deviation and limit, whether it goes on its bars, and why."""
+    return _table(shown_columns(report, language), language)
+
+
+@dataclass(frozen=True)
+class ShownColumn:
+    """A column as the table shows it, and a line for advice on its repair; empty without any."""
+
+    verdict: Verdict
+    cells: tuple[Text | str, ...]
+    advice: str
+
+
+def shown_columns(report: JobReport, language: Language = "en") -> list[ShownColumn]:
+    """Columns by verdict, the worst first; those of one verdict in the order of the job.
+
+    Each is made once, and nothing is kept of it but what is shown: a shipment may have more than the memory holds.
+    """
+    lines = [_shown(column, language) for column in report.columns]
+    return sorted(lines, key=lambda line: WORST_FIRST.index(line.verdict))
+
+
+def _shown(column: ColumnReport, language: Language) -> ShownColumn:
+    comparison = worst_comparison(column)
+    cells = (
+        verdict_text(column.verdict, language),
+        Text(column.id),
+        "" if comparison is None else comparison.point,
+        "" if comparison is None else comparison.in_words(language),
+        verdict_text(column.goes_on, language),
+        Text(_reason(column, comparison, language)),
+    )
+    repair = column.repair
+    advice = "" if repair is None else _filled("shown.repair", column.id, repair.advice, language)
+    return ShownColumn(column.verdict, cells, advice)
+
+
+def _table(lines: Sequence[ShownColumn], language: Language) -> Table:
     names = ("verdict", "column", "worst", "deviation_limit", "goes_on", "reason")
     headings = [phrase(f"shown.{name}").in_language(language) for name in names]
     table = new_table(*headings, numbers=(headings[3],))
-    for column in worst_first(report.columns):
-        comparison = worst_comparison(column)
-        table.add_row(
-            verdict_text(column.verdict, language),
-            Text(column.id),
-            "" if comparison is None else comparison.point,
-            "" if comparison is None else comparison.in_words(language),
-            verdict_text(column.goes_on, language),
-            Text(_reason(column, comparison, language)),
-        )
+    for line in lines:
+        table.add_row(*line.cells)
     return table
-
-
-def worst_first(columns: Sequence[ColumnReport]) -> list[ColumnReport]:
-    """Columns by verdict, the worst first; those of one verdict in the order of the job."""
-    return sorted(columns, key=lambda column: WORST_FIRST.index(column.verdict))
 
 
 def summary_line(report: JobReport, language: Language = "en") -> str:
@@ -60,11 +85,8 @@ def summary_line(report: JobReport, language: Language = "en") -> str:
     return f"{said}: {', '.join(counted)}" if language == "en" else f"{said}：{'，'.join(counted)}"
 
 
-def advice_lines(report: JobReport, language: Language = "en") -> Iterator[str]:
-    """One line for each column that has advice on its repair, and for each mould that displaces sleeves."""
-    for column in worst_first(report.columns):
-        if column.repair is not None:
-            yield _filled("shown.repair", column.id, column.repair.advice, language)
+def mould_lines(report: JobReport, language: Language = "en") -> Iterator[str]:
+    """One line for each mould that displaces sleeves."""
     for mould in report.mould_drift:
         if mould.drifting or any(sleeve.scatters_more for sleeve in mould.sleeves):
             name = mould.piece_mark or mould.columns[0]

@@ -79,7 +79,7 @@ def ifczip() -> Container:
 def journal() -> Container:
     """What an earlier check left in the folder of a report."""
     line = b'{"id":"C-1","key":"k","verdict":"pass","goes_on":"pass","seconds":{"total":1.0},"where":"","report":{},'
-    sound = b'{"aadm_journal":1}\n{"began":"C-1"}\n' + line + b'"crc32":"00000000"}\n{"stopped":true}\n'
+    sound = b'{"aadm_journal":2}\n{"began":"C-1"}\n' + line + b'"crc32":"00000000"}\n{"stopped":true}\n'
 
     def read(path: Path) -> None:
         with suppress(OSError):

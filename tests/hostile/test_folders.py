@@ -83,11 +83,11 @@ def test_no_file_of_a_check_is_written_through_a_link(job: Path, kind: str) -> N
 
 def test_a_journal_that_is_a_link_is_not_resumed(job: Path, capsys: pytest.CaptureFixture[str]) -> None:
     other = job.parent / "other.jsonl"
-    other.write_bytes(b'{"aadm_journal":1}\n{"began":"C-1"}\n')
+    other.write_bytes(b'{"aadm_journal":2}\n{"began":"C-1"}\n')
     (job.parent / "job-report" / "journal.jsonl").symlink_to(other)
     assert main(["check", str(job), "--quiet", "--resume"]) == 2
     assert "journal.jsonl: results cannot be kept there: it is a link, which is not followed" in capsys.readouterr().err
-    assert other.read_bytes() == b'{"aadm_journal":1}\n{"began":"C-1"}\n'
+    assert other.read_bytes() == b'{"aadm_journal":2}\n{"began":"C-1"}\n'
 
 
 def test_a_journal_with_a_second_name_is_resumed_and_the_other_stays(job: Path) -> None:
@@ -131,7 +131,7 @@ def test_what_a_killed_check_left_is_cleared(job: Path) -> None:
     assert not any(path.exists() for path in left)
 
 
-FIRST = b'{"aadm_journal":1}\n'
+FIRST = b'{"aadm_journal":2}\n'
 
 
 def forged(values: dict[str, Any], report: str) -> bytes:

@@ -25,7 +25,7 @@ from aadm_workbench.model import (
     Verdict,
     worst,
 )
-from aadm_workbench.model.made import changed
+from aadm_workbench.model.made import changed, each
 
 NOT_MEASURED = ("mirrored", "swapped", "turn_contradicted", "other_column", "sleeves_by_design")
 """What was to be measured was not scanned, or not measured; all else that holds back leaves a verdict open."""
@@ -145,17 +145,24 @@ class _Shared:
 def with_same_scans(columns: Sequence[ColumnReport]) -> Sequence[ColumnReport]:
     """The columns of a job, each with a finding where a scan of it was used elsewhere too."""
     by_hash: dict[str, _Shared] = {}
-    for number, column in enumerate(columns):
-        for use in _uses(column):
+    for number, (name, uses) in enumerate(each(columns, scans_of)):
+        for use in uses:
             shared = by_hash.setdefault(use.sha256, _Shared({}, {}))
-            shared.ids[number] = column.id
+            shared.ids[number] = name
             shared.uses.setdefault(number, []).append(use)
     twice: dict[int, list[_Shared]] = {}
     for shared in by_hash.values():
         for number, own in shared.uses.items():
             if len(shared.uses) > 1 or len(own) > 1:
                 twice.setdefault(number, []).append(shared)
-    return changed(columns, lambda number, column: held_back(column, _findings(number, twice.get(number, ()))))
+    return changed(
+        columns, lambda number, column: held_back(column, _findings(number, twice.get(number, ()))), at=twice
+    )
+
+
+def scans_of(column: ColumnReport) -> tuple[str, tuple[_Use, ...]]:
+    """The id of a column, and the scans that it was checked with."""
+    return column.id, tuple(_uses(column))
 
 
 def _uses(column: ColumnReport) -> Iterator[_Use]:

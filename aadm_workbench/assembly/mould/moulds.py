@@ -7,8 +7,9 @@ scatter are those of the position after each column's own fit, because that is w
 
 from __future__ import annotations
 
+import hashlib
 import math
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,6 +28,7 @@ from aadm_workbench.model import (
     SleeveDrift,
     Vector2,
 )
+from aadm_workbench.model.made import each
 
 FEWEST_COLUMNS = 3
 """Columns of one mould: of two nobody can say what is the mould's and what is scatter."""
@@ -44,28 +46,44 @@ def assess_moulds(columns: Sequence[ColumnReport], profile: Profile) -> tuple[Mo
     columns are left out, and feet whose orientation is ambiguous: it is open which of their sleeves is which.
     """
     moulds: dict[object, list[_Foot]] = {}
-    first: dict[object, GroupReport] = {}
-    for column in columns:
-        foot = column.sleeves
-        if foot is not None and foot.fit is not None and foot.fit.orientation != "ambiguous":
-            mould = _mould_of(column, foot)
-            moulds.setdefault(mould, []).append(_Foot.of(column, foot))
-            first.setdefault(mould, foot)
+    first: dict[object, int] = {}
+    for number, foot in enumerate(each(columns, foot_of)):
+        if foot is not None:
+            moulds.setdefault(foot.mould, []).append(foot)
+            first.setdefault(foot.mould, number)
     rule = next(iter(applicable_rules(profile, "sleeve_position")[0]), None)
-    found = (_assess(first[mould], feet, rule) for mould, feet in moulds.items() if len(feet) >= FEWEST_COLUMNS)
-    return tuple(drift for drift in found if drift is not None)
+    drifts = []
+    for mould, feet in moulds.items():
+        sleeves = columns[first[mould]].sleeves if len(feet) >= FEWEST_COLUMNS else None
+        drift = None if sleeves is None else _assess(sleeves, feet, rule)
+        drifts += [] if drift is None else [drift]
+    return tuple(drifts)
 
 
-def _mould_of(column: ColumnReport, foot: GroupReport) -> tuple[object, ...]:
+def foot_of(column: ColumnReport) -> _Foot | None:
+    """What moulds are judged by of a column; None where it is open which of its sleeves is which."""
+    foot = column.sleeves
+    if foot is None or foot.fit is None or foot.fit.orientation == "ambiguous":
+        return None
+    return _Foot.of(column, foot)
+
+
+def _mould_of(column: ColumnReport, foot: GroupReport) -> Hashable:
+    """What the columns of one mould share; an inline design by its hash, for each column may have its own."""
     if column.piece_mark is not None:
         return column.piece_mark, len(foot.points)
-    return None, column.size_mm, tuple(point.design_mm for point in foot.points)
+    places = np.array([point.design_mm for point in foot.points]) + 0.0  # no minus before a zero
+    return hashlib.sha256(repr(column.size_mm).encode() + places.tobytes()).digest()
 
 
 @dataclass(frozen=True, eq=False)
 class _Foot:
-    """What is needed of the n sleeves of a foot, in little memory: offsets (n, 2) mm and u (n,) mm, NaN without any."""
+    """What is needed of the n sleeves of a foot, in little memory: offsets (n, 2) mm and u (n,) mm, NaN without any.
 
+    ``mould`` is equal for the columns of one mould.
+    """
+
+    mould: Hashable
     id: str
     piece_mark: str | None
     offsets: Array
@@ -76,7 +94,7 @@ class _Foot:
         points = foot.points
         offsets = np.array([point.offset_mm or (np.nan, np.nan) for point in points])
         u_mm = np.array([np.nan if point.offset_mm is None else point.u_mm or 0.0 for point in points])
-        return cls(column.id, column.piece_mark, offsets, u_mm)
+        return cls(_mould_of(column, foot), column.id, column.piece_mark, offsets, u_mm)
 
 
 def _assess(first: GroupReport, feet: Sequence[_Foot], rule: Rule | None) -> MouldDrift | None:

@@ -156,7 +156,7 @@ def _ends_of(
         tops = [] if reason else upright_ends(list(bar.legs))
         wholes = frozenset(whole.id() for whole in ifc_names.wholes(element)) if tops else frozenset()
         said = opened.naming.said(element)
-        why = in_one([Reason("ifc.evidence", evidence=evidence, said=said) if said else evidence, *sizes[2]])
+        why = in_one([ifc_names.evidence_of(evidence, said) if said else evidence, *sizes[2]])
         ends += [BarEnd.of(element, bar, top, why, sizes[0], sizes[1], wholes) for top in tops]
         if not tops:
             left.append(no_end(element, bar, sizes[0], reason or geometric_reason(list(bar.legs))))

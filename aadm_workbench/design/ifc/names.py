@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 from aadm_workbench.design.ifc.words import Said, find
@@ -120,6 +120,12 @@ class Naming:
             if value := optional(holder, name):
                 return value
         return None
+
+
+@lru_cache(maxsize=4096, typed=True)
+def evidence_of(what: str, said: str) -> Reason:
+    """What speaks for an element, and what it is called: a floor has thousands that are called alike."""
+    return Reason("ifc.evidence", evidence=what, said=said)
 
 
 def text_of(value: Any) -> str:

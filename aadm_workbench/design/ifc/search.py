@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -157,7 +158,7 @@ def _entered(foot: Foot, mouths: Sequence[Mouth], below: Sequence[BarEnd]) -> li
 
 
 def _apart(mouth: Mouth, others: Sequence[Mouth]) -> bool:
-    return all(np.linalg.norm(mouth.centre - other.centre) >= SAME_MOUTH_MM for other in others)
+    return all(math.dist(mouth.centre, other.centre) >= SAME_MOUTH_MM for other in others)
 
 
 def _extra(mouths: Sequence[Mouth]) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
@@ -16,6 +17,7 @@ from aadm_workbench.design.ifc.geometry.shapes import Shapes
 from aadm_workbench.design.ifc.text.file import OpenedIfc
 from aadm_workbench.design.ifc.words import COUPLERS, NOT_SLEEVE, SLEEVE
 from aadm_workbench.design.model_design import NotTaken
+from aadm_workbench.design.recognise.paths import length_of
 from aadm_workbench.design.recognise.tubes import Tube, stacked
 from aadm_workbench.model import Array, AssemblyPoint, Kind, Reason
 
@@ -136,7 +138,7 @@ def _take_by_name(
         left.append(NotTaken.of("sleeve", element, Reason("ifc.no_sleeve", excluded=repr(excluded))))
         return
     evidence = Evidence.CLASS if is_coupler else Evidence.NAME
-    why = Reason("ifc.evidence", evidence=element.is_a(), said=opened.naming.said(element))
+    why = ifc_names.evidence_of(element.is_a(), opened.naming.said(element))
     drawn = _candidates(element, shapes, evidence, Reason("ifc.coupler", why=why) if is_coupler else why)
     if element.is_a("IfcReinforcingElement"):
         # Bars are called after the sleeve that they go into.
@@ -237,7 +239,7 @@ def _mouth(foot: Foot, candidate: Candidate) -> Mouth | None:
     ends = foot.local(np.array([candidate.tube.start, candidate.tube.end]))
     if ends[0, 2] > ends[1, 2]:
         ends = ends[::-1]
-    length_mm = float(np.linalg.norm(ends[1] - ends[0]))
+    length_mm = length_of(ends[1] - ends[0])
     axis = (ends[1] - ends[0]) / length_mm
     too_deep_mm = -np.inf if candidate.is_opening else -MOUTH_TO_FOOT_MM
     if axis[2] < _ALONG_COS or not too_deep_mm <= ends[0, 2] <= MOUTH_TO_FOOT_MM or ends[1, 2] <= MOUTH_TO_FOOT_MM:
@@ -287,7 +289,7 @@ def _one_each(mouths: Sequence[Mouth]) -> list[Mouth]:
 
     kept: list[Mouth] = []
     for mouth in sorted(mouths, key=merit):
-        if not any(np.linalg.norm(mouth.centre - other.centre) < SAME_MOUTH_MM for other in kept):
+        if not any(math.dist(mouth.centre, other.centre) < SAME_MOUTH_MM for other in kept):
             kept.append(mouth)
     return kept
 

@@ -62,7 +62,8 @@ def bars_below(body: ColumnBody, foot: Foot, bars: FoundBars) -> list[BarEnd]:
         own = bool(bars.ends[index].wholes & body.own_ids)
         if own or not from_below:
             continue
-        if all(np.linalg.norm(tops[index, :2] - tops[other, :2]) > _SAME_BAR_MM for other in kept):
+        apart = tops[kept, :2] - tops[index, :2]
+        if (np.hypot(apart[:, 0], apart[:, 1]) > _SAME_BAR_MM).all():
             kept.append(index)
     return [bars.ends[index] for index in kept]
 

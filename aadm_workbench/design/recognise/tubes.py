@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.design.recognise.circles import FEWEST_VERTICES, Circle
-from aadm_workbench.design.recognise.paths import Straight, joined
+from aadm_workbench.design.recognise.paths import Straight, joined, length_of
 from aadm_workbench.design.recognise.rims import Rim, rims
 from aadm_workbench.design.recognise.shapes import (
     Cut,
@@ -52,7 +52,7 @@ class Tube:
     @property
     def length_mm(self) -> float:
         """Of its axis."""
-        return float(np.linalg.norm(self.end - self.start))
+        return length_of(self.end - self.start)
 
     @property
     def is_hole(self) -> bool:

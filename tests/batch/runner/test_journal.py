@@ -3,6 +3,7 @@
 import errno
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 
 from aadm_workbench.errors import AadmError
 from aadm_workbench.inspection.column import ColumnOutcome
-from aadm_workbench.model import ColumnReport, Verdict
+from aadm_workbench.model import ColumnReport, GroupReport, PointResult, Verdict
 from batch.runner.journal import PREVIOUS_NAME, Journal
 from batch.runner.packed import unpack
 from batch.runner.record import Record, read_record
@@ -60,6 +61,23 @@ def test_a_record_comes_back_from_its_line() -> None:
         damaged = line[:place] + bytes([line[place] ^ 1]) + line[place + 1 :]
         assert read_record(damaged) is None
         assert read_record(line[:place]) is None
+
+
+def test_numbers_are_kept_as_they_are_shown() -> None:
+    """What has no place in report.json, and what moulds are judged by, stays what it is."""
+    strange = np.array([[np.nan, np.inf, 1.0 / 3.0, 1.0 / 3.0]] * 4)
+    place, off_mm = (1.0 / 3.0, 0.0, 0.0), 2.0 / 3.0
+    sleeve = PointResult("S1", None, place, None, None, None, None, None, off_mm, None, 2.0, Verdict.PASS)
+    sleeve = replace(sleeve, offset_mm=(1.0 / 3.0, -0.1), u_mm=1.0 / 7.0)
+    group = GroupReport("a.ply", "", "refined", 1, 1, Verdict.PASS, (sleeve,), (), None)
+    report = ColumnReport("C-1", Verdict.PASS, Verdict.PASS, sleeves=group, T_model_column=strange)
+    back = Record.of(ColumnOutcome(report, {}, ""), "k").column()
+    assert back.T_model_column is not None
+    assert back.sleeves is not None
+    (point,) = back.sleeves.points
+    assert np.array_equal(back.T_model_column[0], [np.nan, np.inf, 0.333333333, 0.333333], equal_nan=True)
+    assert (point.design_mm[0], point.deviation_mm) == (0.3333, 0.6667)
+    assert (point.offset_mm, point.u_mm) == ((1.0 / 3.0, -0.1), 1.0 / 7.0)
 
 
 def test_an_error_is_never_used_again() -> None:

@@ -12,7 +12,7 @@ from batch.runner.packed import LONGEST_TEXT_BYTES, pack, unpack
 
 def deflated(content: bytes) -> str:
     """A part of a packed text, without the words that reports have in common."""
-    return base64.b85encode(zlib.compress(content)).decode()
+    return base64.b64encode(zlib.compress(content)).decode()
 
 
 @pytest.mark.parametrize(
@@ -20,6 +20,9 @@ def deflated(content: bytes) -> str:
     [
         "",
         "{}",
+        # Lengths, angles, directions: each is kept as so many units, and those that are no shortest text as they stand.
+        "[0.0001,-0.0001,-0.0,-0.00,1234.5678,429496.7295,429496.7296,-214748.3648,-214748.3649,0.1234567,12.3450]",
+        "[180.123456,-0.987654321,0.123456789012,0.0012345678901,1e-05,1.25e-07,9007199254740.993,2147483647.123456]",
         json.dumps({"a": [0.1, 1 / 3, -2e-300, 5e-324, 1e16, 123456789.123456789, 0, -0.0, 1e22]}),
         # What looks like a number and is none, or is another one: a digit too many, a zero behind the last.
         '"1.2345678900" 1.234567890123456789 -0.00000000000 12.3456789012e5 "9.87654321098-1.23456789012"',

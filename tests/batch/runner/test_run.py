@@ -12,6 +12,7 @@ from aadm_workbench.design.model_design import ModelDesign
 from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.errors import DesignError, JobError, MissingDependencyError
 from aadm_workbench.inspection import as_designed, column
+from aadm_workbench.inspection.tasks import report_of
 from aadm_workbench.model import ColumnReport, Verdict
 from aadm_workbench.report.json import encoded_report
 from aadm_workbench.report.read import parsed_report
@@ -19,6 +20,7 @@ from batch.job.file import read_job
 from batch.runner.pools import PoolOptions
 from batch.runner.record import Record
 from batch.runner.run import Follower, JobRun, RunOptions, run_job
+from batch.shown.verdict_table import verdict_table
 from tests.batch.conftest import CENTRES, HEAD, WriteJob, column_text
 
 MODEL_HEAD = HEAD + '[model]\npath = "models/floor3.ifc"\n'
@@ -61,6 +63,34 @@ def test_one_scan_for_two_columns_passes_neither(write_job: WriteJob) -> None:
     assert [(finding.code, finding.about) for finding in second.findings] == [("same_scan_twice", ("rebars",))]
     content = encoded_report(finished(path).report)
     assert encoded_report(parsed_report(content, "report.json")) == content
+
+
+@pytest.mark.usefixtures("exact_extraction")
+def test_results_are_unpacked_twice_for_a_report(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Once for what all columns show together, once to write them; one more of a mould, and each for the table."""
+    names = tuple(f"foot-{number}.ply" for number in range(4))
+    path = write_job(*(column_text(name[5], name) for name in names), clouds=names)
+    done = finished(path)
+    unpacked = []
+    monkeypatch.setattr(Record, "column", lambda record, own=Record.column: unpacked.append(record.id) or own(record))
+    content = encoded_report(done.report)
+    done.report.summary()
+    assert sorted(unpacked) == sorted("0" + 2 * "0123")
+    unpacked.clear()
+    verdict_table(done.report)
+    assert unpacked == list("0123")
+    assert encoded_report(report_of(done.plan, tuple(done.columns))) == content
+
+
+@pytest.mark.usefixtures("exact_extraction")
+def test_what_is_kept_gives_the_report_of_what_never_was(write_job: WriteJob) -> None:
+    """Numbers are kept as they are shown; moulds, which are judged by all of them, come out the same."""
+    names = tuple(f"mould-{number}.ply" for number in range(4))
+    columns = [column_text(f"C-{name[6]}", name, "4mm.ply") for name in names]
+    done = finished(write_job(*columns, clouds=(*names, "4mm.ply")))
+    assert done.report.mould_drift[0].drifting
+    exact = [column.inspect_column(task).report for task in done.plan.tasks]
+    assert encoded_report(report_of(done.plan, exact)) == encoded_report(done.report)
 
 
 @pytest.mark.usefixtures("exact_extraction")

@@ -19,6 +19,9 @@ _DIRECTIVE = re.compile(
 )
 """What a backslash may begin (ISO 10303-21, 6.4.3). One that begins nothing is a path's, and is meant as it is."""
 
+_PLAIN = re.compile(rb"(?:[^\\]++|\\\\|\\N\\|\\X2\\(?:[0-9A-Fa-f]{4})++\\X0\\|\\X4\\(?:[0-9A-Fa-f]{8})++\\X0\\)*+")
+"""A file whose backslashes begin directives that need no reading of ours: no code pages, no bytes."""
+
 _BYTES = re.compile(r"(?:[ -&(-\[\]-~]|\\\\|\\X\\[0-9A-Fa-f]{2}|\\S\\[ -~])+")
 _BYTE = re.compile(r"\\X\\([0-9A-Fa-f]{2})|\\S\\(.)|(\\\\|[^\\]+)")
 _PAGE = re.compile(r"\\P[A-I]\\")
@@ -68,6 +71,8 @@ def prepared(content: bytes, schemas: Sequence[str]) -> PreparedText:
     schemas
         Identifiers that the parser knows.
     """
+    if (schema := _schema_of_plain(content, schemas)) is not None:
+        return PreparedText(content, (), schema)
     notes: list[str] = []
     text = _text(content, notes)
     if "\\X\\" in text or "\\S\\" in text:
@@ -78,6 +83,16 @@ def prepared(content: bytes, schemas: Sequence[str]) -> PreparedText:
     if not text.isascii():
         text = _NOT_ASCII.sub(escaped, text)
     return PreparedText(text.encode("ascii"), tuple(notes), schema)
+
+
+def _schema_of_plain(content: bytes, schemas: Sequence[str]) -> str | None:
+    """The schema of a file in which nothing is to be changed, for a copy of a large one takes its time and memory."""
+    if not content.isascii() or not _PLAIN.fullmatch(content):
+        return None
+    notes: list[str] = []
+    header = content[:_HEADER_CHARACTERS].decode("ascii")
+    text, schema = _with_header(header, schemas, notes)
+    return schema if text == header and not notes else None
 
 
 def escaped(found: re.Match[str]) -> str:
