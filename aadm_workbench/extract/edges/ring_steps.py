@@ -1,9 +1,10 @@
 """What a camera that drops rings of pixels at depth steps took from outlines of tops, and on which sides.
 
 Such a filter takes a pixel where a neighbour lies farther off than a step of its own. Which step that is shows in what
-it left: no two neighbours that fall by more. Where few fall at all, it is anything up to the steps that are taken. Where a top ends in a step, it and what lies behind lose alike. Where it
-runs on into the side that shows, the surface goes on falling: a ring is taken there only as far as neighbours fall
-by that step, which is less the steeper the side is seen.
+it left: no two neighbours that fall by more. Where few fall at all, it is anything up to the steps that are taken.
+Where a top ends in a step, it and what lies behind lose alike. Where it runs on into the side that shows, the surface
+goes on falling: a ring is taken there only as far as neighbours fall by that step, which is less the steeper the side
+is seen.
 """
 
 from __future__ import annotations
