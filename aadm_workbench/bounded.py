@@ -231,4 +231,4 @@ def toml_fault(error: Exception | str) -> Reason:
     Keys of several parts are named as they are written: ``a.b``, not as a tuple.
     """
     keys = r"\((?:'[^']*',? ?)+\)"
-    return as_said_by("toml", re.sub(keys, lambda found: ".".join(ast.literal_eval(found[0])), str(error)))
+    return as_said_by("bounded.toml", re.sub(keys, lambda found: ".".join(ast.literal_eval(found[0])), str(error)))

@@ -71,8 +71,8 @@ class _ChineseParser(argparse.ArgumentParser):
         from aadm_workbench.model import Reason
         from aadm_workbench.model.reason import as_said_by
 
-        begin = Reason("usage.usage")
-        wrong = Reason("usage.error", program=self.prog, what=as_said_by("usage", message))
+        begin = Reason("command.usage.usage")
+        wrong = Reason("command.usage.error", program=self.prog, what=as_said_by("command.usage", message))
         usage = self.format_usage().removeprefix(begin)
         self.exit(BAD_USAGE, printable(f"{begin.in_language('zh')}{usage}{wrong.in_language('zh')}\n"))
 

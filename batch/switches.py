@@ -90,14 +90,14 @@ def _wrong(code: str, text: str, **values: str) -> argparse.ArgumentTypeError:
 def port(text: str) -> int:
     """A TCP port."""
     if not text.isdecimal() or not 0 < int(text) < 2**16:
-        raise _wrong("usage.port", text)
+        raise _wrong("command.usage.port", text)
     return int(text)
 
 
 def whole_number(text: str) -> int:
     """A whole number above zero."""
     if not text.isdecimal() or int(text) == 0:
-        raise _wrong("usage.whole_number", text)
+        raise _wrong("command.usage.whole_number", text)
     return int(text)
 
 
@@ -108,26 +108,26 @@ def length(text: str) -> float:
     except ValueError:
         value = math.nan
     if not (math.isfinite(value) and value > 0.0):
-        raise _wrong("usage.length", text)
+        raise _wrong("command.usage.length", text)
     return value
 
 
 def memory_size(text: str) -> int:
     """A size of memory with its unit, in bytes."""
-    size = int(_quantity(text, _BYTES, "usage.limit", "2GB or 600MB"))
+    size = int(_quantity(text, _BYTES, "command.usage.limit", "2GB or 600MB"))
     if size < LEAST_MEMORY_BYTES:
-        raise _wrong("usage.memory", text)
+        raise _wrong("command.usage.memory", text)
     return size
 
 
 def time_span(text: str) -> float:
     """A time with its unit, in seconds."""
-    return _quantity(text, _SECONDS, "usage.limit", "90s, 15min or 1h")
+    return _quantity(text, _SECONDS, "command.usage.limit", "90s, 15min or 1h")
 
 
 def duration(text: str) -> float:
     """A time, in seconds: 2, 2s, 500ms, 1min."""
-    return _quantity(text, _UNITS_S, "usage.time", "2s, 500ms or 1min")
+    return _quantity(text, _UNITS_S, "command.usage.time", "2s, 500ms or 1min")
 
 
 def _quantity(text: str, units: dict[str, float] | dict[str, int], code: str, example: str) -> float:

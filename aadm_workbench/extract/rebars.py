@@ -22,8 +22,7 @@ from aadm_workbench.extract.edges.learned_edges import (
     with_learned_discs,
     without_losses,
 )
-from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
-from aadm_workbench.extract.edges.ring_steps import DroppedRings
+from aadm_workbench.extract.edges.ring_steps import DroppedRings, gaps_at_steps, rings_dropped
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
 from aadm_workbench.extract.own_tops import TopPlanes, top_planes

@@ -309,9 +309,12 @@ def model_entry(model: ModelDesign) -> dict[str, str]:
 
 def _learn(columns: Sequence[ColumnReport]) -> None:
     """Find what only all columns together show while each of them is at hand: results are unpacked once for it."""
+    if len(columns) < 2:  # as below
+        learn(columns, scans_of, verdict_of)
+        return
     from aadm_workbench.assembly.mould.moulds import foot_of
 
-    learn(columns, scans_of, verdict_of, *([foot_of] if len(columns) > 1 else []))
+    learn(columns, scans_of, verdict_of, foot_of)
 
 
 def _mould_drift(columns: Sequence[ColumnReport], profile: Profile) -> tuple[MouldDrift, ...]:

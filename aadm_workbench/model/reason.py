@@ -128,20 +128,25 @@ def sentences_of(room: str) -> dict[str, Sentence]:
     return table
 
 
-def as_said_by(room: str, words: str) -> Reason:
-    """What a library says in English, as the sentence of its room that has these words; ``other`` where none has."""
-    for code, names, pattern in _patterns_of(room):
+def as_said_by(library: str, words: str) -> Reason:
+    """What a library says in English, as the sentence that has these words; ``other`` where none has.
+
+    ``library`` is what the codes of its sentences begin with: ``bounded.toml``.
+    """
+    for code, names, pattern in _patterns_of(library):
         if found := pattern.fullmatch(words):
             said = zip(names, found.groups(), strict=True)
-            return Reason(code, **{name: as_said_by(room, text) if name in _SAID else text for name, text in said})
-    return Reason(f"{room}.other", words=words)
+            return Reason(code, **{name: as_said_by(library, text) if name in _SAID else text for name, text in said})
+    return Reason(f"{library}.other", words=words)
 
 
 @cache
-def _patterns_of(room: str) -> list[tuple[str, list[str], re.Pattern[str]]]:
-    """Code, places and pattern of each sentence of a room: those that hold another one first, then the longest."""
+def _patterns_of(library: str) -> list[tuple[str, list[str], re.Pattern[str]]]:
+    """Code, places and pattern of each sentence of a library: those that hold another one first, then the longest."""
     found = []
-    for code, told in sentences_of(room).items():
+    for code, told in sentences_of(library.partition(".")[0]).items():
+        if not code.startswith(f"{library}."):
+            continue
         places = places_of(told.en)
         pattern = "".join(re.escape(place.before) + "(.+?)" * bool(place.name) for place in places)
         found.append((code, [place.name for place in places if place.name], re.compile(pattern, re.DOTALL)))

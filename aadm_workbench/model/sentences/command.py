@@ -177,4 +177,39 @@ SENTENCES: dict[str, Sentence] = {
         "{needed_for:word}需要软件包 {package}，但未安装。FreeCAD 的私有环境中缺少它：请在“关于 AADM "
         "与环境诊断”中修复，或在设置中指定已装有它的 aadm（{install}）",
     ),
+    "command.usage.ambiguous": Sentence(
+        "ambiguous option: {option} could match {matches}", "选项 {option} 不明确，可能是 {matches}"
+    ),
+    "command.usage.argument": Sentence("argument {name}: {why}", "参数 {name}：{why}"),
+    "command.usage.at_least_one": Sentence("expected at least one argument", "至少需要一个值"),
+    "command.usage.at_most_one": Sentence("expected at most one argument", "最多一个值"),
+    "command.usage.choice": Sentence(
+        "invalid choice: {value} (choose from {choices})", "没有 {value}，可选：{choices}"
+    ),
+    "command.usage.error": Sentence("{program}: error: {what}", "{program}：错误：{what}"),
+    "command.usage.explicit": Sentence("ignored explicit argument {value}", "该选项不带值，不应写 {value}"),
+    "command.usage.length": Sentence("{value} is not a length above zero", "{value} 不是大于零的长度"),
+    "command.usage.limit": Sentence("{value} is no limit; write {example}", "{value} 不是限值；请写 {example}"),
+    "command.usage.memory": Sentence(
+        "{value} is too little memory to check anything; give 600MB or more",
+        "内存 {value} 太少，无法检查；请给出 600MB 以上",
+    ),
+    "command.usage.missing": Sentence("the following arguments are required: {names}", "缺少参数：{names}"),
+    "command.usage.not_with": Sentence("not allowed with argument {name}", "不能与参数 {name} 同用"),
+    "command.usage.one": Sentence("expected one argument", "需要一个值"),
+    "command.usage.one_of": Sentence("one of the arguments {names} is required", "须给出以下参数之一：{names}"),
+    "command.usage.other": Sentence("{words}", "解析器报告“{words}”"),
+    "command.usage.parser": Sentence(
+        "unknown parser {value} (choices: {choices})", "没有命令 {value}，可选：{choices}"
+    ),
+    "command.usage.port": Sentence(
+        "{value} is no port; write a number from 1 to 65535", "{value} 不是端口；请写 1 到 65535 的数字"
+    ),
+    "command.usage.several": Sentence("expected {count} arguments", "需要 {count} 个值"),
+    "command.usage.time": Sentence("{value} is no time; write {example}", "{value} 不是时间；请写 {example}"),
+    "command.usage.unexpected": Sentence("unexpected option string: {option}", "此处不应有选项 {option}"),
+    "command.usage.unknown": Sentence("unrecognized arguments: {words}", "不认识的参数：{words}"),
+    "command.usage.usage": Sentence("usage: ", "用法："),
+    "command.usage.value": Sentence("invalid {type} value: {value}", "{value} 不是 {type} 类型的值"),
+    "command.usage.whole_number": Sentence("{value} is not a whole number above zero", "{value} 不是大于零的整数"),
 }

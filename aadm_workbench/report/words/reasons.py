@@ -91,9 +91,7 @@ def _table() -> tuple[tuple[str, str, str], ...]:
     The longest sentence comes first, for one may begin as another does.
     """
     rooms = [module.name for module in iter_modules(aadm_workbench.model.sentences.__path__)]
-    found = [
-        (code, told.en) for room in rooms if room not in {"usage", "words"} for code, told in sentences_of(room).items()
-    ]
+    found = [(code, told.en) for room in rooms if room != "words" for code, told in sentences_of(room).items()]
     found.sort(key=lambda one: (-sum(map(len, _texts(one[1]))), one[0]))
     known = [(max(_texts(english), key=len), code, english) for code, english in found]
     return tuple(one for one in known if one[0].strip(" ;:,–"))
