@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from aadm_workbench.extract.edges.ring_steps import gaps_at_steps, rings_dropped
+from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
 from aadm_workbench.extract.patches import Patches
 
 RADIUS, PITCH, SIDE = 18.0, 0.5, 101
