@@ -128,7 +128,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _language_of(words: Sequence[str]) -> Language:
     """The language that a command line asks for, as far as one can tell before it is known to be one."""
     asked = None
-    for word, following in zip(words, [*words[1:], ""], strict=True):
+    for word, following in zip(words, [*words, ""][1:], strict=True):
         name, sign, value = word.partition("=")
         if name.startswith("--l") and "--language".startswith(name):
             asked = value if sign else following

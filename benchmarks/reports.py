@@ -36,7 +36,8 @@ MOST_MB = {"bcf": 20.0}
 
 _FORMATS = ("html", "pdf", "xlsx", "csv", "bcf", "crew", "scan_card")
 _IN_ROW = 25
-_OTHERWISE_MM = 0.05  # figures of two columns differ by their uncertainty at least
+_OTHERWISE_MM, _OTHERWISE_U_MM = 2.0, 0.05
+"""So far apart are figures of two columns: as far as tolerances allow; uncertainties as far as cameras differ."""
 _SAME = ("limit", "design", "T_", "size", "quantity", "adjustment", "hash", "embedded")
 """Begin or part of the names of figures that columns of one design share."""
 
@@ -71,14 +72,21 @@ def many_columns(document: dict[str, Any], number: int, *, failing: bool = False
     return document | {"columns": made, "mould_drift": document["mould_drift"]}
 
 
-def _otherwise(value: Any, generator: np.random.Generator) -> Any:
-    """A copy with other lengths and angles."""
+def _otherwise(value: Any, generator: np.random.Generator, apart: float = _OTHERWISE_MM) -> Any:
+    """A copy with other lengths and angles, up to ``apart`` larger."""
     if isinstance(value, dict):
-        kept = {name: entry for name, entry in value.items() if any(part in name for part in _SAME)}
-        return {name: kept[name] if name in kept else _otherwise(entry, generator) for name, entry in value.items()}
+        return {name: _named_otherwise(name, entry, generator, apart) for name, entry in value.items()}
     if isinstance(value, list):
-        return [_otherwise(entry, generator) for entry in value]
-    return round(value + float(generator.uniform(0.0, _OTHERWISE_MM)), 4) if isinstance(value, float) else value
+        return [_otherwise(entry, generator, apart) for entry in value]
+    return round(value + float(generator.uniform(0.0, apart)), 4) if isinstance(value, float) else value
+
+
+def _named_otherwise(name: str, entry: Any, generator: np.random.Generator, apart: float) -> Any:
+    if any(part in name for part in _SAME):
+        return entry
+    if "probability" in name and entry is not None:
+        return round(float(generator.uniform(0.0, 1.0)), 4)
+    return _otherwise(entry, generator, _OTHERWISE_U_MM if name.startswith("u_") else apart)
 
 
 def _letters(number: int) -> str:

@@ -38,6 +38,11 @@ has_mecheye() { "$venv/bin/python" -c 'import mecheye' >/dev/null 2>&1; }
 has_mecheye || "$venv/bin/python" -m pip install --no-deps --only-binary=:all: \
     --requirement "$root/requirements/mecheye.txt" >>"$log" 2>&1 || say "no mecheyeapi for this Python"
 
+# The schemas that BCF files are valid against, which are read where they are published; without them that test is skipped.
+schemas="$root/build/bcf-schemas"
+[ -n "$(ls "$schemas" 2>/dev/null)" ] || "$venv/bin/python" -m pip download --no-deps --only-binary=:all: --dest "$schemas" \
+    --requirement "$root/requirements/bcf-schemas.txt" >>"$log" 2>&1 || say "no schemas of BCF"
+
 # Matplotlib, Dask, FreeCAD and others keep their settings at home, and read them there.
 unset XDG_CACHE_HOME XDG_CONFIG_HOME XDG_DATA_HOME XDG_STATE_HOME
 HOME="$root/build/home"

@@ -85,7 +85,9 @@ def test_the_correction_is_that_of_the_true_centres(case: str) -> None:
     assert isinstance(true, MinimaxPose)
     turned_mm = 0.003 * float(np.hypot(*truth.T_bars_column[:2, 3]))  # the bars' frame turns with their scatter
     assert np.hypot(move.dx_mm - true.shift[0], move.dy_mm - true.shift[1]) < 0.3 + turned_mm
-    assert move.yaw_deg == pytest.approx(np.degrees(true.yaw), abs=0.1)
+    # where a bar that is half hidden has a say, as surely as the frame says
+    assert move.u_yaw_deg is not None
+    assert move.yaw_deg == pytest.approx(np.degrees(true.yaw), abs=max(0.1, 2.5 * move.u_yaw_deg))
 
 
 def test_the_correction_brings_the_column_to_its_bars() -> None:

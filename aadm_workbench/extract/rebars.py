@@ -14,7 +14,7 @@ import numpy as np
 from aadm_workbench.extract.bars_in_scan import Standing, find_standing, standing_along
 from aadm_workbench.extract.circle import AGREES_MM, agreeing_shares
 from aadm_workbench.extract.edges.bend import Bend, bend_at_edges, no_bend
-from aadm_workbench.extract.edges.edge_shift import PARTS_VIEW_MM, eroded_rings, shift_of_tops
+from aadm_workbench.extract.edges.edge_shift import PARTS_VIEW_MM, eroded_rings, shift_of_tops, shift_of_tops_set_right
 from aadm_workbench.extract.edges.learned_edges import (
     LEARNED_BAND_MM,
     KnownEdges,
@@ -22,6 +22,8 @@ from aadm_workbench.extract.edges.learned_edges import (
     with_learned_discs,
     without_losses,
 )
+from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
+from aadm_workbench.extract.edges.ring_steps import DroppedRings
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
 from aadm_workbench.extract.own_tops import TopPlanes, top_planes
@@ -177,7 +179,7 @@ def _measured(
     leaning = with_sides_that_lean(tops, patches, planes, fit.centre, radius_mm)
     if leaning is not tops:
         tops, fit = leaning, _fit(leaning, radius_mm, priors)
-    fit = _shifted(fit, tops, lines, bend)
+    fit = _set_right(fit, tops, lines, bend, patches, radius_mm, priors) or _shifted(fit, tops, lines, bend)
     known, lost_mm = known_edges(scan.learned, Kind.REBAR, patches.of(tops.kept).eye, axes_on(level)), 0.0
     if lines is not None and known is not None:
         fit, lost_mm = _drawn_to_discs(fit, lines, known), known.most_lost_mm
@@ -206,6 +208,35 @@ def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -
     shift = shift_of_tops(lines.slope, bend, eroded)
     covariance = _FIT_SHARE**2 * fit.covariance + shift.covariance
     return replace(fit, centre=fit.centre - shift.mean, covariance=covariance, radius_u_mm=shift.radius_u_mm)
+
+
+def _set_right(
+    fit: PooledFit,
+    tops: Tops,
+    lines: SightLines | None,
+    bend: Bend,
+    patches: Patches,
+    radius_mm: float,
+    priors: Priors,
+) -> PooledFit | None:
+    """The fit to outlines without what a camera dropped at steps; None where it dropped nothing, or nobody knows."""
+    if lines is None:
+        return None
+    own, pitch_mm = patches.of(tops.kept), bend.pitch_mm
+    eroded = eroded_rings(tops.beyond, tops.rims, fit.centre, pitch_mm)
+    if not eroded or not rings_dropped(gaps_at_steps(own, lines.height, fit.centre, radius_mm, pitch_mm)):
+        return None
+    dropped = DroppedRings.of(own, lines.height, eroded * pitch_mm)
+    rims, beyond = dropped.set_right(tops.rims, tops.beyond, fit.centre, lines.slope)
+    right = _fit(replace(tops, rims=rims, beyond=beyond), radius_mm, priors)
+    shift = shift_of_tops_set_right(lines.slope, bend, eroded, dropped.view_u_mm)
+    return replace(
+        right,
+        centre=right.centre - shift.mean,
+        covariance=_FIT_SHARE**2 * right.covariance + shift.covariance,
+        outline_radius=fit.outline_radius,
+        radius_u_mm=shift.radius_u_mm,
+    )
 
 
 def _drawn_to_discs(fit: PooledFit, lines: SightLines, known: KnownEdges) -> PooledFit:

@@ -193,7 +193,7 @@ def _measured(
     known, learned = known_edges(profile, Kind.SLEEVE, own.eye, axes_on(face)), dict[str, float]()
     if fit is not None and lines is not None and known is not None:
         fit, off_pitches = fit_as_learned(fit, mouths, lines, diameter_mm / 2, known, rings)
-        learned = {"learned_edges_off_pixels": off_pitches, "rings_dropped": rings}
+        learned = {"learned_edges_off_pixels": off_pitches}
     if fit is not None and not layer.flat:
         u_mm = float(np.hypot(_ROUGH_U_MM, _UNKNOWN_BEND_PITCHES * pitch_mm))
         fit = replace(fit, covariance=fit.covariance + u_mm**2 * np.eye(2))

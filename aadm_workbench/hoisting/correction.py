@@ -15,8 +15,9 @@ import numpy as np
 from aadm_workbench.assembly.pose.eopa import NoFit, robust_offsets, turn
 from aadm_workbench.assembly.pose.minimax import MinimaxPose, fit_minimax
 from aadm_workbench.assembly.pose.minimax_spread import minimax_covariance
+from aadm_workbench.design.recognise.pattern import side_labels
 from aadm_workbench.hoisting.offsets import HungFit, Offsets
-from aadm_workbench.model import Array, BoolArray, CameraMove, ColumnDesign, Correction, IntArray, Repair, Rule
+from aadm_workbench.model import Array, Bend, BoolArray, CameraMove, ColumnDesign, Correction, IntArray, Repair, Rule
 
 # u per axis: up to three times that of a usual pair one decides wholly; from that of a place by design on, with 0.5 mm
 # of scatter, it does not
@@ -26,6 +27,7 @@ _FEWEST_DECIDE = 3  # a pose has three unknowns
 # that noise is not to decide
 _REACHED_LIMITS, _BENT_LIMITS = 2.0, 3.0
 _LEAST_SHARE = 0.02  # a distance of less counts as none: another of a fiftieth of it would have to be the largest
+_LEAST_BEND_MM = 0.05  # a part of a bend that is less would be told as 0.0 mm
 _DECIDES_SHARE = 0.5  # of those that are named as deciding
 # of the pairs: with more nobody can say which of them are the others; from half of them on,
 # all do
@@ -102,7 +104,16 @@ def _falling(values: Array, begin: float, end: float) -> Array:
 def _repairs(design: ColumnDesign, left: Array, bent: BoolArray) -> tuple[Repair, ...]:
     """How far the bars that are bent are from their sleeves after the move, which leaves the pairs ``left`` (k, 2)."""
     chosen = np.flatnonzero(bent).tolist()
-    return tuple(Repair(design.rebars[k].label, float(left[k, 0]), float(left[k, 1])) for k in chosen)
+    told = [(design.rebars[k].label, float(left[k, 0]), float(left[k, 1])) for k in chosen]
+    return tuple(Repair(label, dx_mm, dy_mm, _towards(design, dx_mm, dy_mm)) for label, dx_mm, dy_mm in told)
+
+
+def _towards(design: ColumnDesign, dx_mm: float, dy_mm: float) -> tuple[Bend, ...]:
+    """A bend as parts towards sides of the pattern, named by the bars that stand there."""
+    places = {bar.label: bar.centre.tolist() for bar in design.rebars}
+    parts = ((dx_mm, (float(np.sign(dx_mm)), 0.0)), (dy_mm, (0.0, float(np.sign(dy_mm)))))
+    told = [(abs(mm), side_labels(places, unit)) for mm, unit in parts if abs(mm) >= _LEAST_BEND_MM]
+    return tuple(Bend(mm, *ends) for mm, ends in told if ends is not None) if all(ends for _, ends in told) else ()
 
 
 def _seen_from_camera(pose: MinimaxPose, to_bars: Array) -> CameraMove:

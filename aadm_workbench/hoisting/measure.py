@@ -16,6 +16,7 @@ from aadm_workbench.assembly.pose.eopa import turn
 from aadm_workbench.errors import ScanError
 from aadm_workbench.hoisting.bars.fit import fit_bars
 from aadm_workbench.hoisting.bars.search import find_bars
+from aadm_workbench.hoisting.foot.bent import bent_face
 from aadm_workbench.hoisting.foot.face import NoFace, find_foot
 from aadm_workbench.hoisting.foot.fit import FootFit, fit_foot
 from aadm_workbench.hoisting.frame import HoistingFrame, NoFrame, frame_of
@@ -171,6 +172,7 @@ def _searched(frame: HoistingFrame, column: _Column) -> Found | str:
     face = find_foot(frame, column.diameter_mm(Kind.SLEEVE), rng)
     if isinstance(face, NoFace):
         return face.reason
+    face = bent_face(frame, face, column.diameter_mm(Kind.SLEEVE) / 2.0)
     rebar_places = _places(design.rebars)
     # half a pattern more, and what the column may hang aside of its bars while a camera still sees both
     reach_mm = 1.5 * float(np.hypot(*np.ptp(rebar_places, axis=0))) + 200.0

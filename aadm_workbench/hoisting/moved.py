@@ -12,7 +12,16 @@ from dataclasses import replace
 import numpy as np
 
 from aadm_workbench.assembly.pose.eopa import robust_offsets
-from aadm_workbench.model import Array, AssemblyPoint, BoolArray, HoistingReport, MovedSince, Reason, Verdict
+from aadm_workbench.model import (
+    Array,
+    AssemblyPoint,
+    BoolArray,
+    HoistingReport,
+    MovedSince,
+    Reason,
+    Repair,
+    Verdict,
+)
 
 _CHI2 = 18.42  # of two axes at one in ten thousand: a frame of twelve bars accuses wrongly once in a thousand
 _LEAST_MM = 0.3  # a tenth of the limit of 3 mm; less is of no account, and cameras warp by as much as a third of it
@@ -83,6 +92,14 @@ def moved_in_words(moved: Sequence[tuple[str, float]], unseen: Sequence[str]) ->
     points = [Reason("hoisting.moved", label=label, moved_mm=moved_mm) for label, moved_mm in moved]
     code = "hoisting.moved_since.look" if unseen else "hoisting.moved_since"
     return Reason(code, points=points, labels=unseen)
+
+
+def repair_in_words(repair: Repair) -> Reason:
+    """How far a bar that stands beside all others is to be bent, for whoever stands before the bars."""
+    if not repair.towards:
+        return Reason("hoisting.repair", label=repair.label, dx_mm=repair.dx_mm, dy_mm=repair.dy_mm)
+    parts = [Reason("hoisting.repair.part", mm=one.mm, first=one.first, last=one.last) for one in repair.towards]
+    return Reason("hoisting.repair.towards", label=repair.label, parts=parts)
 
 
 def _hidden(report: HoistingReport) -> list[str]:

@@ -10,6 +10,7 @@ from aadm_workbench.assembly.decision import DecisionRule, decide_radial, standa
 from aadm_workbench.assembly.tolerances import describe_limit, rules_for
 from aadm_workbench.hoisting.correction import correction_of
 from aadm_workbench.hoisting.frame import HoistingFrame
+from aadm_workbench.hoisting.moved import repair_in_words
 from aadm_workbench.hoisting.offsets import HungFit, Offsets, offsets_of
 from aadm_workbench.hoisting.unseen import look_again, unseen_in_words, verdict_unseen, would_pass
 from aadm_workbench.model import (
@@ -156,7 +157,7 @@ def _reasons(
         for pair in pairs
         if pair.verdict is Verdict.INCONCLUSIVE and pair not in inferred
     ]
-    bent = [Reason("hoisting.repair", label=one.label, dx_mm=one.dx_mm, dy_mm=one.dy_mm) for one in repairs]
+    bent = [repair_in_words(one) for one in repairs]
     return (*bent, *beyond, *unsure, *look_again(inferred))
 
 
@@ -195,6 +196,7 @@ def _quality(hung: HungFit) -> dict[str, float | int]:
         "rebars_seen": int(bars.seen.sum()),
         "pairs_seen": int(hung.seen.sum()),
         "face_residual_mm": hung.face.residual_mm,
+        "face_bend_mm": hung.face.bend_mm,
         "sleeve_diameter_mm": 2.0 * foot.radius_mm,
         "chamfer_mm": foot.push.chamfer_mm,
         "wall_push_mm": foot.push.push_mm,

@@ -24,6 +24,7 @@ from aadm_workbench.model.camera import (
     Measure,
 )
 from aadm_workbench.model.hoisting import (
+    Bend,
     CameraMove,
     Correction,
     HoistingMeasurement,
@@ -110,6 +111,7 @@ __all__ = [
     "AimedPose",
     "Array",
     "AssemblyPoint",
+    "Bend",
     "BestPair",
     "BestPose",
     "BoolArray",

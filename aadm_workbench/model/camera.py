@@ -71,8 +71,7 @@ class CameraProfile:
     is believed. ``distance_mm`` and ``tilt_deg`` are the ranges of the captures. ``scale`` is relative, by the steps
     from face to pins. ``sha256`` is of the file's bytes. ``projector_mm`` is where the light comes from, along the x
     and y of the picture from the camera; zero where that makes no difference to what is seen at edges. ``laws`` is the
-    number of the laws of extraction that it was learned by, zero where its file does not say. ``rings`` of pixels are
-    dropped at depth steps, as far as gaps tell: 0, 1, or 2 for two and more; None where its file does not say.
+    number of the laws of extraction that it was learned by, zero where its file does not say.
     """
 
     source: str
@@ -90,4 +89,3 @@ class CameraProfile:
     captures: int = 0
     projector_mm: tuple[float, float] = (0.0, 0.0)
     laws: int = 0
-    rings: int | None = None

@@ -45,12 +45,26 @@ class CameraMove:
 
 
 @dataclass(frozen=True, slots=True)
+class Bend:
+    """A part of a bend: ``mm`` towards the side of the pattern on which the bars ``first`` to ``last`` stand."""
+
+    mm: float
+    first: str
+    last: str
+
+
+@dataclass(frozen=True, slots=True)
 class Repair:
-    """How far a bar is to be bent to meet its sleeve once the column has been moved, in the bars' frame, mm."""
+    """How far a bar is to be bent to meet its sleeve once the column has been moved, in the bars' frame, mm.
+
+    ``towards`` says the same for whoever stands before the bars, who sees no x and y; empty where the pattern has no
+    sides.
+    """
 
     label: str
     dx_mm: float
     dy_mm: float
+    towards: tuple[Bend, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,6 +16,7 @@ from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
+from aadm_workbench.design.recognise.pattern import side_labels
 from aadm_workbench.model import Array, ColumnReport, GridAxis, JobReport
 from aadm_workbench.report.drawing.plan import grid_tags, place_mm
 from aadm_workbench.report.drawing.sketch import Point
@@ -246,18 +247,6 @@ def side_name(places: Mapping[str, Point], unit: Point) -> Phrase:
         return Phrase(f"towards the {where.en}", f"向{where.zh}")
     first, last = ends
     return Phrase(f"towards the side of {first} to {last} ({where.en})", f"向 {first} 至 {last} 一侧（{where.zh}）")
-
-
-def side_labels(places: Mapping[str, Point], unit: Point) -> tuple[str, str] | None:
-    """First and last label of the points on one side of the pattern, as they stand in the row; None below two."""
-    if not places:
-        return None
-    reach = {label: _dot(place, unit) for label, place in places.items()}
-    most, least = max(reach.values()), min(reach.values())
-    row = [label for label, value in reach.items() if value > most - 0.05 * (most - least) - 1.0]
-    along = (-unit[1], unit[0])
-    row.sort(key=lambda label: _dot(places[label], along))
-    return (row[0], row[-1]) if len(row) > 1 else None
 
 
 def _order(tag: str) -> tuple[tuple[int, int, str], ...]:

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
-from aadm_workbench.hoisting.moved import moved_in_words
-from aadm_workbench.model import Reason
+from aadm_workbench.hoisting.moved import moved_in_words, repair_in_words
+from aadm_workbench.model import Bend, Reason, Repair
 
 VALID_FOR_S = 15.0
 """How long a frame counts, from its capture: two to four swings of a hanging column; its crane has acted by then."""
@@ -153,8 +153,15 @@ def _bent(state: Mapping[str, Any]) -> str:
     for one in repairs:
         dx_mm, dy_mm = number(one.get("dx_mm")), number(one.get("dy_mm"))
         if dx_mm is not None and dy_mm is not None:
-            return Reason("hoisting.repair", label=str(one.get("label")), dx_mm=dx_mm, dy_mm=dy_mm)
+            return repair_in_words(Repair(str(one.get("label")), dx_mm, dy_mm, _towards(one)))
     return ""
+
+
+def _towards(repair: Mapping[str, Any]) -> tuple[Bend, ...]:
+    """The parts of a bend; none where one of them is not whole."""
+    parts = [(number(part.get("mm")), part.get("first"), part.get("last")) for part in _entries(repair.get("towards"))]
+    told = [Bend(mm, str(first), str(last)) for mm, first, last in parts if mm is not None and first and last]
+    return tuple(told) if len(told) == len(parts) else ()
 
 
 def _not_still(state: Mapping[str, Any]) -> str:

@@ -47,7 +47,6 @@ class _Learned(msgspec.Struct, forbid_unknown_fields=True):
     sleeves: _Edges
     rebars: _Edges
     projector_mm: tuple[float, float] = (0.0, 0.0)
-    rings: int | None = None
 
 
 class _File(msgspec.Struct, forbid_unknown_fields=True):
@@ -85,7 +84,6 @@ def profile_text(profile: CameraProfile, figures: str = "") -> str:
         f"scale = {_pair(profile.scale)}",
         f"projector_mm = [{profile.projector_mm[0]:.0f}, {profile.projector_mm[1]:.0f}]",
     ]
-    lines += [] if profile.rings is None else [f"rings = {profile.rings}"]
     for name, kind in _KINDS.items():
         edges = profile.edges[kind]
         lines += ["", f"[learned.{name}]", f"stretch = {_pair(edges.stretch)}", f"spread = {edges.spread:.4g}"]
@@ -135,7 +133,6 @@ def read_profile(path: Path, source: str = "") -> CameraProfile:
         learned.captures,
         learned.projector_mm,
         found.laws,
-        learned.rings,
     )
 
 

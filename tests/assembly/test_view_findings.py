@@ -11,8 +11,7 @@ def test_a_camera_that_bends_or_is_not_that_of_its_profile_is_told() -> None:
         "camera_bends": {"camera_bend_mm": 0.3, "camera_bend_u_mm": 0.03, "camera_bend_stated_u_mm": 0.06},
         "profile_differs": {"learned_edges_off_pixels": -1.1},
     }
-    rings = ("profile_differs", {"rings_dropped": 1, "learned_rings": 0})
-    for code, quality in (*seen.items(), rings):
+    for code, quality in seen.items():
         told = replace(sound, extraction=replace(sound.extraction, quality={**sound.extraction.quality, **quality}))
         (found,) = found_in(told)
         assert found.code == code

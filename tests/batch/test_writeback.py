@@ -12,6 +12,7 @@ import pytest
 
 from batch.main import main
 from tests.report.floor_schemas import SCHEMAS, converted
+from tests.report.ifc_models import to_micrometres
 from tests.report.ifc_results import read_ifc_results
 
 FLOOR = Path(__file__).resolve().parents[2] / "samples" / "floor"
@@ -48,13 +49,17 @@ def test_numbers_survive_the_round_trip_through_the_model(schema: str, tmp_path:
         for kind in ("sleeves", "rebars"):
             for point in column[kind]["points"]:
                 held = found[point["global_id"]][f"AADM_{kind[:-1].capitalize()}Check"]
-                assert [held.get("Deviation"), held.get("Uncertainty")] == [point["deviation_mm"], point["u_mm"]]
-                assert [held.get("OffsetX"), held.get("OffsetY")] == (point["offset_mm"] or [None, None])
+                assert [held.get("Deviation"), held.get("Uncertainty")] == to_micrometres(
+                    [point["deviation_mm"], point["u_mm"]]
+                )
+                assert [held.get("OffsetX"), held.get("OffsetY")] == to_micrometres(point["offset_mm"] or [None, None])
                 assert held["Verdict"] == point["verdict"]
         for pair in ((column["trial_assembly"] or {}).get("best") or {"pairs": ()})["pairs"]:
             (sleeve,) = (point for point in column["sleeves"]["points"] if point["label"] == pair["sleeve"])
             held = found[sleeve["global_id"]]["AADM_SleeveCheck"]
-            assert (held["PairDistance"], held["PairClearance"]) == (pair["distance_mm"], pair["clearance_mm"])
+            assert [held["PairDistance"], held["PairClearance"]] == to_micrometres(
+                [pair["distance_mm"], pair["clearance_mm"]]
+            )
     if schema == "IFC4":  # the results themselves must not disturb the next check
         again = checked(written, tmp_path / "second")
         assert again["columns"] == report["columns"]

@@ -10,6 +10,7 @@ from scipy.optimize import minimize
 from aadm_workbench.assembly.tolerances import load_profile, rules_for
 from aadm_workbench.design.recognise.pattern import inline_design
 from aadm_workbench.hoisting.correction import correction_of
+from aadm_workbench.hoisting.moved import repair_in_words
 from aadm_workbench.model import Array, Correction
 from aadm_workbench.twin.scenes import LAB
 
@@ -98,6 +99,12 @@ def test_a_bar_that_is_bent_too_far_is_left_out_and_has_a_repair() -> None:
     plain = way(moved(SCATTER, np.full(12, 0.1)))
     assert np.abs(way(found) - plain).max() < 0.3
     assert (repair.dx_mm, repair.dy_mm) == pytest.approx(tuple(-bend), abs=1.0)
+    # R1 stands at -x-y, and labels run counter-clockwise: -x is the side of R10 to R1, +y that of R7 to R10
+    assert [(part.first, part.last) for part in repair.towards] == [("R10", "R1"), ("R7", "R10")]
+    assert [part.mm for part in repair.towards] == pytest.approx([-repair.dx_mm, repair.dy_mm])
+    said = repair_in_words(repair)
+    assert f"{repair.towards[0].mm:.1f} mm towards the side of R10 to R1" in said
+    assert "x, y" not in said
 
 
 def test_a_bar_that_a_move_still_reaches_is_not_left_out() -> None:

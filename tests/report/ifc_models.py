@@ -31,6 +31,13 @@ def floor(folder: Path, schema: str) -> Path:
     return path
 
 
+def to_micrometres(mm: Any) -> Any:
+    """Lengths of a report as the model holds them."""
+    if isinstance(mm, list | tuple):
+        return [to_micrometres(value) for value in mm]
+    return None if mm is None else round(mm, 3)
+
+
 def one_column(
     folder: Path,
     schema: str = "IFC4",

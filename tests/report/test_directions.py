@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from aadm_workbench.design.recognise.pattern import side_labels
 from aadm_workbench.model import Array
-from aadm_workbench.report.directions import compass_of, grid_of, side_labels
+from aadm_workbench.report.directions import compass_of, grid_of
 from tests.report.checked_floor import GRID_DEG, place_of
 from tests.report.typed import of_column, typed
 

@@ -61,6 +61,8 @@ def test_a_good_state_is_ready_and_names_what_rests_on_older_scans() -> None:
 
 
 BENT = [{"label": "R2", "dx_mm": -6.0, "dy_mm": 4.5}]
+NAMED = [{"label": "R2", "dx_mm": -6.0, "dy_mm": 0.0, "towards": [{"mm": 6.0, "first": "R10", "last": "R1"}]}]
+HALF = [{"label": "R2", "dx_mm": -6.0, "dy_mm": 4.5, "towards": [{"mm": 6.0, "first": "R10"}]}]
 AGAINST: list[tuple[dict[str, Any], str, bool]] = [
     ({"captured": None}, "when the frame was captured is not known", False),
     ({"captured": "2026-11-30T11:59:40Z"}, "captured 23 s ago", False),
@@ -74,6 +76,16 @@ AGAINST: list[tuple[dict[str, Any], str, bool]] = [
     (
         {"still": False, "frame__correction": {**GOOD["frame"]["correction"], "repairs": BENT}},
         "no move brings R2 in",
+        True,
+    ),
+    (
+        {"frame__correction": {**GOOD["frame"]["correction"], "repairs": NAMED}},
+        "no move brings R2 in with the others: bend it by 6.0 mm towards the side of R10 to R1",
+        True,
+    ),
+    (
+        {"frame__correction": {**GOOD["frame"]["correction"], "repairs": HALF}},
+        "no move brings R2 in with the others: bend it by -6.0, +4.5 mm (x, y",
         True,
     ),
     ({"still": False, "swing": None}, "seen in fewer than three frames", True),

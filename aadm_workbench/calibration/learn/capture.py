@@ -41,8 +41,6 @@ class PlateCapture:
         (4, 4), by the pins.
     diameter_mm
         (n,) as measured.
-    rings
-        Of pixels that are dropped at depth steps; counted where edges were set right by what was learned.
     """
 
     source: str
@@ -54,7 +52,6 @@ class PlateCapture:
     place: Array
     T_scan_plate: Array
     diameter_mm: Array
-    rings: int = 0
 
     @property
     def distance_mm(self) -> float:
@@ -129,7 +126,6 @@ def captured_plate(scan: Scan, plate: Plate) -> PlateCapture:
         np.array([place for _, place in pairs], dtype=np.int64),
         T_scan_plate,
         np.array([point.diameter_mm for point, _ in pairs]),
-        int(holes.quality.get("rings_dropped", 0)),
     )
 
 

@@ -51,8 +51,6 @@ class Learned:
     noise_grows: Measure | None
     """Power of the distance with which noise grows; None with one distance."""
     projector_mm: tuple[float, float] = (0.0, 0.0)
-    rings: int = 0
-    """Of pixels that most captures lack at depth steps."""
 
     @property
     def bend_mm(self) -> Array:
@@ -100,18 +98,16 @@ def learned(captures: Sequence[PlateCapture], plate: Plate) -> Learned:
         _lengths(captures, plate),
         _growth(captures, faces),
         discs.losses.projector_mm,
-        discs.rings,
     )
 
 
 @dataclass(frozen=True, eq=False)
 class _Discs:
-    """What discs add to the fit of all: what is lost at edges, their shares, what all centres may be off, mm, rings."""
+    """What discs add to the fit of all: what is lost at edges, their shares, what all centres may be off, mm."""
 
     losses: Losses
     shares: dict[Kind, float]
     apart_mm: float
-    rings: int
 
 
 def _with_discs(captures: Sequence[PlateCapture], plate: Plate) -> tuple[list[PlateCapture], _Discs]:
@@ -122,8 +118,7 @@ def _with_discs(captures: Sequence[PlateCapture], plate: Plate) -> tuple[list[Pl
     discs = [by_discs(capture, plate, losses) for capture in captures]
     both = first, stretches_of(discs, plate)
     shares = shares_of(captures, discs, both, plate)
-    rings = int(np.median([capture.rings for capture in discs]))
-    found = _Discs(losses, shares, apart_mm(captures, discs, both, plate), rings)
+    found = _Discs(losses, shares, apart_mm(captures, discs, both, plate))
     return [mixed(*pair, shares, plate) for pair in zip(captures, discs, strict=True)], found
 
 

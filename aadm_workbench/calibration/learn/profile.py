@@ -34,7 +34,6 @@ def profile_of(found: Learned, plate: Plate, serial: str, settings: str, date: s
         len(found.captures),
         found.projector_mm,
         EDGE_LAWS,
-        found.rings,
     )
 
 

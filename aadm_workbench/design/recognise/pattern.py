@@ -19,6 +19,8 @@ _SAME_POINT_MM = 1.0
 _NEAREST_RATIO = 1.1
 """Neighbours of a point in an irregular pattern: all within this multiple of its nearest one's distance."""
 
+_SIDE_SHARE = 0.05  # of the width of a pattern: its outermost row, which as-built places and round numbers bend
+
 OVER_RIBS_MM = {
     12.0: 14.7,
     14.0: 17.0,
@@ -58,6 +60,20 @@ def label_order(xy: Array) -> IntArray:
     """
     found = rings(xy)
     return np.concatenate(found) if found else np.zeros(0, dtype=np.int64)
+
+
+def side_labels(places: Mapping[str, Sequence[float]], unit: tuple[float, float]) -> tuple[str, str] | None:
+    """First and last label of the points on one side of the pattern, as they stand in the row; None below two.
+
+    ``places`` are x, y (and more) mm in the frame of the direction ``unit``; the row is told counter-clockwise.
+    """
+    if not places:
+        return None
+    reach = {label: place[0] * unit[0] + place[1] * unit[1] for label, place in places.items()}
+    most, least = max(reach.values()), min(reach.values())
+    row = [label for label, value in reach.items() if value > most - _SIDE_SHARE * (most - least) - _SAME_POINT_MM]
+    row.sort(key=lambda label: places[label][1] * unit[0] - places[label][0] * unit[1])
+    return (row[0], row[-1]) if len(row) > 1 else None
 
 
 def pair(sleeves: Array, rebars: Array, within_mm: float = math.inf) -> IntArray:

@@ -53,6 +53,9 @@ _SHARP_TOP_VIEW, _BENT_TOP_VIEW = (-0.15, 0.18), (-0.40, 0.33)  # docs/method.md
 # of the first ring that is lost, with what bent in it, and of further ones: the side below the edge is lost with those;
 # spread of each: docs/method.md, 2.4
 _ERODED_TOP_VIEW_MM, _ERODED_BENT_TOP_VIEW_MM, _FURTHER_TOP_VIEW_MM, _ERODED_TOP_SPREAD_MM = -0.45, -0.15, -1.05, 0.30
+# outlines that were set right by what a filter took: mm per unit of slope along the view, mean and spread; what ribs,
+# of which a filter takes a part, do to each, mm a ring: docs/method.md, 2.4
+_SET_RIGHT_VIEW_MM, _RIBS_RING_MM = (0.22, 0.20), 0.09
 PARTS_VIEW_MM = {1.0: _SHARP_MOUTH_VIEW[1], -1.0: _SHARP_TOP_VIEW[1]}
 """What chamfers, bores and ribs do along the view, mm per unit of slope: no plate tells, whatever is known of edges.
 
@@ -216,6 +219,19 @@ def shift_of_tops(slope: Array, bend: Bend, eroded: float) -> Shift:
     mean = view_mm * slope - _BEND_SHIFT * bend.towards
     covariance = shared + base_mm**2 * np.outer(along, along)
     return Shift(mean, covariance, _radius_u_mm(bend.pitch_mm, eroded))
+
+
+def shift_of_tops_set_right(slope: Array, bend: Bend, eroded: float, view_u_mm: float) -> Shift:
+    """The same of outlines that were moved back to where they would be without the rings that a filter took.
+
+    ``view_u_mm`` is what the step at which it does leaves open, per unit of slope.
+    """
+    view_mm, spread_mm = _SET_RIGHT_VIEW_MM[0], float(np.hypot(_SET_RIGHT_VIEW_MM[1], view_u_mm))
+    shared = spread_mm**2 * slope[:, :, None] * slope[:, None, :] + (_RIBS_RING_MM * eroded) ** 2 * np.eye(2)
+    if bend.bent:
+        along = _direction(bend.towards)
+        shared += (0.5 * _ERODED_BASE[1] * eroded * bend.pitch_mm) ** 2 * np.outer(along, along)
+    return Shift(view_mm * slope, shared, _radius_u_mm(bend.pitch_mm, eroded))
 
 
 def _radius_u_mm(pitch_mm: float, eroded: float) -> float:

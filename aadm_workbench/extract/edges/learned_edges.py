@@ -125,8 +125,6 @@ def with_learned_stretch(extraction: Extraction, profile: CameraProfile | None) 
     normal = np.asarray(extraction.vertical, np.float64)
     points = tuple(_set_right(one, normal, learned) for one in extraction.points)
     quality = {**extraction.quality, "learned_stretch": learned.stretch.value}
-    if profile.rings is not None and "rings_dropped" in quality:
-        quality["learned_rings"] = profile.rings
     if profile.laws != EDGE_LAWS:
         quality["learned_by_laws"] = profile.laws
     return replace(extraction, points=points, quality=quality)

@@ -34,6 +34,11 @@ _DISAGREE_CHI2, _FEW = 13.8, 25  # 0.1 % of chi-squared with two degrees of free
 # between the best and the worst known direction: rims that are known so much better one way are pieces of a circle,
 # whose steps the other way go on over the tail of their law, for millimetres
 _ONE_SIDED_WALL, _ONE_SIDED_RIM = 1e3, 8.0
+# median of chi-squared with two degrees of freedom; half as much again is not reached by sound feet at the usual noise
+# (20 of 20: up to 1.3), and is where walls stand beside their rims (4.7 and more) or noise is four times as large
+_USUAL_CHI2, _BESIDE_FROM, _ENOUGH = 1.386, 2.0, 3
+_BESIDE_MM2, _BESIDE_STEPS = (1e-4, 4.0), 25  # from less than any camera errs by to as far as walls are looked for
+_NOTHING_KNOWN = 1e-3  # 1/mm²: a feature without points
 # a state that begins at rest still takes its first steps; what goes on for longer swings
 _ROUNDS_MIN, _ROUNDS_MAX = 3, 30
 _SETTLED_MM = 4e-3  # a fifth of what the best camera errs by (docs/method.md, 2.5)
@@ -146,19 +151,46 @@ def _disagreement(terms: _Terms, wall_weight: Array, wall_seen: BoolArray, rim_s
     Each witness alone would move the centre by its own step; where the two steps differ by more than their
     errors explain, the walls' pull on the joint centre counts as uncertainty.
     """
-    extra = np.zeros((len(wall_seen), 2, 2))
     walls, rims = terms.wall, terms.rim
     wall, wall_information, wall_tells = _steps_alone(
         walls.jacobian, walls.pull, wall_weight, wall_seen, _ONE_SIDED_WALL
     )
     rim, rim_information, rim_tells = _steps_alone(rims.jacobian, rims.pull, rims.knowledge, rim_seen, _ONE_SIDED_RIM)
-    for k in np.flatnonzero(wall_tells & rim_tells).tolist():
+    both, pulls = wall_tells & rim_tells, _pulls(wall_information, rim_information)
+    extra = _beside_mm2(wall - rim, wall_information, rim_information, both) * pulls @ pulls.transpose(0, 2, 1)
+    for k in np.flatnonzero(both).tolist():
         apart = wall[k] - rim[k]
         expected = np.linalg.inv(wall_information[k]) + np.linalg.inv(rim_information[k])
         if apart @ np.linalg.solve(expected, apart) > _DISAGREE_CHI2:
-            pulled = np.linalg.solve(wall_information[k] + rim_information[k], wall_information[k] @ apart)
-            extra[k] = np.outer(pulled, pulled)
+            pulled = pulls[k] @ apart
+            extra[k] += np.outer(pulled, pulled)
     return extra
+
+
+def _pulls(wall: Array, rim: Array) -> Array:
+    """How far (k, 2, 2) joint centres follow their walls: by information (k, 2, 2), 1/mm², of both."""
+    return np.asarray(np.linalg.solve(wall + rim + _NOTHING_KNOWN * np.eye(2), wall))
+
+
+def _beside_mm2(apart: Array, wall: Array, rim: Array, both: BoolArray) -> float:
+    """Variance per axis, mm², by which walls stand beside their rims, each its own way, beyond what both err by.
+
+    Twelve features are twelve chances to see one's own error: where half of those that show ``both`` (k,) differ by
+    more than they would, walls of all may be beside their place, also where a rim is too short to tell.
+    """
+    if both.sum() < _ENOUGH:
+        return 0.0
+    apart, expected = apart[both], np.linalg.inv(wall[both]) + np.linalg.inv(rim[both])
+
+    def misfit(variance: float) -> float:
+        told = np.linalg.solve(expected + variance * np.eye(2), apart[..., None])[..., 0]
+        return float(np.median(np.einsum("ki,ki->k", apart, told)))
+
+    if misfit(0.0) < _BESIDE_FROM:
+        return 0.0
+    tried = np.geomspace(*_BESIDE_MM2, _BESIDE_STEPS)
+    misfits = np.array([misfit(variance) for variance in tried.tolist()])
+    return float(tried[int(np.argmax(misfits <= _USUAL_CHI2))]) if misfits[-1] <= _USUAL_CHI2 else float(tried[-1])
 
 
 def _steps_alone(

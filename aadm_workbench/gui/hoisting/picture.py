@@ -72,7 +72,10 @@ class HoistingPicture(QtGui.QWidget):
             painter.setPen(QtCore.Qt.NoPen)
             painter.setBrush(QtGui.QColor.fromRgbF(*of_verdict(verdict)) if is_on else QtGui.QColor(40, 45, 50))
             painter.drawEllipse(box)
-            _write(painter, box, sign, size * 0.55, QtGui.QColor(255, 255, 255) if is_on else _DIM)
+            front = QtGui.QColor(255, 255, 255) if is_on else _DIM
+            upper, lower = box.adjusted(0, 0, 0, -size * 0.3), box.adjusted(0, size * 0.58, 0, -size * 0.14)
+            _write(painter, upper, sign, size * 0.46, front)
+            _write(painter, lower, _word(name), size * 0.2, front)
 
     def _draw_push(self, painter: Any, place: Any) -> None:
         """An arrow as seen by the reader: ahead is up. Beside it the two parts, in mm."""
@@ -119,6 +122,13 @@ class HoistingPicture(QtGui.QWidget):
             _write(painter, bottom, f"{said}\n{margin:+.1f} mm", size, colour)
 
 
+def _word(light: str) -> str:
+    """What a lamp says, for whom its colour and its sign tell nothing."""
+    if light == "go":
+        return str(translate("AADM_Hoisting", "LOWER"))
+    return str(translate("AADM_Hoisting", "PUSH") if light == "push" else translate("AADM_Hoisting", "WAIT"))
+
+
 def _colour(light: str) -> Any:
     verdict = next(verdict for name, verdict, _ in _LAMPS if name == light)
     return QtGui.QColor.fromRgbF(*of_verdict(verdict))
@@ -146,12 +156,16 @@ def _draw_arrow(painter: Any, centre: Any, direction: tuple[float, float], reach
 
 
 def _write(painter: Any, box: Any, text: str, size_px: float, colour: Any) -> None:
+    flags = int(getattr(_BIG, "value", _BIG)) | _wrap()
     font = QtGui.QFont()
-    font.setPixelSize(max(8, int(size_px)))
     font.setBold(True)
-    painter.setFont(font)
+    for size in range(max(8, int(size_px)), 7, -1):  # a long sentence is smaller, and not cut off
+        font.setPixelSize(size)
+        painter.setFont(font)
+        if painter.boundingRect(box, flags, text).height() <= box.height():
+            break
     painter.setPen(colour)
-    painter.drawText(box, int(getattr(_BIG, "value", _BIG)) | _wrap(), text)
+    painter.drawText(box, flags, text)
 
 
 def _wrap() -> int:

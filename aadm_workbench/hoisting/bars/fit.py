@@ -7,7 +7,7 @@ the centre of the top.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -38,14 +38,13 @@ _SETTLED_MM = 0.01  # a third of the uncertainty's floor below
 # with the scatter that the bars show, until all stay: a cap, and a tenth of the uncertainty's floor; ended before, it
 # tells where it began
 _LAST_ROUNDS, _STILL_MM = 12, 0.003
+_LAST_CHOICES = 2  # of the points that decide: where the first have led, the second are those that lie there
 _LAST_SHARE = 0.6  # of a step: the law is so steep inwards that whole ones go back and forth across its peak, for ever
 _INWARDS_MM = 1.0  # ribs only stand outwards: what lies farther inside of the core is a stray
-# of a window, evenly taken: half of them are the side's; where it is known already, fewer find 300 of them
-_PIXELS, _TRACKED_PIXELS = 4_000, 2_000
-_TAKEN = 1_500  # of these pixels: neighbours share their errors, but single ones are not to decide
-_APPROACHED_WITH = (
-    400  # points of a side, about, until a bar that is followed is nearly where it is: all decide in the end
-)
+_PIXELS = 4_000  # of a window, evenly taken: half of them are the side's
+# of these pixels: neighbours share their errors, but single ones are not to decide; where a bar is known already and
+# shows more points than count (below), fewer tell that it stands where it stood
+_TAKEN, _TRACKED_TAKEN, _WELL_SEEN = 1_500, 800, 600
 _POINTS_MAX = 300  # points of a side tell as much as there are errors of their own among them
 _FEWEST = 40  # points of a side (a choice: ±30 % moves nothing on sound scans)
 # neighbouring points of a side share their errors: standard errors are this much larger; a choice: ±30 % changes what
@@ -105,10 +104,6 @@ class _Side:
     view: Array
     top_mm: float
 
-    def thinned(self, nth: int) -> _Side:
-        """Every ``nth`` of its points."""
-        return replace(self, points=self.points[:: max(nth, 1)], view=self.view[:: max(nth, 1)])
-
 
 def fit_bars(
     frame: HoistingFrame,
@@ -143,8 +138,10 @@ def fit_bars(
         state.pooled[:], state.own[:, 2:] = before.state.pooled, before.state.own[:, 2:]
     if starts is not None:
         state.own[:, :2] = np.where(np.isfinite(starts), starts, state.own[:, :2])
-    pixels = _PIXELS if before is None else _TRACKED_PIXELS
-    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2, pixels) for centre in state.centres]
+    known = np.zeros(len(state.own)) if before is None else before.counts
+    taken = np.where(known > _WELL_SEEN, _TRACKED_TAKEN, _TAKEN)
+    looked = zip(state.centres, taken.tolist(), strict=True)
+    sides = [_side(frame, axes, centre, top_mm, diameter_mm / 2, most) for centre, most in looked]
     # nothing pushes the side of a bar along the view: held at none
     sigma = np.tile([_LEAN_SIGMA, _LEAN_SIGMA, 1e-4, _OWN_RADIUS_MM], (len(sides), 1))
     believed = Believed(np.array([nominal_mm]), np.array([_RADIUS_SIGMA_MM]), sigma, np.zeros((len(sides), OWN - 2)))
@@ -154,14 +151,11 @@ def fit_bars(
         state, law = _settled(sides, state, pattern, believed, law)
     else:
         state = _approached(sides, state, pattern, believed, law)
-    terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
-    pattern = as_built(loosened(pattern, state), state, counts >= _FEWEST)
-    for _ in range(_LAST_ROUNDS):
-        system = _system(terms, pattern, believed, state)
-        state, step_mm = system.stepped(state, _LAST_SHARE)
-        terms, counts, _ = _terms(sides, state, _BANDS_MM[-1], law)
-        if step_mm < _STILL_MM:
-            break
+    chosen = _chosen(sides, state, _BANDS_MM[-1])
+    counts, pattern = chosen.counts, as_built(loosened(pattern, state), state, chosen.counts >= _FEWEST)
+    for number in range(_LAST_CHOICES if before is None else 1):
+        chosen = _chosen(sides, state, _BANDS_MM[-1]) if number else chosen
+        state, system = _stayed(chosen, state, pattern, believed, law)
     covariance, pose_covariance, _ = system.covariance()
     own_mm = np.sqrt(np.diag(covariance).reshape(-1, 2).max(axis=1))
     seen = (counts >= _FEWEST) & (own_mm < np.minimum(_SEEN_MM, np.maximum(0.5 * pattern.scatter_mm, 0.1)))
@@ -171,13 +165,13 @@ def fit_bars(
         leans=-state.own[:, 2:4],
         covariance=covariance + _FLOOR_MM**2 * np.eye(len(covariance)),
         seen=seen,
-        counts=counts,
+        counts=counts * _TAKEN // taken,
         pose=state.pose,
         turn_u=float(np.sqrt(pose_covariance[2, 2])),
         places=pattern.places,
         radius_mm=float(state.pooled[0]),
         noise_mm=law.width_mm,
-        evidence=_own_system(terms, believed, state).evidence(state, seen, _FLOOR_MM),
+        evidence=_own_system(chosen.terms(state, law)[0], believed, state).evidence(state, seen, _FLOOR_MM),
         state=state if before is None else before.state,
     )
 
@@ -191,7 +185,7 @@ def _settled(
 ) -> tuple[State, BracketLaw]:
     """The state to which the sides of all bars settle, and the law of how their points scatter."""
     for band_mm in _BANDS_MM:
-        terms, _, width_mm = _terms(sides, state, band_mm, law)
+        terms, width_mm = _chosen(sides, state, band_mm).terms(state, law)
         law = _law(width_mm)
         state, step = _system(terms, pattern, believed, state).stepped(state)
         pattern = loosened(pattern, state)
@@ -203,14 +197,25 @@ def _settled(
 def _approached(
     sides: list[_Side | None], state: State, pattern: Pattern, believed: Believed, law: BracketLaw
 ) -> State:
-    """The state, nearly, to which the sides of bars settle that are followed: some of their points tell it."""
-    some = [None if side is None else side.thinned(len(side.points) // _APPROACHED_WITH) for side in sides]
+    """The state, nearly, to which the sides of bars settle that are followed: one may have been bent meanwhile."""
     for _ in range(_LAST_ROUNDS):
-        terms, _, _ = _terms(some, state, _BANDS_MM[-1], law)
+        terms, _ = _chosen(sides, state, _BANDS_MM[-1]).terms(state, law)
         state, step_mm = _system(terms, loosened(pattern, state), believed, state).stepped(state, _LAST_SHARE)
         if step_mm < _SETTLED_MM:
             break
     return state
+
+
+def _stayed(
+    chosen: _Chosen, state: State, pattern: Pattern, believed: Believed, law: BracketLaw
+) -> tuple[State, System]:
+    """The state that chosen points hold all bars in, and the system that does."""
+    for _ in range(_LAST_ROUNDS):
+        system = _system(chosen.terms(state, law)[0], pattern, believed, state)
+        state, step_mm = system.stepped(state, _LAST_SHARE)
+        if step_mm < _STILL_MM:
+            break
+    return state, system
 
 
 def _system(terms: Terms, pattern: Pattern, believed: Believed, state: State) -> System:
@@ -228,7 +233,7 @@ def _own_system(terms: Terms, believed: Believed, state: State) -> System:
 
 
 def _side(
-    frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float, most: int
+    frame: HoistingFrame, axes: LocalAxes, centre: Array, top_mm: float, radius_mm: float, taken: int
 ) -> _Side | None:
     """What is seen of a bar about a place; None where nothing is, or it is out of the picture."""
     reach = radius_mm + _BANDS_MM[0]
@@ -249,10 +254,10 @@ def _side(
     if (high - low < 3).any():
         return None
     # by what is not rounded, and from fixed rows and columns: which pixels are taken hangs on no hair's breadth
-    step = max(1, int(np.sqrt(np.prod(np.ptp(pixels, axis=0)) / most)))
+    step = max(1, int(np.sqrt(np.prod(np.ptp(pixels, axis=0)) / _PIXELS)))
     low -= low % step
     points = frame.points[low[1] : high[1] : step, low[0] : high[0] : step]
-    nth = max(1, int(step**-2 * np.prod(np.ptp(pixels, axis=0)) / _TAKEN))
+    nth = max(1, int(step**-2 * np.prod(np.ptp(pixels, axis=0)) / taken))
     kept = _borne(points[..., 2]) & _every(nth, points)
     local = axes.local(points[kept].astype(np.float64))
     near = np.hypot(*(local[:, :2] - centre).T) < reach
@@ -295,9 +300,32 @@ def _top(heights: Array) -> float:
     return float(rising[np.flatnonzero(counts >= 0.4 * np.median(counts))[-1]])
 
 
-def _terms(sides: list[_Side | None], state: State, band_mm: float, law: BracketLaw) -> tuple[Terms, IntArray, float]:
-    """Side points of all bars as evidence, how many each has, and how far they scatter inwards, mm."""
-    owners, points, depths, trusts, counts = [], [], [], [], np.zeros(len(sides), np.int64)
+@dataclass(frozen=True, eq=False)
+class _Chosen:
+    """Points (n) of the sides of all bars, sorted by ``owner``: ``xy`` (n, 2) and ``depth`` below their tops, mm.
+
+    ``trust`` (n,) is what they count by; ``counts`` (k,) how many each bar has.
+    """
+
+    xy: Array
+    depth: Array
+    owner: IntArray
+    trust: Array
+    counts: IntArray
+
+    def terms(self, state: State, law: BracketLaw) -> tuple[Terms, float]:
+        """What they say of a state, and how far they scatter inwards, mm."""
+        residual, own, pooled = wall_terms(self.xy, self.depth, np.zeros_like(self.xy), self.owner, state, 0, None)
+        pull = -law.slope(-residual) * self.trust / _CORRELATION**2
+        bend = np.abs(pull) / np.maximum(np.abs(residual), law.softness_mm)
+        inwards = residual[(residual < 0) & (residual > -_INWARDS_MM)]
+        width_mm = TO_SIGMA * float(np.median(np.abs(inwards))) if len(inwards) > _FEWEST // 2 else _NOISE_MM
+        return Terms(own, pooled, pull, bend, self.owner), width_mm
+
+
+def _chosen(sides: list[_Side | None], state: State, band_mm: float) -> _Chosen:
+    """The points that lie on the sides of bars in a state, within a band about them."""
+    points, depths, trusts, counts = [np.empty((0, 2))], [np.empty(0)], [np.empty(0)], np.zeros(len(sides), np.int64)
     for k, side in enumerate(sides):
         if side is None:
             continue
@@ -314,16 +342,8 @@ def _terms(sides: list[_Side | None], state: State, band_mm: float, law: Bracket
         # cubed: a strip of half the width holds its bar an eighth as firmly; a little keeps the equations whole
         trust = np.clip((width - _NARROWEST) / (_WIDE - _NARROWEST), 1e-4, 1.0) ** 3
         trusts.append(np.full(len(used), trust * min(1.0, _POINTS_MAX / len(used))))
-        owners.append(np.full(len(used), k))
         points.append(side.points[used, :2])
         depths.append(depth[used])
         counts[k] = len(used)
-    owner = np.concatenate(owners or [np.empty(0, np.int64)]).astype(np.int64)
-    xy = np.concatenate(points or [np.empty((0, 2))])
-    depth = np.concatenate(depths or [np.empty(0)])
-    residual, own, pooled = wall_terms(xy, depth, np.zeros_like(xy), owner, state, 0, None)
-    pull = -law.slope(-residual) * np.concatenate(trusts or [np.empty(0)]) / _CORRELATION**2
-    bend = np.abs(pull) / np.maximum(np.abs(residual), law.softness_mm)
-    inwards = residual[(residual < 0) & (residual > -_INWARDS_MM)]
-    width_mm = TO_SIGMA * float(np.median(np.abs(inwards))) if len(inwards) > _FEWEST // 2 else _NOISE_MM
-    return Terms(own, pooled, pull, bend, owner), counts, width_mm
+    owner = np.repeat(np.arange(len(sides)), counts)
+    return _Chosen(np.concatenate(points), np.concatenate(depths), owner, np.concatenate(trusts), counts)

@@ -7,7 +7,7 @@ planes that face the camera the foot is the one with round openings: discs throu
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
@@ -50,10 +50,27 @@ class FootFace(LocalAxes):
     """The foot face with its openings: x and y lie in the face, z points into the column, the origin is on the face.
 
     ``mouths`` (k, 2) mm are rough centres of round openings; ``residual_mm`` is the noise of points on the face.
+    ``bend`` (6,) lifts it off its plane by what :func:`level_terms` names, and ``bend_mm`` is how far its mouths
+    scatter about that plane by it.
     """
 
     mouths: Array
     residual_mm: float
+    bend: Array = field(default_factory=lambda: np.zeros(6))
+    bend_mm: float = 0.0
+
+    def level(self, place: Array) -> tuple[float, Array]:
+        """Height, mm, and slopes (2,) of the face at a place (2,) mm."""
+        x, y = place
+        _, along_x, along_y, xx, yy, xy = self.bend
+        slopes = np.array([along_x + 2.0 * xx * x + xy * y, along_y + 2.0 * yy * y + xy * x])
+        return float(level_terms(place[None])[0] @ self.bend), slopes
+
+
+def level_terms(places: Array) -> Array:
+    """What the height of a bent face is made of at places (n, 2) mm: 1, x, y, x², y², xy."""
+    x, y = places.T
+    return np.column_stack([np.ones(len(places)), x, y, x**2, y**2, x * y])
 
 
 @dataclass(frozen=True)

@@ -42,7 +42,8 @@ _RADIUS_SIGMA_MM, _PUSH_SIGMA_MM = 0.4, 0.7
 _LEAN_SIGMA, _OWN_RADIUS_MM = 0.008, 0.06
 # floors: no push is known better, whatever the likelihood's curvature says (a choice: ±30 % moves u by 3 %)
 _OWN_PUSH_MIN_MM, _PUSH_FLOOR_PITCHES = 0.02, 0.02
-_FACE_HEIGHT_SHARE = 0.1  # of the face's scatter: found over frames of 600 to 1,400 mm columns, 0.72 to 1.4 m away
+# of the face's scatter and of what it bends by: found over frames of 600 to 1,400 mm columns, 0.72 to 1.4 m away
+_FACE_HEIGHT_SHARE = 0.1
 _FLOOR_MM = 0.02  # what the warp of a camera leaves over one mouth, however many points there are
 _SHOWN_SHARE = 0.3  # of what returns about most mouths (a choice: ±30 % moves nothing on sound scans)
 _SEEN_MM = 0.35  # what is known better than this has evidence of its own
@@ -163,7 +164,8 @@ def _believed(features: int, radius_mm: float, leans: Array | None) -> Believed:
 def _of_face_height_mm(face: FootFace, centres: Array) -> float:
     """What the height of the face, known to a tenth of its scatter, does to where flat rays cross it."""
     away_mm = float(np.median(np.hypot(*(centres - face.eye[:2]).T)))
-    return _FACE_HEIGHT_SHARE * face.residual_mm * away_mm / abs(float(face.eye[2]))
+    height_mm = _FACE_HEIGHT_SHARE * float(np.hypot(face.residual_mm, face.bend_mm))
+    return height_mm * away_mm / abs(float(face.eye[2]))
 
 
 def _with_push(believed: Believed, push: Push, floor_mm: float) -> Believed:

@@ -20,12 +20,32 @@ NOISE_SIGMAS = 3.0
 """A point this many standard deviations behind the face is behind it: one in 740 of the face's own is farther."""
 SECTORS = 24
 """Of a mouth, 15 degrees each: a tape or a clump of mortar covers some of them, and leaves the others whole."""
+_PITCH_PIXELS = 400  # of a window: from one to the next a pitch changes by less than a hundredth
 _COVERED_SHARE = 0.2  # of the rays of a sector: pixels that fly are fewer; a choice: ±30 % moves nothing on sound scans
 
 
 @dataclass(frozen=True, eq=False)
+class _Level:
+    """The plane that touches a face at one of its mouths, ``about`` (2,) mm; heights are counted from it."""
+
+    height_mm: float
+    slopes: Array
+    about: Array
+
+    def above(self, points: Array) -> Array:
+        """Points (..., 3) mm in the axes of the face, with their heights above that plane."""
+        height = points[..., 2] - self.height_mm - (points[..., :2] - self.about) @ self.slopes
+        return np.concatenate([points[..., :2], height[..., None]], axis=-1)
+
+    def turned(self, directions: Array) -> Array:
+        """The same of directions (..., 3)."""
+        climb = directions[..., 2] - directions[..., :2] @ self.slopes
+        return np.concatenate([directions[..., :2], climb[..., None]], axis=-1)
+
+
+@dataclass(frozen=True, eq=False)
 class MouthView:
-    """One mouth in the axes of the face, mm.
+    """One mouth in the axes of the face, mm; heights are those above the face there.
 
     Parameters
     ----------
@@ -61,12 +81,13 @@ def view_mouth(frame: HoistingFrame, face: FootFace, centre: Array, radius_mm: f
     if window is None:
         return None
     rows, columns = window
-    eye = face.eye
-    rays = frame.rays(rows, columns) @ face.axes.T
+    level = _Level(*face.level(centre), centre)
+    eye = level.above(face.eye)
+    rays = level.turned(frame.rays(rows, columns) @ face.axes.T)
     upward = rays[..., 2] > 1e-6
     reach = np.where(upward, -eye[2] / np.where(upward, rays[..., 2], 1.0), np.nan)
     crossing = eye[:2] + rays[..., :2] * reach[..., None]
-    points = face.local(frame.points[rows, columns].astype(np.float64))
+    points = level.above(face.local(frame.points[rows, columns].astype(np.float64)))
     within = np.hypot(crossing[..., 0] - centre[0], crossing[..., 1] - centre[1]) < radius_mm + _MARGIN_MM
     if not within.any():
         return None
@@ -99,10 +120,21 @@ def window_about(frame: HoistingFrame, face: FootFace, centre: Array, radius_mm:
     return slice(low[1], high[1]), slice(low[0], high[0])
 
 
+def window_over(frame: HoistingFrame, face: FootFace, centres: Array, radius_mm: float) -> tuple[slice, slice]:
+    """Rows and columns that hold all mouths (k, 2) mm that are in the picture."""
+    windows = [window_about(frame, face, centre, radius_mm) for centre in centres]
+    known = [window for window in windows if window is not None]
+    if not known:
+        return slice(0, 0), slice(0, 0)
+    rows, columns = (slice(min(w[k].start for w in known), max(w[k].stop for w in known)) for k in (0, 1))
+    return rows, columns
+
+
 def _pixel(crossing: Array, within: BoolArray) -> Array:
     """How far the crossing moves from row to row and from column to column, at the middle of a window."""
-    down = (crossing[1:, :] - crossing[:-1, :])[within[1:, :] & within[:-1, :]]
-    right = (crossing[:, 1:] - crossing[:, :-1])[within[:, 1:] & within[:, :-1]]
+    nth = max(1, int(np.sqrt(within.size / _PITCH_PIXELS)))
+    down = (crossing[1::nth, ::nth] - crossing[:-1:nth, ::nth])[within[1::nth, ::nth] & within[:-1:nth, ::nth]]
+    right = (crossing[::nth, 1::nth] - crossing[::nth, :-1:nth])[within[::nth, 1::nth] & within[::nth, :-1:nth]]
     steps = [np.median(step, axis=0) if len(step) else np.full(2, 1.0) for step in (down, right)]
     return np.column_stack(steps)
 

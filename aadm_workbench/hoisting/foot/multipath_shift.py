@@ -33,9 +33,16 @@ _FLATTER = 10.0
 _OWN_GRID_MM = np.arange(-6, 7) * 0.075
 _OWN_FLATTER = 3.0  # u becomes 1.7 times as large: as much as steps of single rays leave unsure
 _OWN_LEAST_MM = 0.015  # a fifth of the grid's step: below, it tells nothing
-_MEAN_ROUNDS, _STILL_MM = 6, 0.003  # a cap; a tenth of that floor
+# caps, the second where the frame before has been as far; a tenth of that floor
+_MEAN_ROUNDS, _TRACKED_ROUNDS, _STILL_MM = 6, 2, 0.003
+# in push plus chamfer, which a mouth of which little is open, or one seen flat, leaves open: up to ten times as wide
+_SUMS_MM = np.linspace(-0.8, 0.8, 17)
 # bounds of the time; farther from the edge than two steps of the grid a ray tells nothing
 _COARSE_RAYS, _FINE_RAYS, _NEAR_MM, _NEAR_PITCHES = 1_200, 2_000, 0.7, 0.6
+# but for those that pass within the far rim: seen flat, a chamfer stops some of them millimetres before it; of those
+# every third tells as much as all (58 frames of wide and small columns)
+_WITHIN_EVERY = 3
+_TRACKED_EVERY = 2  # of all of them, where the frame before has told: its average is where the next one begins
 _SOFTNESS = 0.03  # of a pixel: an edge is a step, and softer laws lean to where more rays return
 _SOFTNESS_MIN_MM = 0.01  # finer, single rays make the likelihood jump
 # of a pixel, on the side where the edge is a step in depth and pixels mix: twice as soft; a choice: ±30 % moves
@@ -86,6 +93,7 @@ class EdgeRays:
 class Push:
     """``push_mm`` of the walls with its ``sigma_mm``; ``chamfer_mm`` by which mouths are wider than bores.
 
+    ``open_mm`` is the standard deviation by which both together may be larger or smaller.
     ``own`` (k,) is how far each sleeve's own rays would move its centre along the view beyond that, with
     ``own_sigma`` (k,).
     """
@@ -93,6 +101,7 @@ class Push:
     push_mm: float
     sigma_mm: float
     chamfer_mm: float
+    open_mm: float
     own: Array
     own_sigma: Array
 
@@ -105,16 +114,40 @@ def find_push(rays: EdgeRays, radius_mm: float, sleeves: int, prior_mm: float, b
     takes the place of the search.
     """
     best = _coarse(rays, radius_mm, prior_mm) if before is None else (before.push_mm, before.chamfer_mm)
-    about = rays.about + best[0] * rays.direction
-    off_mm = np.abs(np.hypot(about[:, 0], about[:, 1]) - radius_mm - best[1])
-    near = np.flatnonzero(off_mm < _NEAR_MM + _NEAR_PITCHES * rays.pitch)
+    near = _telling(rays, best, radius_mm)
     if before is None:
         some = _chosen(rays, near[:: len(near) // _FINE_RAYS + 1])
         best = _fine(some, best, radius_mm, prior_mm)
-    rays = _in_single(_chosen(rays, near))
+    rays = _in_single(_chosen(rays, near if before is None else near[::_TRACKED_EVERY]))
     fixed = _fixed(rays)
-    push, chamfer = _mean(rays, fixed, best, radius_mm, prior_mm)
-    return _own(rays, fixed, push, chamfer, radius_mm, sleeves, prior_mm)
+    rounds = _MEAN_ROUNDS if before is None else _TRACKED_ROUNDS
+    push, chamfer = _mean(rays, fixed, best, radius_mm, prior_mm, rounds)
+    open_mm = _left_open(rays, fixed, (push, chamfer), radius_mm, prior_mm) if before is None else before.open_mm
+    return _own(rays, fixed, push, chamfer, open_mm, radius_mm, sleeves, prior_mm)
+
+
+def _telling(rays: EdgeRays, best: tuple[float, float], radius_mm: float) -> IntArray:
+    """Indices of the rays that tell push and chamfer: near to the edge, and some of those that pass within it."""
+    about = rays.about + best[0] * rays.direction
+    off_mm = np.hypot(about[:, 0], about[:, 1]) - radius_mm - best[1]
+    near = np.abs(off_mm) < _NEAR_MM + _NEAR_PITCHES * rays.pitch
+    within = ~near & (off_mm < 0.0) & (np.einsum("ij,ij->i", rays.about, rays.direction) > 0.0)
+    near[np.flatnonzero(within)[::_WITHIN_EVERY]] = True
+    return np.flatnonzero(near)
+
+
+def _left_open(rays: EdgeRays, fixed: _Fixed, found: tuple[float, float], radius_mm: float, prior_mm: float) -> float:
+    """By how much (standard deviation, mm) push and chamfer may both be larger or smaller.
+
+    Far rims show push less chamfer, sharply; the sum of both is told by few rays about near rims.
+    """
+    halves = _SUMS_MM / 2.0
+    score = np.array(
+        [_score(rays, fixed, found[0] + by, max(found[1] + by, 0.0), radius_mm, prior_mm) for by in halves.tolist()]
+    )
+    weight = np.exp((score - score.max()) / _FLATTER)
+    weight /= weight.sum()
+    return float(np.sqrt(weight @ (halves - weight @ halves) ** 2))
 
 
 def _fine(rays: EdgeRays, best: tuple[float, float], radius_mm: float, prior_mm: float) -> tuple[float, float]:
@@ -129,7 +162,7 @@ def _fine(rays: EdgeRays, best: tuple[float, float], radius_mm: float, prior_mm:
 
 
 def _mean(
-    rays: EdgeRays, fixed: _Fixed, best: tuple[float, float], radius_mm: float, prior_mm: float
+    rays: EdgeRays, fixed: _Fixed, best: tuple[float, float], radius_mm: float, prior_mm: float, rounds: int
 ) -> tuple[float, float]:
     """Push and chamfer averaged over what the rays leave possible about the most likely ones.
 
@@ -138,7 +171,7 @@ def _mean(
     both, and is laid about its own average until that stays.
     """
     push, chamfer = best
-    for _ in range(_MEAN_ROUNDS):
+    for _ in range(rounds):
         sums, differences = np.meshgrid(*(reach_mm * _MEAN_GRID for reach_mm in _MEAN_REACH_MM), indexing="ij")
         pushes = (push + (sums + differences) / 2).ravel()
         chamfers = np.maximum(chamfer + (sums - differences) / 2, 0.0).ravel()
@@ -236,7 +269,14 @@ def _score(rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radius_mm
 
 
 def _own(
-    rays: EdgeRays, fixed: _Fixed, push: float, chamfer: float, radius_mm: float, sleeves: int, prior_mm: float
+    rays: EdgeRays,
+    fixed: _Fixed,
+    push: float,
+    chamfer: float,
+    open_mm: float,
+    radius_mm: float,
+    sleeves: int,
+    prior_mm: float,
 ) -> Push:
     """How far beyond the push each sleeve's own rays are, averaged as the push is, and how far that may be off."""
     each = np.array(
@@ -249,4 +289,5 @@ def _own(
     weight /= weight.sum(axis=0)
     own = _OWN_GRID_MM @ weight
     own_sigma = np.sqrt(np.maximum(_OWN_GRID_MM**2 @ weight - own**2, _OWN_LEAST_MM**2))
-    return Push(push, float(((own_sigma**-2.0).sum() + prior_mm**-2.0) ** -0.5), chamfer, own, own_sigma)
+    sigma_mm = float(np.hypot(((own_sigma**-2.0).sum() + prior_mm**-2.0) ** -0.5, open_mm))
+    return Push(push, sigma_mm, chamfer, open_mm, own, own_sigma)

@@ -16,7 +16,7 @@ from aadm_workbench.extract.plane import refined_plane
 from aadm_workbench.hoisting.bars.search import SeenBars
 from aadm_workbench.hoisting.foot.face import FootFace
 from aadm_workbench.hoisting.foot.fit import FootFit
-from aadm_workbench.hoisting.foot.mouths import window_about
+from aadm_workbench.hoisting.foot.mouths import window_over
 from aadm_workbench.hoisting.frame import HoistingFrame
 from aadm_workbench.hoisting.match import Laid, Matched
 from aadm_workbench.hoisting.offsets import HungFit
@@ -30,6 +30,7 @@ _FACE_MOVES_MM, _FACE_BIN_MM = 12.0, 0.5  # a hoist lowers by a centimetre from 
 _BAND_SIGMAS = 3.5  # as in foot/face.py
 _MOVED_MAX_MM, _TURNED_MAX = 3.0, np.radians(1.0)  # of the foot from frame to frame: what a window still holds wholly
 _BARS_MOVED_MM = 2.0  # bars that moved by more have another camera before them
+_FLAT_MM = 0.05  # a face that bends by more is fitted anew in each frame: its plane hangs on which points are asked
 _LOST_SHARE = 0.8  # of what was seen before: with less in view something stands in between, or is not where it was
 _SURE_TURN = np.radians(35.0)  # five degrees before a frame is held back: a search asks that anew
 
@@ -48,6 +49,8 @@ def follow(frame: HoistingFrame, last: Sighting) -> Found | None:
     """Begin a frame where the last one of the same camera ended; None where it cannot be so."""
     fits = frame.shape == last.shape and frame.lens == last.frame.lens
     if not fits or last.tracked >= _AFRESH_EVERY or last.off_declared > _SURE_TURN or last.orientation == "ambiguous":
+        return None
+    if last.hung.face.bend_mm > _FLAT_MM:
         return None
     face = _face(frame, last.hung)
     if face is None:
@@ -117,11 +120,7 @@ def _face(frame: HoistingFrame, before: HungFit) -> FootFace | None:
 
 def _about_mouths(frame: HoistingFrame, before: HungFit) -> Array:
     """Points (n, 3) mm of the foot between its mouths, as many as a face is measured on and some more."""
-    windows = [window_about(frame, before.face, centre, before.foot.radius_mm) for centre in before.foot.centres]
-    known = [window for window in windows if window is not None]
-    if not known:
-        return np.empty((0, 3))
-    rows, columns = (slice(min(w[k].start for w in known), max(w[k].stop for w in known)) for k in (0, 1))
+    rows, columns = window_over(frame, before.face, before.foot.centres, before.foot.radius_mm)
     pixels = (rows.stop - rows.start) * (columns.stop - columns.start)
     step = max(1, int(np.sqrt(pixels / _FACE_PIXELS)))
     points = frame.points[rows.start : rows.stop : step, columns.start : columns.stop : step].reshape(-1, 3)

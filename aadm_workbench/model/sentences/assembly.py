@@ -273,7 +273,7 @@ SENTENCES: dict[str, Sentence] = {
         "this scan cannot support a decision on {limit_mm:g} mm: its centres have u = {u_mm:.2f} mm, rescan closer",
         "该扫描不足以判定 {limit_mm:g} mm：其中心 u = {u_mm:.2f} mm，请靠近重新扫描",
     ),
-    "assembly.unverified": Sentence("{clause}, unverified", "{clause}，未核对"),
+    "assembly.unverified": Sentence("{clause:word}, unverified", "{clause:word}，未核对"),
     "assembly.up_contradicted": Sentence(
         "the pattern contradicts the declared up of {said}°: it fits only with {actual}° at the top of the image, "
         "{turned:.0f}° away",

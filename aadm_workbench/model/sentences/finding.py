@@ -140,13 +140,6 @@ SENTENCES: dict[str, Sentence] = {
         "在{group:word}边缘，该相机的表现与 [camera] 中的相机档案不符：边缘偏离 {off_pixels:+.1f} 像素。"
         "可能是另一台相机，或设置、滤波与学习时不同：请指定正确的档案，或重新学习",
     ),
-    "finding.profile_differs.rings": Sentence(
-        "at the edges of the {group:word} this camera drops {rings:g} rings of pixels, and the one that the profile of "
-        "[camera] was learned from {known:g} (2: two or more): another camera, or other filters. Name the right "
-        "profile, or learn it anew",
-        "在{group:word}边缘，该相机去除 {rings:g} 圈像素，而 [camera] 中档案所学的相机去除 {known:g} 圈"
-        "（2 表示两圈或更多）：是另一台相机，或滤波不同。请指定正确的档案，或重新学习",
-    ),
     "finding.profile_of_other_laws": Sentence(
         "the profile of [camera] was learned by laws {laws:g} of extraction (0: not told), {group:word} are measured "
         "by laws {now:g}: what it takes off is no longer quite what they leave. Learn it from the same captures",

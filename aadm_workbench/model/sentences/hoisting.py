@@ -148,6 +148,13 @@ SENTENCES: dict[str, Sentence] = {
         "no move brings {label} in with the others: bend it by {dx_mm:+.1f}, {dy_mm:+.1f} mm (x, y of the bars)",
         "移动柱子无法使 {label} 与其他钢筋同时对准：请将其扳动 {dx_mm:+.1f}、{dy_mm:+.1f} mm（钢筋坐标系的 x、y）",
     ),
+    "hoisting.repair.part": Sentence(
+        "{mm:.1f} mm towards the side of {first} to {last}", "向 {first} 至 {last} 一侧 {mm:.1f} mm"
+    ),
+    "hoisting.repair.towards": Sentence(
+        "no move brings {label} in with the others: bend it by {parts}",
+        "移动柱子无法使 {label} 与其他钢筋同时对准：请将其扳动：{parts}",
+    ),
     "hoisting.resting": Sentence(
         "{labels:and} not seen: where it was measured before hoisting",
         "未见到 {labels:and}：取吊装前的测量位置",

@@ -70,6 +70,7 @@ SENTENCES: dict[str, Sentence] = {
     "words.a whole number": Sentence("a whole number", "整数"),
     "words.another process": Sentence("another process", "另一进程"),
     "words.no answer": Sentence("no answer", "无应答"),
+    "words.no clause": Sentence("no clause", "无条款"),
     "words.the document": Sentence("the document", "文档"),
     "words.a folder": Sentence("a folder", "文件夹"),
     "words.a pipe": Sentence("a pipe", "管道"),

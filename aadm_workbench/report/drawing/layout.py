@@ -106,7 +106,7 @@ class Layout:
             return False
         around = (left, low, right, high)
         for x, y, radius, _ in self._circles:
-            if _distance((x, y), around) < radius:
+            if _is_nearer((x, y), around, radius):
                 return False
         wide = _BETWEEN - _GAP
         for b in self._boxes:
@@ -133,7 +133,7 @@ class Layout:
     def _is_told_apart(self, at: Point, radius: float, box: Box) -> bool:
         """Whether a text at a box is taken for the name of its point: every other circle is clearly further away."""
         own = _distance(at, box) - radius + _CLEARLY
-        return all((x, y) == at or _distance((x, y), box) - other >= own for x, y, other, _ in self._circles)
+        return all((x, y) == at or not _is_nearer((x, y), box, own + other) for x, y, other, _ in self._circles)
 
     def _is_clear(self, line: Polyline, at: Point) -> bool:
         """Whether the line from a point to its name crosses no other point and no other name."""
@@ -156,6 +156,14 @@ def _distance(at: Point, box: Box) -> float:
     across = left - x if x < left else max(0.0, x - right)
     up = low - y if y < low else max(0.0, y - high)
     return math.hypot(across, up)
+
+
+def _is_nearer(at: Point, box: Box, apart: float) -> bool:
+    """Whether a place is nearer to a box than that; most are not, which a look at its sides tells."""
+    x, y = at
+    if x <= box[0] - apart or x >= box[2] + apart or y <= box[1] - apart or y >= box[3] + apart:
+        return False
+    return _distance(at, box) < apart
 
 
 def _to_line(at: Point, start: Point, end: Point) -> float:

@@ -30,8 +30,14 @@ _LABEL_LENGTH = 255  # of an IfcLabel (ISO 10303-11 leaves it open, IFC does not
 _UNREADABLE = re.compile("[\x00\ud800-\udfff]")
 _OURS_ALREADY = re.compile(rb"'(3AADM[0-9A-Za-z_$]{17})'")
 _DECIMALS = 9
-"""Of places and directions: a nanometre of a metre, a tenth of a micrometre at the end of 100 m; digits are bytes."""
+"""Of directions, and of lengths in any unit: a nanometre of a metre; digits are bytes."""
 _LENGTHS = {"IfcLengthMeasure", "IfcPositiveLengthMeasure"}
+_LENGTH_DECIMALS = 3
+"""Of mm: a tenth of the smallest uncertainty that a camera states, and what is equal is written once."""
+_ANGLE_DECIMALS = 3
+"""Of degrees: 0.05 mm at the end of three metres, where tilts are known to 0.02° at best."""
+_RADIAN_DECIMALS = 11  # what is read back as degrees is the same to eight decimals
+_ROUNDED = {**dict.fromkeys(_LENGTHS, _LENGTH_DECIMALS), "IfcPlaneAngleMeasure": _ANGLE_DECIMALS}
 
 
 class Property(NamedTuple):
@@ -96,15 +102,15 @@ class Addition:
             setattr(entity, name, value)
 
     def length(self, mm: float) -> float:
-        """A length in the model's unit."""
-        return float(mm) / self.mm
+        """A length in the model's unit; never a minus before a zero."""
+        return round(round(float(mm), _LENGTH_DECIMALS) / self.mm, _DECIMALS) + 0.0
 
     def value(self, measure: str, value: Scalar) -> Any:
         """A typed value; lengths are given in mm, angles in degrees."""
         if measure in _LENGTHS:
             value = self.length(float(value))
         elif measure == "IfcPlaneAngleMeasure":
-            value = round(math.radians(float(value)) / self._radians, _DECIMALS + 2)  # degrees keep eight decimals
+            value = round(math.radians(float(value)) / self._radians, _RADIAN_DECIMALS)
         elif measure == "IfcLabel":
             value = label(str(value))
         elif isinstance(value, str):
@@ -119,6 +125,8 @@ class Addition:
     def _property(self, name: str, measure: str, value: Scalar) -> Any:
         if measure == ENUMERATED:
             return self.new(measure, Name=name, EnumerationValues=[self.value("IfcLabel", value)])
+        if measure in _ROUNDED:
+            value = round(float(value), _ROUNDED[measure]) + 0.0
         known = ("IfcPropertySingleValue", name, measure, type(value).__name__, value)
         number = self._known.get(known)
         if number is not None:
@@ -127,7 +135,7 @@ class Addition:
 
     def point(self, *xyz_mm: float) -> Any:
         """A point, given in mm."""
-        place = [round(self.length(value), _DECIMALS) + 0.0 for value in xyz_mm]
+        place = [self.length(value) for value in xyz_mm]
         return self.once("IfcCartesianPoint", place, Coordinates=place)
 
     def direction(self, vector: Array) -> Any:

@@ -23,13 +23,13 @@ MAGNIFIED = 20.0
 _DISK_RADIUS_MM, _THICKNESS_MM = 6.0, 2.0  # smaller than any bar, and seen from a room away
 _ARROW_MM = 100.0
 """Length of the arrow as drawn once; each length scales it."""
-_STEP_MM = 0.05
-"""Deviations are drawn in steps, so that marks share what is drawn: an arrow of 40 mm is 0.5 mm off at most, which
-nobody sees. The property sets hold the values."""
+_STEP_MM = 0.1
+"""Deviations are drawn in steps, so that marks share what is drawn: an arrow of 40 mm is 1 mm off at most, a sixth of
+the disk that it begins at. The property sets hold the values."""
 # per cent of its length: a shaft, and a head of 30
 _ARROW = ((0.0, -3.0), (70.0, -3.0), (70.0, -11.0), (100.0, 0.0), (70.0, 11.0), (70.0, 3.0), (0.0, 3.0))
-_STEP_DEG = 1.0
-"""And so are their directions: the end of an arrow of 40 mm is 0.4 mm off at most."""
+_STEP_DEG = 3.0
+"""And so are their directions: the end of an arrow of 40 mm is 1 mm off at most."""
 _LAYERS = {Kind.SLEEVE: "AADM as-built sleeves", Kind.REBAR: "AADM as-built bars"}
 _BELOW = {Kind.SLEEVE: -_THICKNESS_MM, Kind.REBAR: 0.0}
 """Marks of sleeves hang below the foot face, those of bars lie on their tops: outside of concrete and steel."""
@@ -239,8 +239,10 @@ class Marks:
         return self._once[key]
 
     def _curves(self, drawn_mm: float) -> Any:
-        """The rim of the disk, and the arrow as one line."""
-        add = self.addition
+        """The rim of the disk, and the arrow as one line; they have no colour, and all of a length share them."""
+        add, key = self.addition, f"curves {drawn_mm:.3f}"
+        if key in self._once:
+            return self._once[key]
         if "rim" not in self._once:
             flat = add.axes(np.eye(4))
             self._once["rim"] = add.new("IfcCircle", Position=flat, Radius=add.length(_DISK_RADIUS_MM))
@@ -250,7 +252,8 @@ class Marks:
             tip, neck = length - drawn_mm, 0.7 * length - drawn_mm
             ends = ((-drawn_mm, 0.0), (tip, 0.0), (neck, wide), (tip, 0.0), (neck, -wide))
             elements.append(add.new("IfcPolyline", Points=[add.point(x, y, 0.0) for x, y in ends]))
-        return add.new("IfcGeometricCurveSet", Elements=elements)
+        self._once[key] = add.new("IfcGeometricCurveSet", Elements=elements)
+        return self._once[key]
 
 
 def _along(offset_mm: tuple[float, float]) -> Array:

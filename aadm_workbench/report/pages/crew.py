@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
+from aadm_workbench.assembly.following import blame_of
 from aadm_workbench.model import (
     CameraMove,
     ColumnReport,
@@ -112,6 +113,9 @@ def _hanging(
 ) -> CrewAdvice:
     vector = (move.dx_mm, move.dy_mm)
     steps = [*_turn(column, move.yaw_deg), *_move(vector, compass, _beside_camera(move.camera))]
+    for bend in move.repairs:
+        way = compass.in_words((bend.dx_mm, bend.dy_mm))
+        steps.append(Step(_with_way("crew.bend", way, rebar=bend.label), release=True))
     passed = frame.verdict == "pass"
     if frame.column_tilt_deg is not None and frame.column_tilt_deg >= _NOTICED_TILT_DEG:
         steps.insert(0, Step(phrase("crew.tilted", deg=f"{frame.column_tilt_deg:.1f}")))
@@ -248,14 +252,17 @@ def _repair(column: ColumnReport, repair: RepairReport, compass: Compass) -> Ite
     elif action == "disposal_plan" or not repair.steps:
         yield Step(phrase("crew.disposal_plan"))
     else:
-        if column.verdict == "inconclusive":
-            yield _scan_closer(column)
-        yield from _pairs(repair, compass)
+        if "repair.advise.if_confirmed" in codes_of(recognised(repair.advice)):
+            yield replace(_scan_closer(column), left=phrase("crew.if_confirmed"))
+        yield from _pairs(column, repair, compass)
         yield Step(phrase("crew.scan_bars_again"))
 
 
-def _pairs(repair: RepairReport, compass: Compass) -> Iterator[Step]:
-    """What to do with each pair, and with it what stays beyond a limit of position then: the engineer decides."""
+def _pairs(column: ColumnReport, repair: RepairReport, compass: Compass) -> Iterator[Step]:
+    """What to do with each pair, and with it what stays beyond a limit of position then: the engineer decides.
+
+    No bend of a bar puts a sleeve in its place.
+    """
     known = set()
     for step in repair.steps:
         done = _of_pair(step, compass)
@@ -269,6 +276,10 @@ def _pairs(repair: RepairReport, compass: Compass) -> Iterator[Step]:
             done = replace(done, left=phrase("crew.still_off_by", **values))
         yield done
     rest = [label for label in repair.still_fails if label not in known]
+    rejected = {step.sleeve for step in repair.steps if step.action == "reject_sleeve"}
+    follows = {*blame_of(column).follows} | rejected
+    sleeves = column.points(Kind.SLEEVE)
+    rest += [sleeve.label for sleeve in sleeves if sleeve.verdict == "fail" and sleeve.label not in follows]
     if rest:
         yield Step(phrase("crew.still_off", labels=", ".join(rest)))
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from aadm_workbench.own_files import write_atomically
-from aadm_workbench.report.drawing.sketch import STYLES, Anchor, Circle, Label, Link, Shape, Sketch, arrowhead
+from aadm_workbench.report.drawing.sketch import STYLES, Anchor, Circle, Label, Link, Polyline, Shape, Sketch, arrowhead
 from aadm_workbench.report.pages.pdf_text import lines_of, prepared_font, printable, reportlab, width_of
 from aadm_workbench.report.words.labels import INK
 
@@ -27,7 +27,7 @@ A4 = (210.0 * MM, 297.0 * MM)
 
 _BOLD_STROKE = 0.028  # of the size: letters are drawn with an outline of that width, since the font has no bold cut
 _QUARTER = 0.5522847498  # of the radius: a Bezier curve with this handle is a quarter of a circle to 0.03 %
-_NUMBER_AT_MOST = 8  # letters: a million numbers are hardly ever alike, and not kept
+_ESCAPED = str.maketrans({sign: f"\\{sign}" for sign in "()\\"})  # in a string of PDF (ISO 32000-1, 7.3.4.2)
 _PACKING = 3  # of zlib: an eighth more bytes than at its usual 6, in half of the time
 
 
@@ -81,6 +81,9 @@ class Letters:
         """The same where the places are written already: cells of a row share their height, those of a column x."""
         if not text:
             return
+        if self._in_force == (0, size) and text.isascii():  # nearly all of them
+            self._written.append(f"1 0 0 1 {x} {y} Tm ({text.translate(_ESCAPED)}) Tj")
+            return
         parts = _encoded(self._canvas, text)
         subset, name, shown = parts[0]
         if self._in_force == (subset, size) and len(parts) == 1:
@@ -105,25 +108,27 @@ _Part: TypeAlias = tuple[int, str, str]
 
 
 def _encoded(canvas: Any, text: str) -> tuple[_Part, ...]:
-    """A text in the subsets of the font that the document has so far; what is no mere number is kept."""
+    """A text in the subsets of the font that the document has so far; what is not ASCII is kept, sentences repeat."""
+    if text.isascii():
+        return _ascii(canvas, text)
     kept: dict[str, tuple[_Part, ...]] = canvas.__dict__.setdefault("aadm_texts", {})
     found = kept.get(text)
     if found is None:
-        found = _in_subsets(canvas, text)
-        if len(text) > _NUMBER_AT_MOST:
-            kept[text] = found
+        found = kept[text] = _in_subsets(canvas, text)
     return found
+
+
+def _ascii(canvas: Any, text: str) -> tuple[_Part, ...]:
+    """A text of the first subset, in which reportlab gives each sign of ASCII its own code."""
+    name: str | None = canvas.__dict__.get("aadm_first_subset")
+    if name is None:
+        name = canvas.__dict__["aadm_first_subset"] = _sign(canvas, "0")[1]
+    return ((0, name, text.translate(_ESCAPED)),)
 
 
 def _in_subsets(canvas: Any, text: str) -> tuple[_Part, ...]:
     known: dict[str, _Part] = canvas.__dict__.setdefault("aadm_signs", {})
-    try:
-        signs = [known[sign] for sign in text]
-    except KeyError:
-        signs = [known.setdefault(sign, _sign(canvas, sign)) for sign in text]
-    first = signs[0]
-    if text.isascii():
-        return ((first[0], first[1], "".join([sign[2] for sign in signs])),)
+    signs = [known[sign] if sign in known else known.setdefault(sign, _sign(canvas, sign)) for sign in text]
     return tuple(
         (subset, name, "".join([sign[2] for sign in group]))
         for (subset, name), group in groupby(signs, key=lambda sign: sign[:2])
@@ -216,33 +221,58 @@ def draw_sketch(canvas: Any, sketch: Sketch, at: tuple[float, float], width: flo
     scale = width / sketch.width
     canvas.saveState()
     canvas.addLiteral(f"{scale:.5f} 0 0 {scale:.5f} {at[0]:.2f} {at[1]:.2f} cm")
-    for shape in sketch.shapes:
-        _draw(canvas, shape)
+    for style, alike in groupby(_unlinked(sketch.shapes), key=_written_alike):
+        if style is None:
+            canvas.addLiteral("\n".join([_operators(shape) for shape in alike if not isinstance(shape, Label)]))
+        else:
+            _write_labels(canvas, [shape for shape in alike if isinstance(shape, Label)])
     canvas.restoreState()
 
 
-def _draw(canvas: Any, shape: Shape) -> None:
-    if isinstance(shape, Link):
-        for part in shape.shapes:
-            _draw(canvas, part)
-        return
-    style = STYLES[shape.style]
-    if isinstance(shape, Label):
-        at = (shape.at[0], shape.at[1] - 0.36 * shape.size)
-        write(canvas, at, shape.text, shape.size, colour=style.fill or "#000000", bold=shape.bold, anchor=shape.anchor)
-        return
-    dash = " ".join(f"{length:g}" for length in style.dash or ())
-    look = f"{style.width:g} w [{dash}] 0 d"
-    look += f" {_paint(style.stroke)} RG" if style.stroke else ""
-    look += f" {_paint(style.fill)} rg" if style.fill else ""
+def _unlinked(shapes: Sequence[Shape]) -> Iterator[Circle | Polyline | Label]:
+    """Shapes without what they lead to."""
+    for shape in shapes:
+        if isinstance(shape, Link):
+            yield from _unlinked(shape.shapes)
+        else:
+            yield shape
+
+
+def _written_alike(shape: Circle | Polyline | Label) -> tuple[str, bool] | None:
+    """Style and weight of a label; texts of one are written together. None for what is no text."""
+    return (shape.style, shape.bold) if isinstance(shape, Label) else None
+
+
+def _write_labels(canvas: Any, labels: Sequence[Label]) -> None:
+    letters = Letters(canvas, colour=STYLES[labels[0].style].fill or "#000000", bold=labels[0].bold)
+    for label in labels:
+        shown = printable(label.text)
+        ahead = _AHEAD[label.anchor] * width_of(shown, label.size)
+        letters.put(label.at[0] - ahead, label.at[1] - 0.36 * label.size, shown, label.size)
+    letters.done()
+
+
+def _operators(shape: Circle | Polyline) -> str:
+    """Colours, lines and the way of a circle or a path."""
+    look, stroked, filled = _look(shape.style)
     if isinstance(shape, Circle):
-        canvas.addLiteral(f"{look} {_round(shape)} {_painted(stroked=bool(style.stroke), filled=bool(style.fill))}")
-        return
-    stroked, filled = style.stroke is not None, style.fill is not None
-    way = f"{_way(shape.points, closed=shape.closed)} {_painted(stroked=stroked, filled=filled and shape.closed)}"
+        return f"{look} {_round(shape)} {_painted(stroked=stroked, filled=filled)}"
+    way = (
+        f"{look} {_way(shape.points, closed=shape.closed)} {_painted(stroked=stroked, filled=filled and shape.closed)}"
+    )
     if shape.head > 0.0:
         way += f" {_way(arrowhead(shape), closed=True)} {_painted(stroked=stroked, filled=filled)}"
-    canvas.addLiteral(f"{look} {way}")
+    return way
+
+
+@cache
+def _look(name: str) -> tuple[str, bool, bool]:
+    """Operators that set a style, whether its lines are drawn, and whether what they enclose is filled."""
+    style = STYLES[name]
+    dash = " ".join(f"{length:g}" for length in style.dash or ())
+    stroke = f" {_paint(style.stroke)} RG" if style.stroke else ""
+    fill = f" {_paint(style.fill)} rg" if style.fill else ""
+    return f"{style.width:g} w [{dash}] 0 d{stroke}{fill}", style.stroke is not None, style.fill is not None
 
 
 def _painted(*, stroked: bool, filled: bool) -> str:

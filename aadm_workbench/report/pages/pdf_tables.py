@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 from aadm_workbench.report.pages.pdf_canvas import Letters, area, fill, stroke
 from aadm_workbench.report.pages.pdf_flow import Block
@@ -46,10 +46,6 @@ class TableRow(NamedTuple):
     def height(self) -> float:
         """With the room above and below its texts, pt."""
         return self.lines * _LEADING + _ABOVE + _BELOW
-
-
-_Text: TypeAlias = tuple[str, str, str]
-"""Where a text stands, as the page has it, and the text."""
 
 
 @dataclass(frozen=True)
@@ -94,23 +90,20 @@ class Table:
         width = sum(self.widths)
         y = top - self.head.height
         area(canvas, (x, y), width, top - y, HEAD)
-        texts: dict[str, list[_Text]] = {}
-        self._texts(texts, self.head, x, top, lift=True)
+        texts = _Texts(canvas)
+        self._write(texts, self.head, x, top, lift=True)
         stripes, lines = [], []
         for number, row in enumerate(self.rows, start=self.first):
             below = y - row.height
             if number % 2:
                 stripes.append(f"{x:.2f} {below:.2f} {width:.2f} {y - below:.2f} re")
             lines.append(f"{x:.2f} {below:.2f} m {x + width:.2f} {below:.2f} l")
-            self._texts(texts, row, x, y)
+            self._write(texts, row, x, y)
             y = below
         fill(canvas, stripes, _STRIPE)
         self._fills(canvas, x, top - self.head.height)
         stroke(canvas, lines, 0.3, _LINE)
-        for colour, written in texts.items():
-            letters = Letters(canvas, colour=colour)
-            for left, base, text in written:
-                letters.put_at(left, base, text, SIZE)
+        for letters in texts.values():
             letters.done()
 
     def _fills(self, canvas: Any, x: float, y: float) -> None:
@@ -123,58 +116,69 @@ class Table:
                     area(canvas, (left, y), width, row.height, cell.fill)
                 left += width
 
-    def _texts(self, texts: dict[str, list[_Text]], row: TableRow, x: float, top: float, *, lift: bool = False) -> None:
+    def _write(self, texts: _Texts, row: TableRow, x: float, top: float, *, lift: bool = False) -> None:
         """Where each line of a row stands; headings stand on the foot of their row."""
         first = top - _ABOVE - SIZE
         heights = [f"{first - number * _LEADING:.2f}" for number in range(row.lines)]
         for cell, width, right in zip(row.cells, self.widths, self.flush_right, strict=True):
             start = f"{x + _PADDING:.2f}"
             x += width
-            kept = texts.setdefault(cell.colour, [])
+            letters = texts[cell.colour]
             for line, height in zip(cell.lines, heights[-len(cell.lines) :] if lift else heights, strict=False):
                 left = f"{x - _PADDING - width_of(line, SIZE):.2f}" if right else start
-                kept.append((left, height, line))
+                letters.put_at(left, height, line, SIZE)
+
+
+class _Texts(dict[str, Letters]):
+    """Letters of a page by their colour."""
+
+    def __init__(self, canvas: Any) -> None:
+        super().__init__()
+        self._canvas = canvas
+
+    def __missing__(self, colour: str) -> Letters:
+        self[colour] = letters = Letters(self._canvas, colour=colour)
+        return letters
 
 
 def table(headings: Sequence[Heading], rows: Sequence[Row], width: float, language: Language) -> Table:
     """A table of a report, at most ``width`` pt wide."""
     names = [heading.in_full().in_language(language) for heading in headings]
     kinds = [heading.kind for heading in headings]
-    numbers = [is_number(kind) for kind in kinds]
-    texts = [
-        [
-            _number(cell, kind) if number else _text(cell, kind, language)
-            for cell, kind, number in zip(row, kinds, numbers, strict=True)
-        ]
-        for row in rows
-    ]
-    widths = _widths(names, texts, headings, width)
+    columns: list[Row] = list(zip(*rows, strict=True)) if rows else [()] * len(headings)
+    texts = [_written(cells, kind, language) for cells, kind in zip(columns, kinds, strict=True)]
+    widest = [max(map(_width, set(column)), default=0.0) for column in texts]
+    widths = _widths(names, widest, headings, width)
     rooms = [round(each - 2.0 * _PADDING, 1) for each in widths]
     head = _row([TableCell(_wrapped(name, room), "#ffffff") for name, room in zip(names, rooms, strict=True)])
-    body = tuple(
-        _row([_cell(*said) for said in zip(row, kinds, written, rooms, strict=True)])
-        for row, written in zip(rows, texts, strict=True)
-    )
-    return Table(head, body, tuple(widths), tuple(numbers))
+    body = [
+        [_number(text) for text in written]
+        if is_number(kind) and wide <= room
+        else [_words(cell, kind, text, room) for cell, text in zip(cells, written, strict=True)]
+        for cells, kind, written, wide, room in zip(columns, kinds, texts, widest, rooms, strict=True)
+    ]
+    return Table(head, tuple(map(_row, zip(*body, strict=True))), tuple(widths), tuple(map(is_number, kinds)))
 
 
-def _number(cell: Cell, kind: CellKind) -> str:
-    return "" if cell is None or cell == "" else number_text(cell, kind)
+def _written(cells: Row, kind: CellKind, language: Language) -> list[str]:
+    """The cells of a column as texts."""
+    if is_number(kind):
+        return ["" if cell is None or cell == "" else number_text(cell, kind) for cell in cells]
+    return [_text(cell, kind, language) for cell in cells]
 
 
 def _row(cells: Sequence[TableCell]) -> TableRow:
     return TableRow(tuple(cells), max([len(cell.lines) for cell in cells]))
 
 
-def _cell(cell: Cell, kind: CellKind, text: str, room: float) -> TableCell:
-    """Numbers are as wide as their column or narrower; few of them are alike, and none is kept."""
-    if isinstance(cell, str):
-        return _words(cell, kind, text, room)
-    return TableCell((text,) if width_of(text, SIZE) <= room else _wrapped(text, room))
+@lru_cache(KEPT_TEXTS)
+def _number(text: str) -> TableCell:
+    """A cell that is no wider than its column."""
+    return TableCell((printable(text),))
 
 
 @lru_cache(KEPT_TEXTS)
-def _words(cell: str, kind: CellKind, text: str, room: float) -> TableCell:
+def _words(cell: Cell, kind: CellKind, text: str, room: float) -> TableCell:
     return TableCell(_wrapped(text, room), *_look(cell, kind))
 
 
@@ -209,11 +213,10 @@ def _text(cell: Cell, kind: CellKind, language: Language) -> str:
     return shortened(in_both_languages(str(cell)).in_language(language), *_LONGEST_CELL)
 
 
-def _widths(names: list[str], texts: list[list[str]], headings: Sequence[Heading], width: float) -> list[float]:
-    """As wide as the cells, headings may break; texts give way where the page is too narrow."""
+def _widths(names: list[str], widest: list[float], headings: Sequence[Heading], width: float) -> list[float]:
+    """As wide as the widest cells, headings may break; texts give way where the page is too narrow."""
     wanted = []
-    for k, heading in enumerate(headings):
-        cells = max([_width(text) for text in {row[k] for row in texts}], default=0.0)
+    for k, (heading, cells) in enumerate(zip(headings, widest, strict=True)):
         words = max((_width(word) for word in names[k].split()), default=0.0)
         head = words if heading.kind != "text" else min(_width(names[k]), max(words, cells))
         wanted.append(max(cells, min(head, 60.0)) + 2.0 * _PADDING + 1.0)

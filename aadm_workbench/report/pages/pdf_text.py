@@ -45,7 +45,7 @@ def reportlab(module: str, needed_for: str = "a PDF report") -> Any:
 def prepared_font() -> Any:
     """The font, known to reportlab under its name from now on."""
     metrics, fonts = reportlab("pdfbase.pdfmetrics"), reportlab("pdfbase.ttfonts")
-    font = fonts.TTFont(FONT, str(FONT_FILE))
+    font = fonts.TTFont(FONT, str(FONT_FILE), asciiReadable=1)
     metrics.registerFont(font)
     return font
 
@@ -53,6 +53,8 @@ def prepared_font() -> Any:
 @lru_cache(KEPT_TEXTS)
 def printable(text: str) -> str:
     """A text in signs that the font has; what it lacks becomes an empty box."""
+    if text.isascii() and text.isprintable():
+        return text  # the font has all of these
     known = prepared_font().face.charToGlyph
     return "".join(sign if ord(sign) in known or sign == "\n" else _UNKNOWN for sign in text.translate(_INSTEAD))
 
@@ -94,6 +96,9 @@ def lines_of(text: str, size: float, width: float) -> tuple[str, ...]:
     """A text broken into lines of a width, pt: between words, between Chinese characters, in words too long."""
     lines: list[str] = []
     for paragraph in printable(text).split("\n"):
+        if width_of(paragraph, size) <= width:
+            lines.append(paragraph.strip())
+            continue
         line, used = "", 0.0
         for piece in (part for token in _TOKEN.findall(paragraph) for part in _pieces(token, size, width)):
             wide = width_of(piece, size)

@@ -11,6 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from aadm_workbench.design.recognise.pattern import side_labels
 from aadm_workbench.model import (
     OPENGL_AXES,
     AssemblyPoint,
@@ -25,7 +26,7 @@ from aadm_workbench.model import (
     Verdict,
 )
 from aadm_workbench.report.column_view import typical_diameter_mm
-from aadm_workbench.report.directions import Compass, Grid, compass_of, grid_of, side_labels
+from aadm_workbench.report.directions import Compass, Grid, compass_of, grid_of
 from aadm_workbench.report.drawing.sketch import Point
 from aadm_workbench.report.hoist import worst_first
 from aadm_workbench.report.words.labels import Phrase, phrase

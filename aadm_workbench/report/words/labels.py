@@ -63,8 +63,9 @@ def phrase(name: str, /, **values: object) -> Phrase:
 
 
 def rule_words(name: str) -> Phrase:
-    """The name of a tolerance rule, or of its severity; a profile's own names stay as they are."""
-    return all_words().get(f"rule.{name}", Phrase(name, name))
+    """The name of a tolerance rule, or of its severity, in words; a profile's own names as they are, but for ``_``."""
+    shown = name.replace("_", " ")
+    return all_words().get(f"rule.{name}", Phrase(shown, shown))
 
 
 def profile_words(name: str, title: str) -> Phrase:

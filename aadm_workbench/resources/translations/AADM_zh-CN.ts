@@ -731,12 +731,20 @@
    <translation>我站在相机旁</translation>
   </message>
   <message>
+   <source>LOWER</source>
+   <translation>下放</translation>
+  </message>
+  <message>
    <source>Name the column that hangs.</source>
    <translation>请填写吊着的柱的编号。</translation>
   </message>
   <message>
    <source>Nothing is watched from here</source>
    <translation>未从此处启动监测</translation>
+  </message>
+  <message>
+   <source>PUSH</source>
+   <translation>推</translation>
   </message>
   <message>
    <source>RECORDED, not live</source>
@@ -781,6 +789,10 @@
   <message>
    <source>This file holds no hoisting frame</source>
    <translation>此文件中没有吊装测量</translation>
+  </message>
+  <message>
+   <source>WAIT</source>
+   <translation>等待</translation>
   </message>
   <message>
    <source>Waiting for the first measurement in the folder</source>

@@ -246,6 +246,34 @@ def test_what_a_bend_leaves_is_told(floor: dict[str, Any]) -> None:
     assert "still" not in in_steps(crew_advice(typed(floor), of_column(column))).en
 
 
+def test_a_bend_that_a_scan_has_to_confirm_waits_for_that_scan(floor: dict[str, Any]) -> None:
+    """The column fails by a sleeve's place, but whether its bars go in is open: nobody bends before it is scanned."""
+    column = copy.deepcopy(next(one for one in floor["columns"] if (one.get("repair") or {}).get("steps")))
+    repair, trial = column["repair"], column["trial_assembly"]
+    repair["advice"] = repair["advice"].replace("release: ", "release: rescan closer; if that confirms it, ")
+    repair["still_fails"], trial["rescan"], trial["verdict"] = [], ["R6", "R9"], "inconclusive"
+    steps = crew_advice(typed(floor), of_column(column)).steps
+    first = next(number for number, step in enumerate(steps) if step.release)
+    before = steps[first - 1]
+    assert "R6, R9" in before.text.en
+    assert before.left is not None
+    assert ("only if" in before.left.en, "才" in before.left.zh) == (True, True)
+
+
+def test_a_sleeve_that_no_bend_puts_right_is_named(floor: dict[str, Any]) -> None:
+    column = copy.deepcopy(next(one for one in floor["columns"] if (one.get("repair") or {}).get("steps")))
+    column["repair"]["still_fails"] = []
+    for point in column["sleeves"]["points"]:
+        point["verdict"] = "pass"
+    blamed = {step["sleeve"] for step in column["repair"]["steps"]}
+    other = next(point for point in column["sleeves"]["points"] if point["label"] not in blamed)
+    assert "Out of tolerance" not in in_steps(crew_advice(typed(floor), of_column(column))).en
+    other["verdict"] = "fail"
+    said = in_steps(crew_advice(typed(floor), of_column(column)))
+    assert f"Out of tolerance then, too: {other['label']}. The engineer decides." in said.en
+    assert f"处理后仍超差：{other['label']}" in said.zh
+
+
 def test_whether_a_clause_says_how_far_to_bend_is_no_matter_of_its_words(floor: dict[str, Any]) -> None:
     column = copy.deepcopy(next(one for one in floor["columns"] if (one.get("repair") or {}).get("steps")))
     for own, clause in ((True, "what we always do"), (False, "no clause is as clear as 8.1")):

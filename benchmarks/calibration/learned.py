@@ -1,7 +1,7 @@
 """Columns measured with and without what was learned of their camera on a plate: errors, and how many regions hold.
 
-``python -m benchmarks.learned --seed 2 --filter rings=1`` makes a camera whose scale is off by 0.05 %, learns it from
-captures of a plate, and measures other columns with it, whose sleeves are of other metal. A scan takes a few seconds.
+``python -m benchmarks.calibration.learned --seed 2 --filter rings=1`` makes a camera whose scale is off by 0.05 %,
+learns it from captures of a plate, and measures others with it, whose sleeves are of other metal. A scan takes seconds.
 """
 
 from __future__ import annotations

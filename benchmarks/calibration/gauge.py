@@ -1,8 +1,8 @@
 """Simulated gauge studies of known variances: how often intervals hold them, and what is said of the stated u.
 
-``python -m benchmarks.gauge --studies 200``. Captures are made with complex numbers: a ring of sleeves, moved, turned
-by each capture and brought back by a fit, which takes its share of the scatter; operators see each sleeve beside its
-place by an amount of their own; repeats scatter by an even law as often as by a normal one.
+``python -m benchmarks.calibration.gauge --studies 200``. Captures are made with complex numbers: a ring of sleeves,
+moved, turned by each capture and brought back by a fit, which takes its share of the scatter; operators see each
+sleeve beside its place by an amount of their own; repeats scatter by an even law as often as by a normal one.
 """
 
 from __future__ import annotations
