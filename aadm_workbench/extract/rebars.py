@@ -218,7 +218,7 @@ def _bend(lines: SightLines | None, tops: Tops, radius_mm: float) -> Bend:
 
 
 def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -> tuple[PooledFit, float]:
-    """The fit without the shift that all its centres share, as far as known, and how wide the rings are that are lost."""
+    """The fit without the shift that all its centres share, as far as known, and how wide the lost rings are, mm."""
     if lines is None:
         return fit, 0.0
     eroded = eroded_rings(tops.beyond, tops.rims, fit.centre, bend.pitch_mm)
