@@ -61,11 +61,12 @@ def printable(text: str) -> str:
 
 def width_of(text: str, size: float) -> float:
     """Width of one line, pt."""
-    return _width_in_thousandths(text) * size / 1000.0
+    return thousandths_of(text) * size / 1000.0
 
 
 @lru_cache(KEPT_TEXTS)
-def _width_in_thousandths(text: str) -> float:
+def thousandths_of(text: str) -> float:
+    """Width of one line of printable signs, thousandths of its size."""
     widths = _widths()
     return sum([widths[sign] for sign in text])
 
