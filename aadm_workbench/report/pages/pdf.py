@@ -1,13 +1,14 @@
 """report.pdf: what report.html shows, on A4, to sign and to file.
 
 The first page says what to do, has a date and lines to sign on; then follow the columns, each on pages of its own, so
-that a thousand of them take no more memory than one.
+that a thousand of them take no more memory than one. Those of which nothing was measured share pages.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -68,8 +69,9 @@ def write_pdf(report: JobReport, path: Path, language: Language = "en", *, tower
         if tower is not None:
             book.add(lambda share: list(tower_blocks(tower, WIDTH, language, share)))
             book.add(lambda share: list(setting_out_blocks(tower, WIDTH, language)))
-        for finding in found:
-            book.add(partial(_of_column, report, finding, language))
+        for told, together in groupby(found, key=lambda finding: finding.is_told):
+            for chapter in [[*together]] if told else ([finding] for finding in together):
+                book.add(partial(_of_columns, report, chapter, language))
         book.add(lambda share: list(_back(report, language)))
 
 
@@ -169,6 +171,11 @@ def _plans(report: JobReport, found: list[Finding], language: Language) -> Itera
         name = phrase("ui.floor_plan").in_language(language)
         yield paragraph(f"{name} {plan.storey}".strip(), WIDTH, 12.0, bold=True, keep=True)
         yield Drawing(plan.sketch, WIDTH)
+
+
+def _of_columns(report: JobReport, found: Sequence[Finding], language: Language, share: float) -> list[Block]:
+    """One column; several, where nothing but words is said of each."""
+    return [block for finding in found for block in _of_column(report, finding, language, share)]
 
 
 def _of_column(report: JobReport, finding: Finding, language: Language, share: float) -> list[Block]:

@@ -123,3 +123,15 @@ def test_many_columns_without_a_place(floor: dict[str, Any], tmp_path: Path, lan
     write_pdf(typed(floor | {"columns": columns}), tmp_path / "report.pdf", language)
     titles = [entry.title for entry in pypdf.PdfReader(tmp_path / "report.pdf").outline if not isinstance(entry, list)]
     assert sum(title.startswith("K-") for title in titles) == 330
+
+
+def test_columns_without_measurements_share_pages(floor: dict[str, Any], tmp_path: Path) -> None:
+    """Two lines are no page; whatever was measured begins on a page of its own."""
+    error = floor["columns"][4]
+    many = [error | {"id": f"E-{number}"} for number in range(8)]
+    write_pdf(typed(floor | {"columns": [*floor["columns"][:2], *many]}), tmp_path / "report.pdf")
+    reader = pypdf.PdfReader(tmp_path / "report.pdf")
+    entries = [entry for entry in reader.outline if not isinstance(entry, list)]
+    begins = {entry.title: reader.get_destination_page_number(entry) for entry in entries}
+    assert len({begins[f"E-{number}"] for number in range(8)}) == 1
+    assert begins["E-0"] < begins["C-2"] < begins["C-1"]
