@@ -286,20 +286,21 @@ def _pairs(column: ColumnReport, repair: RepairReport, compass: Compass) -> Iter
 
 
 def _scan_closer(column: ColumnReport) -> Step:
-    labels = () if column.trial_assembly is None else column.trial_assembly.rescan
-    named = ", ".join(labels or _open(column))
+    named = ", ".join(to_scan_again(column))
     return Step(phrase("crew.scan_label_again", labels=named) if named else phrase("crew.scan_closer"))
 
 
-def _open(column: ColumnReport) -> list[str]:
+def to_scan_again(column: ColumnReport) -> tuple[str, ...]:
     """Points that are left open, or whose spacing or pair is; none where they are too many to be named."""
+    if column.trial_assembly is not None and column.trial_assembly.rescan:
+        return column.trial_assembly.rescan
     groups = column.groups.values()
     found = [point.label for group in groups for point in group.points if point.verdict == "inconclusive"]
     for group in groups:
         found += [label for one in group.spacing if one.verdict == "inconclusive" for label in one.between]
     found += [label for pair in column.pairs if pair.verdict == "inconclusive" for label in (pair.sleeve, pair.rebar)]
-    labels = list(dict.fromkeys(found))
-    return labels if len(labels) <= _MOST_NAMED else []
+    labels = tuple(dict.fromkeys(found))
+    return labels if len(labels) <= _MOST_NAMED else ()
 
 
 def _of_pair(step: RepairStep, compass: Compass) -> Step:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
-from aadm_workbench.assembly.following import blame_of
+from aadm_workbench.assembly.following import blame_of, name_of
 from aadm_workbench.model import ColumnReport, Kind, PointResult
 from aadm_workbench.report.directions import SMALLEST_MM, Compass
 from aadm_workbench.report.drawing.layout import Layout, to_line
 from aadm_workbench.report.drawing.sketch import STYLES, Circle, Label, Point, Polyline, Shape, Sketch, arrow
-from aadm_workbench.report.pages.crew import SMALLEST_TURN_DEG, CrewAdvice, Shift
+from aadm_workbench.report.pages.crew import SMALLEST_TURN_DEG, CrewAdvice, Shift, to_scan_again
 from aadm_workbench.report.words.labels import Language
 
 SIDE = 220.0
@@ -40,28 +40,59 @@ def crew_sketch(column: ColumnReport, advice: CrewAdvice, language: Language) ->
     shapes = [*_outline(column, frame, layout), *_edge_names(advice.compass, language, layout)]
     if "" in shifts:
         shapes += _move(shifts[""], frame, advice.turn_deg, layout)
-    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, shifts, {*blame_of(column).follows}, layout)))
+    kind = Kind.REBAR if column.rebars else Kind.SLEEVE
+    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, shifts, rings_of(column, kind), layout, column)))
 
 
 def sleeves_from_below(column: ColumnReport) -> Sketch | None:
-    """The foot as one sees it who stands below it, y upwards; None where every sleeve was measured and none fails."""
+    """The foot as one sees it who stands below it, y upwards; None where no sleeve is to be looked at."""
     points = column.points(Kind.SLEEVE)
-    if all(point.verdict in ("pass", "not_assessed") for point in points):
+    rings = rings_of(column, Kind.SLEEVE)
+    if not rings and all(point.verdict in ("pass", "not_assessed") for point in points):
         return None
     frame = _Frame(column, points, 0.0, _NARROW, mirrored=True)
     layout = Layout(SIDE, SIDE)
     shapes = [*_outline(column, frame, layout)]
-    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, {}, {*blame_of(column).follows}, layout)))
+    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, {}, rings, layout, column)))
+
+
+def rings_of(column: ColumnReport, kind: Kind) -> dict[str, str]:
+    """The sleeves or bars to look at, and the style of the ring about each.
+
+    Those that fail by themselves or were not measured; both ends of a spacing that fails though neither of them does;
+    what is to be scanned again.
+    """
+    group, follows = column.group(kind), {*blame_of(column).follows}
+    if group is None:
+        return {}
+    rings = {
+        point.label: "ring-fail"
+        for point in group.points
+        if point.verdict in ("fail", "not_measured") and point.label not in follows
+    }
+    failing = [one.between for one in group.spacing if one.verdict == "fail" and name_of(one) not in follows]
+    ends = [label for between in failing if not rings.keys() & {*between} for label in between]
+    again = to_scan_again(column) if column.verdict == "inconclusive" else ()
+    known = {point.label for point in group.points}
+    return (
+        dict.fromkeys([label for label in again if label in known], "ring-open")
+        | dict.fromkeys(ends, "ring-fail")
+        | rings
+    )
 
 
 def _marked(
-    points: Sequence[PointResult], frame: _Frame, shifts: dict[str, Shift], follows: Collection[str], layout: Layout
+    points: Sequence[PointResult],
+    frame: _Frame,
+    shifts: dict[str, Shift],
+    rings: dict[str, str],
+    layout: Layout,
+    column: ColumnReport,
 ) -> Iterator[Shape]:
-    """Every point with its name; those that fail by themselves or have to be moved are ringed, and named first."""
+    """Every point with its name; those to look at and those that have to be moved are ringed, and named first."""
+    follows = {*blame_of(column).follows}
     alarming = {
-        point.label
-        for point in points
-        if point.label in shifts or (point.verdict in ("fail", "not_measured") and point.label not in follows)
+        point.label: rings.get(point.label, "ring-fail") for point in points if point.label in {*rings, *shifts}
     }
     apart = _apart(points, frame)
     dot = min(_DOT, 0.34 * apart)
@@ -77,7 +108,7 @@ def _marked(
         layout.keep_circle(at, ring + STYLES["ring-fail"].width / 2.0 if point.label in alarming else dot)
         yield from _dot(point, at, dot, follows=point.label in follows and point.label not in alarming)
         if point.label in alarming:
-            yield Circle(at, ring, "ring-fail")
+            yield Circle(at, ring, alarming[point.label])
     for drawn in arrows.values():
         layout.keep_path(drawn)
     for label, drawn in arrows.items():

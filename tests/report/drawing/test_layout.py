@@ -13,7 +13,7 @@ from aadm_workbench.report.column_view import foot_sketches
 from aadm_workbench.report.drawing.layout import width_of_label
 from aadm_workbench.report.drawing.sketch import Circle, Label, Polyline, Sketch
 from aadm_workbench.report.pages.crew import crew_advice
-from aadm_workbench.report.pages.crew_sketch import crew_sketch
+from aadm_workbench.report.pages.crew_sketch import crew_sketch, rings_of, sleeves_from_below
 from aadm_workbench.report.pages.pdf_text import width_of
 from aadm_workbench.report.pages.scan_card import scan_cards
 from aadm_workbench.report.pages.scan_card_page import picture_sketch
@@ -117,3 +117,19 @@ def test_no_colour_says_alone_what_a_point_is(report: Any) -> None:
         assert len(filled) == len(own)
         assert all(names[label][len(label) :] in (" ✗", " ?", " –") for label in own if label in names)
         assert all(names[label] == label for label in open_ones - own if label in names)
+
+
+def test_what_a_step_names_is_ringed_where_it_stands() -> None:
+    """Two sleeves too far from each other, each where it may be: the page shows the foot, with both."""
+    apart = Case("C-1", "A/1", 0.0, {"S2": (1.3, 0.0), "S3": (-1.3, 0.0)})
+    column = typed(floor_report(apart)).columns[0]
+    assert {point.verdict for point in column.points(Kind.SLEEVE)} == {"pass"}
+    (failing,) = [spacing.between for spacing in column.sleeves.spacing if spacing.verdict == "fail"]
+    sketch = sleeves_from_below(column)
+    assert sketch is not None
+    assert {label.text for label in sketch.shapes if isinstance(label, Label) and label.bold} == {*failing}
+    opened = typed(floor_report(Case("C-7", "C/2", 0.0, {"R4": (1.7, 0.9)}, u_mm=0.2)))
+    (step,) = crew_advice(opened, opened.columns[0]).steps
+    rings = rings_of(opened.columns[0], Kind.REBAR)
+    assert {*rings.values()} == {"ring-open"}
+    assert all(label in step.text.en for label in rings)

@@ -86,6 +86,16 @@ def test_lines_break_between_words_and_chinese_characters() -> None:
     assert printable("✗ 柱 🏗") == "× 柱 □"
 
 
+@pytest.mark.parametrize("width", range(40, 300, 7))
+def test_what_takes_a_sign_along_to_the_next_line_is_a_word(width: int) -> None:
+    text = "S6–S7 间距与设计相差 -2.02 mm，限值 ±2 mm（T/CCES 30-2022，4.3.3）：不确定度 0.07 mm，过于接近限值"
+    lines = lines_of(text, 12.0, float(width))
+    assert "".join(lines).replace(" ", "") == text.replace(" ", "")
+    assert not any(line.startswith(("，", "）", "：")) for line in lines)
+    if width > 60:  # T/CCES is wider than less
+        assert sum(line.count("mm") for line in lines) == 3
+
+
 def page_texts(path: Path) -> list[str]:
     return [re.sub(r"\s+", "", page.extract_text()) for page in pypdf.PdfReader(path).pages]
 
