@@ -7,6 +7,7 @@ from typing import Any
 import pypdf
 import pytest
 
+from aadm_workbench.report.pages.html import html_text
 from aadm_workbench.report.pages.pdf import write_pdf
 from aadm_workbench.report.pages.pdf_text import lines_of, printable, width_of
 from tests.report.checked_floor import HOSTILE
@@ -145,3 +146,15 @@ def test_columns_without_measurements_share_pages(floor: dict[str, Any], tmp_pat
     begins = {entry.title: reader.get_destination_page_number(entry) for entry in entries}
     assert len({begins[f"E-{number}"] for number in range(8)}) == 1
     assert begins["E-0"] < begins["C-2"] < begins["C-1"]
+
+
+def test_chinese_pages_have_chinese_colons(floor: dict[str, Any], tmp_path: Path) -> None:
+    """No half-width colon behind a Chinese word, in what this product says itself; names of people stay."""
+    floor["job"]["name"] = floor["capture"]["operator"] = "N"
+    write_pdf(typed(floor), tmp_path / "report.pdf", "zh")
+    shown = {"report.pdf": text_of(tmp_path / "report.pdf")}
+    shown["report.html"] = re.sub(
+        r"<(script|style).*?</\1>|<[^>]*>", "", html_text(typed(floor), "zh"), flags=re.DOTALL
+    )
+    for name, text in shown.items():
+        assert re.findall(r"[\u4e00-\u9fff]:.{0,9}", text) == [], name
