@@ -62,7 +62,7 @@ class Addition:
         self._radians = opened.radians
         self._taken = {found.decode() for found in _OURS_ALREADY.findall(text.content)}
         self._known: dict[tuple[object, ...], int] = {}
-        # By name, measure and type, then by value: a floor has half a million, and each key of its own is a tenth of them.
+        # By name, measure and type, then by value: a floor has half a million, too many for a key of each.
         self._properties: dict[tuple[str, str, str], dict[Scalar, int]] = {}
         self._history = self._owner_history()
 
