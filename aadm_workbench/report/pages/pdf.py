@@ -17,7 +17,7 @@ from aadm_workbench.report.column_view import column_notes
 from aadm_workbench.report.drawing.mould import mould_sketch
 from aadm_workbench.report.drawing.plan import floor_plans
 from aadm_workbench.report.findings import Finding, findings
-from aadm_workbench.report.hoist import headline
+from aadm_workbench.report.hoist import headline, worst_state
 from aadm_workbench.report.pages.crew import crew_advice, in_steps
 from aadm_workbench.report.pages.pdf_canvas import A4, MM, end_page, pages, write
 from aadm_workbench.report.pages.pdf_column import column_parts
@@ -117,9 +117,8 @@ def _front(report: JobReport, found: list[Finding], title: str, language: Langua
     said = " · ".join(told(_named(key), value).in_language(language) for key, value in report.capture.items() if value)
     limits = profile_words(report.profile.name, report.profile.title).in_language(language)
     yield paragraph(" · ".join(part for part in (said, limits) if part), WIDTH, 8.0, colour=FAINT, after=8.0)
-    bad = any(finding.hoist.state == "no" for finding in found)
-    said = headline(report).in_language(language)
-    yield paragraph(said, WIDTH, 20.0, bold=True, colour=COLOUR["fail" if bad else "pass"], after=2.0)
+    colour = {"no": COLOUR["fail"], "not_yet": COLOUR["not_measured"], "yes": COLOUR["pass"]}[worst_state(report)]
+    yield paragraph(headline(report).in_language(language), WIDTH, 20.0, bold=True, colour=colour, after=2.0)
     names = ("checked_by", "signature", "date_signed")
     yield fields([phrase(f"ui.{name}").in_language(language) for name in names], WIDTH)
     for finding in found:
