@@ -22,6 +22,10 @@ SENTENCES: dict[str, Sentence] = {
         "{sleeve}-{rebar}: {distance_mm:.2f} mm, u = {u_mm:.2f} mm, is too close to the {clause}",
         "{sleeve}-{rebar}：{distance_mm:.2f} mm，u = {u_mm:.2f} mm，过于接近{clause}",
     ),
+    "hoisting.closed": Sentence(
+        "{labels:and} closed, in plain sight: take the tape, cap or mortar off and take a new frame",
+        "{labels:and} 清楚可见但被封住：请清除胶带、盖帽或砂浆后重新拍摄",
+    ),
     "hoisting.decides": Sentence("{label} decides where the column goes, and is not seen", "{label} 决定移动而未见到"),
     "hoisting.empty": Sentence(
         "the frame is empty: it holds too few points to show a column",
@@ -72,6 +76,10 @@ SENTENCES: dict[str, Sentence] = {
     "hoisting.look_again": Sentence(
         "{labels} not seen: what is only inferred does not pass, look from another corner",
         "未见到 {labels}：仅靠推断不能判为合格，请从另一角拍摄",
+    ),
+    "hoisting.missing": Sentence(
+        "{labels:and} not there: the frame shows what lies behind its place",
+        "{labels:and} 不在原处：画面中其位置后方清楚可见",
     ),
     "hoisting.moved": Sentence("{label} moved {moved_mm:.1f} mm", "{label} 移动了 {moved_mm:.1f} mm"),
     "hoisting.moved_since": Sentence("{points} since the scan from before hoisting", "{points}（与吊装前的扫描相比）"),
