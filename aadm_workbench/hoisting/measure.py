@@ -213,6 +213,7 @@ def _measured(
     half = why_half(shown)
     unlike = why_not_foot(found.face, foot, column.diameter_mm(Kind.SLEEVE))
     unlike = unlike or why_not_bars(frame, hung, found.bars, matched, column.diameter_mm(Kind.REBAR))
+    unlike = unlike or (Reason("hoisting.slid") if matched.slid else "")
     if unlike:
         return unmeasured(scan, design, METHOD, half or unlike)
     measured = report_pairs(scan, frame, design, hung, matched.orientation, settings.profile, settings.decision, half)

@@ -92,3 +92,15 @@ def test_what_went_missing_after_an_earlier_frame_does_not_pass_by_that(kind: st
     assert again is not None
     assert not pair(joint).seen
     assert pair(again).seen, "the tape was taken off"
+
+
+def test_a_row_that_is_not_seen_whole_is_not_named_by_chance() -> None:
+    """Six sleeves of a wall, of which five are seen: laid a pitch aside, every pair was 200 mm off, and sure."""
+    places = np.array([(-500.0 + 200.0 * k, 0.0) for k in range(6)])
+    wall = rays.column(places, sleeve_mm=36.0, bar_mm=22.0, size_mm=(1200.0, 200.0))
+    scene = rays.built(wall, np.random.default_rng(1), (2.0, 1.0, 100.0, 0.0))
+    scan = rays.shot(scene, rays.stand(scene, NEAR, 700.0), np.random.default_rng(3))
+    found = measure_hoisting(scan, wall, near=NEAR)
+    assert found.report.verdict is Verdict.NOT_MEASURED
+    assert "not seen whole" in found.report.reasons[0]
+    assert "未全部见到" in in_both_languages(found.report.reasons[0]).zh
