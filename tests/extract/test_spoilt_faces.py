@@ -9,7 +9,7 @@ import pytest
 
 from aadm_workbench.extract.sleeves import extract_sleeves
 from aadm_workbench.model import Array, Scan
-from tests.extract.spoilt_face import SpoiltFoot, dish, grooves, scanned, true_points, with_slips
+from tests.extract.spoilt_face import SpoiltFoot, dish, grooves, mixing, scanned, true_points, with_slips
 
 PLACES = np.array([(-75.0, -45.0), (0.0, -45.0), (75.0, -45.0), (-75.0, 45.0), (0.0, 45.0), (75.0, 45.0)])
 FOOT = SpoiltFoot(PLACES, 18.0)
@@ -81,3 +81,21 @@ def test_keys_up_to_the_mouths_are_neither_mouths_nor_walls(period_mm: float, de
     off, ghosts = misses_mm(scanned(foot, 1000.0, np.random.default_rng(7)), foot, 1000.0)
     assert off.max() < 0.6
     assert ghosts == 0
+
+
+@pytest.mark.parametrize("mixes", [False, True])
+@pytest.mark.parametrize("share", [0.1, 0.4])
+def test_tape_over_a_part_of_a_mouth_moves_it_no_farther_than_is_said(share: float, mixes: bool) -> None:
+    rng = np.random.default_rng([8, mixes])
+    foot = replace(FOOT, taped={0: (0.3, share), 2: (2.1, share), 5: (4.4, share)})
+    scan = scanned(foot, 1100.0, rng)
+    scan = mixing(scan, foot, 1100.0, rng) if mixes else scan
+    found = extract_sleeves(scan, 2.0 * foot.radius, np.random.default_rng(3))
+    true = true_points(foot, 1100.0)
+    assert len(found.points) >= 5
+    for point in found.points:
+        off = (true - point.centre)[np.hypot(*(true - point.centre)[:, :2].T).argmin(), :2]
+        assert np.hypot(*off) < 0.4
+        assert point.covariance is not None
+        assert off @ np.linalg.solve(point.covariance[:2, :2], off) < 13.8  # one in a thousand
+        assert abs(point.diameter_mm - 2.0 * foot.radius) < 0.4
