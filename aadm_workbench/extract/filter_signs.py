@@ -123,7 +123,7 @@ def _ramps(height: FloatArray, in_air: BoolArray, step: int) -> IntArray:
     least_mm = max(_FALL_MM[0], _FALL_SIGMAS * _noise_mm(fall[1, ::_SOME] - fall[0, ::_SOME]))
     fall = np.where(fall[1] < 0, -fall, fall)
     low, high = fall.min(axis=0), fall.max(axis=0)
-    return at[(low > least_mm) & (high < _FALL_MM[1]) & (high < _EVEN * low)]
+    return np.asarray(at[(low > least_mm) & (high < _FALL_MM[1]) & (high < _EVEN * low)])
 
 
 def _noise_mm(bend: FloatArray) -> float:
