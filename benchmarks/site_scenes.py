@@ -105,8 +105,8 @@ def rare_pattern(rng: np.random.Generator) -> Pattern:
     step_mm = min(float(rng.uniform(2.0, 3.0)) * sleeve_mm, 2 * _LARGEST_HALF_MM / count)
     apart_mm = float(rng.uniform(1.6, 2.5)) * sleeve_mm
     row = np.array([(k * step_mm, 0.0) for k in range(count)])
-    beside = row + (0.0, apart_mm)
-    staggered = beside[:-1] + (step_mm / 2.0, 0.0)
+    beside = row + np.array([0.0, apart_mm])
+    staggered = beside[:-1] + np.array([step_mm / 2.0, 0.0])
     order = rng.integers(3)
     places = row if order == 0 else np.vstack([row, beside if order == 1 else staggered])
     return _pattern(places, sleeve_mm, bar_mm, count, rng)
