@@ -244,7 +244,15 @@ def _measured(
         **learned,
     }
     return Extraction(
-        Kind.SLEEVE, "refined", points, face, -face.normal, "foot face", quality=quality, complete=signs.complete
+        Kind.SLEEVE,
+        "refined",
+        points,
+        face,
+        -face.normal,
+        "foot face",
+        quality=quality,
+        complete=signs.complete,
+        noise_seen=layer.flat,
     )
 
 
