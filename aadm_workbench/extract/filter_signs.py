@@ -30,6 +30,8 @@ _OFF_WALL_MM, _OFF_LEAN = 2.5, 0.08  # ribs and chamfers stay nearer to a wall; 
 _BELOW_MM = 3.0  # of the surface that a feature lies in
 _WITHIN_MM = 1.5  # of it, where its noise is looked at
 _OWN_NOISE = 0.55  # noise of which half is shared over a pixel and more comes to 0.7, a median of three to 0.5
+# over four pixels: 0.49 and more without a filter, on both cameras; a mean or a median over a window has a quarter
+_FAR, _FAR_NOISE = 4, 0.4
 # relative variance of a mean square times the number of differences: 2 of normal noise, 1.5 once the largest are cut
 # off, twice that as neighbouring differences share two points of three; 95 %
 _FINE_VARIANCE, _FINE_SIGMAS = 3.0, 2.0
@@ -54,8 +56,9 @@ class FilterSigns:
     ``ramps``: places of even fall through the air, for each pixel of the features' outlines; ``usual_ramps`` those of
     a feature in the middle: the side of one that is thicker than it should be looks like a ramp. ``fine``: second
     differences of heights over one pixel against those over two, squared; 1 for noise that every pixel has of its own,
-    0 for what is smooth; ``fine_u`` is its standard uncertainty. ``lost``: share of pixels without a point among such
-    with points on all sides; ``looked_at``: how many these are.
+    0 for what is smooth; ``far`` against those over four: a window that is wider than one pixel leaves steps, which are
+    half of what they are over two. ``fine_u`` and ``far_u`` are standard uncertainties. ``lost``: share of pixels
+    without a point among such with points on all sides; ``looked_at``: how many these are.
     """
 
     ramps: float = 0.0
@@ -64,6 +67,8 @@ class FilterSigns:
     looked_at: int = 0
     fine_u: float = 0.0
     usual_ramps: float = 0.0
+    far: float = 1.0
+    far_u: float = 0.0
 
     @property
     def complete(self) -> bool:
@@ -72,7 +77,8 @@ class FilterSigns:
 
     def reason(self, *, blurred: bool) -> str:
         """Why nothing is to be measured in such a scan; empty where neither a filter shows nor a blur."""
-        if self.fine + _FINE_SIGMAS * self.fine_u < _OWN_NOISE:
+        smooth = self.fine + _FINE_SIGMAS * self.fine_u < _OWN_NOISE
+        if smooth or self.far + _FINE_SIGMAS * self.far_u < _FAR_NOISE:
             return SMOOTHED
         if self.lost < _UNLOST and self.ramps > (_RAMPED_COMPLETE if self.complete else _RAMPED_UNLOST):
             return GAPS_FILLED
@@ -102,13 +108,19 @@ def filter_signs(
     each = np.bincount(np.concatenate(runs), minlength=len(centre)) / (2.0 * np.pi * radius_mm / pitch_mm)
     ramps, usual = float(each.mean()), float(np.median(each))
     rows = slice(None, None, _EVERY)
-    first, second = (_roughness(height[:, rows], on_surface[:, rows], step) if flat else None for step in (1, 2))
-    lost, looked_at = _lost(height)
-    if first is None or second is None or not second[0]:
-        return FilterSigns(ramps, 1.0, lost, looked_at, usual_ramps=usual)
-    fine = first[0] / second[0]
-    fine_u = fine * float(np.sqrt(_FINE_VARIANCE / first[1] + _FINE_VARIANCE / second[1]))
-    return FilterSigns(ramps, fine, lost, looked_at, fine_u, usual)
+    first, second, fourth = (
+        _roughness(height[:, rows], on_surface[:, rows], step) if flat else None for step in (1, 2, _FAR)
+    )
+    (fine, fine_u), (far, far_u) = _ratio(first, second), _ratio(first, fourth)
+    return FilterSigns(ramps, fine, *_lost(height), fine_u, usual, far, far_u)
+
+
+def _ratio(one: tuple[float, int] | None, other: tuple[float, int] | None) -> tuple[float, float]:
+    """Of two mean squares of so many, and its standard uncertainty; 1 where one is not known."""
+    if one is None or other is None or not other[0]:
+        return 1.0, 0.0
+    ratio = one[0] / other[0]
+    return ratio, ratio * float(np.sqrt(_FINE_VARIANCE / one[1] + _FINE_VARIANCE / other[1]))
 
 
 def _ramps(height: FloatArray, in_air: BoolArray, step: int) -> IntArray:
