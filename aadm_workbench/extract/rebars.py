@@ -22,6 +22,7 @@ from aadm_workbench.extract.edges.learned_edges import (
     with_learned_discs,
     without_losses,
 )
+from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
 from aadm_workbench.extract.own_tops import TopPlanes, top_planes
@@ -188,6 +189,10 @@ def _measured(
     if leaning is not tops:
         tops, fit = leaning, _fit(leaning, radius_mm, priors)
     fit, dropped_mm = _shifted(fit, tops, lines, bend)
+    own, height = patches.of(tops.kept), planes.of(tops.kept).height(patches.of(tops.kept))
+    rings = rings_dropped(gaps_at_steps(own, height, tops.centre, radius_mm, pitch_mm))
+    # Where rings were dropped edges stand that much inside, however well they go with the size that was looked for.
+    fit = replace(fit, radius_u_mm=max(fit.radius_u_mm, rings * pitch_mm))
     known, lost_mm = known_edges(scan.learned, Kind.REBAR, patches.of(tops.kept).eye, axes_on(level)), 0.0
     if lines is not None and known is not None:
         fit, lost_mm = _drawn_to_discs(fit, lines, known), known.most_lost_mm

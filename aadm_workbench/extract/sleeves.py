@@ -254,6 +254,7 @@ def _measured(
         complete=signs.complete,
         # one ring or two is told by the edges; whether any is, by what lies behind them
         rings=float(min(rings, 1)) if tells_of_rings(gaps) else None,
+        noise_seen=layer.flat,
     )
 
 

@@ -205,7 +205,8 @@ class Extraction:
     ``vertical`` (3,) is the unit vector that is "up along the column", and ``vertical_from`` says what
     gave it. ``quality`` holds plain numbers for the report. ``complete``: about the points no pixel is lost, where
     cameras lose some: as if what was not measured had been filled in. ``rings`` is how many rings of pixels the camera
-    was seen to drop at steps, of sleeves at most one; None where nothing tells.
+    was seen to drop at steps, of sleeves at most one; None where nothing tells. Without ``noise_seen`` the surface is
+    too rough for its noise to tell whether it was smoothed.
     """
 
     kind: Kind
@@ -219,6 +220,7 @@ class Extraction:
     reason: str = ""
     complete: bool = False
     rings: float | None = None
+    noise_seen: bool = True
 
 
 @dataclass(frozen=True, slots=True)

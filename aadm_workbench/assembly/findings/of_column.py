@@ -34,9 +34,10 @@ from aadm_workbench.model import (
 
 _SAMPLE = 10_000  # points: a look, not a measurement
 
-TAKES_BACK = ("scale_differs", "other_column", "swapped", "gaps_filled")
+TAKES_BACK = ("scale_differs", "other_column", "swapped", "gaps_filled", "smoothed")
 """A part in a hundred moves a point at the corner of a column by millimetres, whoever is to blame; and some points of
-another column, or of the other group, lie on this one by chance; how far filled edges were moved nobody knows."""
+another column, or of the other group, lie on this one by chance; how far filled or smoothed edges were moved nobody
+knows."""
 
 OPENS_TRIAL = "common_lean"
 """Of all sleeves and of all bars: places within a plane are as they were; leans, and with them the room in the sleeves,

@@ -79,13 +79,17 @@ def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Find
 def filter_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
     """A finding where a group was not measured because a filter spoilt its scan.
 
-    Where holes were filled in one scan of a column, another one in which no pixel is lost was filled, too.
+    Where holes were filled in one scan of a column, another one in which no pixel is lost was filled, too; where one
+    was smoothed, so was another one that is too rough to show it.
     """
-    filled = any(GAPS_FILLED.code in codes_of(group.extraction.reason) for group in groups)
+    filled, smoothed = (
+        any(reason.code in codes_of(group.extraction.reason) for group in groups) for reason in (GAPS_FILLED, SMOOTHED)
+    )
     for group in groups:
         told = codes_of(group.extraction.reason)
         for filtered, code in _FILTERS.items():
             also = filtered == GAPS_FILLED.code and filled and group.extraction.complete
+            also |= filtered == SMOOTHED.code and smoothed and not group.extraction.noise_seen
             if filtered in told or also:
                 yield make_finding(code, [group.kind.plural], group=group.kind.plural)
 
