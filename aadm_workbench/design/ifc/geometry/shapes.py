@@ -35,7 +35,7 @@ _SAME_MM = 1e-4
 
 
 class _Source(NamedTuple):
-    """An IfcRepresentationMap: number of what it shows, its items and origin; ``plain`` where none of them is mapped."""
+    """An IfcRepresentationMap: number of what it shows, items and origin; ``plain`` where none of them is mapped."""
 
     number: int
     items: Sequence[Any]
