@@ -41,12 +41,12 @@ _LEVEL = 9  # a seventh more time than the usual one, once for each column that 
 _SIGNS = np.frombuffer(
     b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;<=>?@^_`{|}~", dtype=np.uint8
 )
-"""Of base 85, as RFC 1924 and Python's ``base64.b85encode`` have it: four bytes in five signs, each one byte in JSON."""
+"""Of base 85, as RFC 1924 and ``base64.b85encode`` have it: four bytes in five signs, each of them one byte in JSON."""
 
-_NO_SIGN = 255
-_DIGITS = np.full(256, _NO_SIGN, dtype=np.uint8)
+_NO_SIGN = 255  # no digit is as large
+_DIGITS = np.full(256, _NO_SIGN, dtype=np.uint8)  # one for each byte
 _DIGITS[_SIGNS] = np.arange(len(_SIGNS))
-_PLACES = len(_SIGNS) ** np.arange(4, -1, -1)
+_PLACES = len(_SIGNS) ** np.arange(4, -1, -1)  # of five digits, the highest first
 
 
 def pack(text: str) -> str:
