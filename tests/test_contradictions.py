@@ -155,10 +155,19 @@ def test_lost_edges_make_no_bar_an_odd_one_and_hide_none(core_mm: float | None, 
     assert [finding.about for finding in findings] == named
 
 
-@pytest.mark.parametrize("left_mm", [6.0, 45.0])
+def cut_off(left_mm: float) -> Scan:
+    return rescanned(lambda k, bar: replace(bar, top=bar.top - (LAB.exposed - left_mm) * (k == 4)))
+
+
+def test_what_hardly_stands_out_of_the_floor_is_no_bar() -> None:
+    report = checked(scans()[0], cut_off(6.0))
+    assert (report.verdict, report.goes_on) == (Verdict.NOT_MEASURED, Verdict.NOT_MEASURED)
+    assert report.reasons[0].startswith("R5 not measured: no bar stands there")
+
+
+@pytest.mark.parametrize("left_mm", [25.0, 45.0])
 def test_a_bar_that_was_cut_off_holds_the_column_back(left_mm: float) -> None:
-    cut = rescanned(lambda k, bar: replace(bar, top=bar.top - (LAB.exposed - left_mm) * (k == 4)))
-    report = checked(scans()[0], cut)
+    report = checked(scans()[0], cut_off(left_mm))
     assert only_code(report) == "exposed_length_differs"
     assert report.findings[0].about == ("R5",)
     assert report.verdict is not Verdict.PASS

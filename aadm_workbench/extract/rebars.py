@@ -30,6 +30,7 @@ from aadm_workbench.extract.plane import axes_on, found_points, in_plane, seen_l
 from aadm_workbench.extract.pooled.evidence import BracketLaw, RimLaw, Rims, Walls
 from aadm_workbench.extract.pooled.fit import (
     BAR_PRIORS,
+    RADII_REACH_MM,
     CircleEvidence,
     Evidence,
     PooledFit,
@@ -48,6 +49,7 @@ _START_DEPTH_MM = 15.0  # of a side below its top: bars that lean as usual move 
 _RADIUS_MISFIT = 0.15  # relative: bars of the next size are measured, too, and then told to be of another
 # of an outline that lies on its circle: burrs and breaks leave more; a choice: ±30 % moves nothing on sound scans
 _SOUND_SHARE = 0.55
+_OUT_OF_ROUND = 0.2  # of the radius: what is farther off its circle, lost rings or not, lies on another
 _SHAPE_U_PITCHES = 0.08, 0.16  # what ribs leave of the departure from a circle: edge held from both sides, or from one
 _FIT_SHARE = 0.65  # the fit's own covariance has neighbours share more of their errors than they do
 # of an outline that ribs and strays put inside; what a top that is spoilt all round may be off (a choice: ±30 % moves
@@ -68,6 +70,7 @@ _TURNING_PRIORS = replace(BAR_PRIORS, lean=0.1)  # before the vertical is known 
 # of the size that was looked for: cores have 0.94 to 1.03 of it, outlines a few hundredths more or less; each look
 # finds more of what is larger than the last one took it for
 _OF_SIZE, _SIZES_TRIED = (0.9, 1.06), 3
+_NEAR_THE_REACH = 0.75  # of the search for radii: what the fit brings back from its edge
 _NEAR_DISC_MM = 1.5  # between a disc and the fit: filters and ribs move one by less, a hidden top by more
 # a patch reaches 14 mm beyond its bar, and what passes a top is looked at 6 mm beyond it
 _ASIDE_MM = 4.0
@@ -82,6 +85,7 @@ class _Bars:
     fit: PooledFit
     points: tuple[AssemblyPoint, ...]
     complete: bool
+    lost_mm: float
 
 
 def extract_rebars(
@@ -127,7 +131,9 @@ def extract_rebars(
 
 def _is_of_size(bars: _Bars, diameter_mm: float) -> bool:
     low, high = _OF_SIZE
-    return low < 2.0 * float(median(bars.fit.outline_radius)) / diameter_mm < high
+    radius_mm = float(median(bars.fit.outline_radius))
+    at_the_edge = abs(radius_mm - diameter_mm / 2) > _NEAR_THE_REACH * RADII_REACH_MM
+    return low < 2.0 * radius_mm / diameter_mm < high and not at_the_edge
 
 
 def _turned_to_the_bars(
@@ -181,11 +187,11 @@ def _measured(
     leaning = with_sides_that_lean(tops, patches, planes, fit.centre, radius_mm)
     if leaning is not tops:
         tops, fit = leaning, _fit(leaning, radius_mm, priors)
-    fit = _shifted(fit, tops, lines, bend)
+    fit, dropped_mm = _shifted(fit, tops, lines, bend)
     known, lost_mm = known_edges(scan.learned, Kind.REBAR, patches.of(tops.kept).eye, axes_on(level)), 0.0
     if lines is not None and known is not None:
         fit, lost_mm = _drawn_to_discs(fit, lines, known), known.most_lost_mm
-    return _Bars(tops, fit, _points(tops, fit, priors.lean, level, lost_mm), signs.complete)
+    return _Bars(tops, fit, _points(tops, fit, priors.lean, level, lost_mm), signs.complete, dropped_mm)
 
 
 def _own_levels(scan: Scan, sample: Thinned, level: Plane, centres: Array, radius_mm: float) -> Array:
@@ -212,14 +218,15 @@ def _bend(lines: SightLines | None, tops: Tops, radius_mm: float) -> Bend:
     return bend_at_edges(lines, seen.centre, seen.radius, pitch_mm, -1.0)
 
 
-def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -> PooledFit:
-    """The fit without the shift that all its centres share, as far as that is known."""
+def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -> tuple[PooledFit, float]:
+    """The fit without the shift that all its centres share, as far as known, and how wide the lost rings are, mm."""
     if lines is None:
-        return fit
+        return fit, 0.0
     eroded = eroded_rings(tops.beyond, tops.rims, fit.centre, bend.pitch_mm)
     shift = shift_of_tops(lines.slope, bend, eroded)
     covariance = _FIT_SHARE**2 * fit.covariance + shift.covariance
-    return replace(fit, centre=fit.centre - shift.mean, covariance=covariance, radius_u_mm=shift.radius_u_mm)
+    shifted = replace(fit, centre=fit.centre - shift.mean, covariance=covariance, radius_u_mm=shift.radius_u_mm)
+    return shifted, eroded * bend.pitch_mm
 
 
 def _drawn_to_discs(fit: PooledFit, lines: SightLines, known: KnownEdges) -> PooledFit:
@@ -252,9 +259,12 @@ def _nothing(reason: str) -> Extraction:
 
 def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extraction:
     tops, fit = bars.tops, bars.fit
+    # where a filter drops rings, it does so on the side of the step alone: outlines are that much out of round
     within_mm = max(AGREES_MM, 2.0 * float(median(tops.pitch_mm)))
+    within_mm = max(within_mm, min(within_mm + bars.lost_mm, _OUT_OF_ROUND * diameter_mm / 2))
     agree = agreeing_shares(tops.rims, fit.centre, fit.outline_radius, within_mm)
-    right = np.abs(2 * fit.outline_radius / diameter_mm - 1.0) < _RADIUS_MISFIT
+    off = 2 * fit.outline_radius / diameter_mm - 1.0
+    right = (off < _RADIUS_MISFIT) & (off > -_RADIUS_MISFIT - 2 * bars.lost_mm / diameter_mm)
     sound = np.flatnonzero(right & (agree > _SOUND_SHARE)).tolist()
     points = tuple(bars.points[k] for k in sound if _stands_out(bars.points[k], standing.floor))
     if not points:

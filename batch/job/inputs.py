@@ -13,6 +13,7 @@ from pathlib import Path
 
 import aadm_workbench
 from aadm_workbench.inspection.tasks import ColumnTask, tool_entry
+from aadm_workbench.model import Reason
 from aadm_workbench.scan.file import LARGEST_FILE_BYTES
 
 from ..runner.exact_json import to_exact_json
@@ -40,7 +41,7 @@ def difference(ours: dict[str, str], theirs: dict[str, str]) -> str:
     names = [name for name in {**ours, **theirs} if ours.get(name) != theirs.get(name) and name != "code"]
     said = [f"{name} {theirs.get(name, 'missing')} instead of {ours.get(name, 'none')}" for name in names]
     if not said and ours != theirs:
-        return "other code under the same version of aadm"
+        return Reason("run.other_code")
     return ", ".join(re.sub(r"^version ", "aadm ", text) for text in said)
 
 

@@ -23,7 +23,7 @@ from urllib.parse import urlsplit
 
 from aadm_workbench.errors import JobError, MissingDependencyError
 
-from .local_workers import signal_words
+from .local_workers import exit_words, signal_words
 
 _CONNECT_S = 10.0  # a scheduler that is there answers at once: a slow network has seconds
 _LOGGERS = ("distributed", "distributed.client", "tornado", "tornado.application")
@@ -205,7 +205,7 @@ def exit_in_words(message: str, pid: int) -> str | None:
     found = re.search(rf"\bprocess {pid} (?:was killed by signal (\d+)|exited with status (-?\d+))", message)
     if found is None:
         return None
-    return signal_words(int(found[1])) if found[1] else f"ended with status {found[2]}"
+    return signal_words(int(found[1])) if found[1] else exit_words(int(found[2]))
 
 
 def _kill(pid: int) -> None:

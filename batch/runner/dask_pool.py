@@ -17,6 +17,7 @@ from time import monotonic, sleep
 from typing import Any
 
 from aadm_workbench.errors import AadmError, JobError
+from aadm_workbench.model import Reason
 
 from ..job.inputs import ShippedFile
 from .cluster import GONE, Cluster
@@ -202,8 +203,8 @@ class DaskPool:
         what = f"{type(error).__name__}: {error}".splitlines()[0]
         place, worker.place, worker.future, worker.input = worker.place, None, None, None
         if place is not None:
-            return [Ended(place, death=Death(f"stopped by Dask ({what})"))]
-        self._refuse(worker, f"it cannot run aadm ({what}); install there what is installed here")
+            return [Ended(place, death=Death(Reason("run.stopped_by_dask", what=what)))]
+        self._refuse(worker, Reason("run.cannot_run", what=what))
         return []
 
     def _met(self, worker: _Worker, known: Introduction) -> None:
@@ -216,7 +217,7 @@ class DaskPool:
 
     def _refuse(self, worker: _Worker, why: str) -> None:
         worker.refused = True
-        self._refusal = f"the worker {worker.address} gets no work: {why}"
+        self._refusal = Reason("run.gets_no_work", name=worker.address, why=why)
         self._say(self._refusal)
 
     def _look(self) -> list[Ended]:
@@ -261,7 +262,7 @@ class DaskPool:
             self._log(f"{worker.address}: {line}")
         return death_of(
             written,
-            lambda: self._exit(worker, known) or "killed (nobody there says how)",
+            lambda: self._exit(worker, known) or Reason("run.killed_unseen"),
             self._terms,
             is_overdue=self._overdue(worker, 0.0),
         )

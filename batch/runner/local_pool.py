@@ -11,6 +11,7 @@ from time import monotonic, sleep
 from typing import Any
 
 from aadm_workbench.errors import AadmError, JobError
+from aadm_workbench.model import Reason
 
 from .engine import Death, Ended
 from .local_workers import LocalProcess, LocalWorkers
@@ -151,7 +152,7 @@ class LocalPool:
         if isinstance(said, Failed):
             if place is None:
                 raise AadmError.because("run.no_process", why=said.what)
-            return [Ended(place, death=Death(f"stopped ({said.what})"))]
+            return [Ended(place, death=Death(Reason("run.stopped", what=said.what)))]
         done: Done = said
         for line in done.written.splitlines():
             self._log(f"{worker.name}: {line}")
@@ -197,7 +198,7 @@ class LocalPool:
             if monotonic() - began > _EXIT_S:
                 self._processes.kill(number)
             sleep(0.01)
-        return words or "killed (and does not end)"
+        return words or Reason("run.killed_in_vain")
 
     def _is_overdue(self, worker: _Worker, grace_s: float) -> bool:
         return worker.place is not None and self._terms.is_over(monotonic() - worker.began - grace_s)

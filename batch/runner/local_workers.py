@@ -12,6 +12,7 @@ from pathlib import Path
 from time import monotonic
 
 from aadm_workbench.errors import AadmError
+from aadm_workbench.model import Reason
 from aadm_workbench.own_files import create
 
 from .machine import load_psutil
@@ -76,12 +77,12 @@ class LocalWorkers:
                 self._end_if_too_large(worker)
                 continue
             del self.running[number]
-            self._ended[number] = _in_words(code) + self._why(number)
+            self._ended[number] = self._in_words(number, code)
             is_false_start = monotonic() - worker.began < _START_S and code != -getattr(signal, "SIGKILL", 0)
             self._false_starts = self._false_starts + 1 if is_false_start else 0
             self._last_words = last_words(read_log(str(worker.log))) or self._last_words
         if self._false_starts > MOST_FALSE_STARTS:
-            why = self._last_words or "each ended at once"
+            why = self._last_words or Reason("run.ended_at_once")
             raise AadmError.because("run.no_process", why=why)
         while len(self.running) < self._processes:
             self._start()
@@ -129,17 +130,19 @@ class LocalWorkers:
                 self._too_large.add(worker.number)
                 worker.process.kill()
 
-    def _why(self, number: int) -> str:
-        return ", because it held more memory than it may (--memory-limit)" if number in self._too_large else ""
+    def _in_words(self, number: int, code: int) -> Reason:
+        how = exit_words(code)
+        return Reason("run.too_large", how=how) if number in self._too_large else how
 
 
-def _in_words(code: int) -> str:
-    return signal_words(-code) if code < 0 else f"ended with status {code}"
+def exit_words(code: int) -> Reason:
+    """``ended with status 3``; of a negative number, as Python has it, what signal killed it."""
+    return signal_words(-code) if code < 0 else Reason("run.ended", code=code)
 
 
-def signal_words(number: int) -> str:
+def signal_words(number: int) -> Reason:
     """``killed by signal 11 (SIGSEGV)``."""
     try:
-        return f"killed by signal {number} ({signal.Signals(number).name})"
+        return Reason("run.killed", signal=f"{number} ({signal.Signals(number).name})")
     except ValueError:
-        return f"killed by signal {number}"
+        return Reason("run.killed", signal=str(number))

@@ -15,6 +15,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import IO, Any
 
+from aadm_workbench.model import Reason
+
 from ..job.inputs import ShippedFile, content_hash, difference, program_versions, unpack
 from ..switches import is_in_one_thread
 from .engine import Death
@@ -121,8 +123,7 @@ def introduce(terms: Terms) -> Introduction:
 def death_of(written: str, how: Callable[[], str], terms: Terms, *, is_overdue: bool) -> Death:
     """What a worker died of, by what it wrote last; ``how`` its process ended is asked where that says nothing."""
     if TOO_LONG in written or is_overdue:
-        words = f"ended after {terms.seconds:g} s, the time limit for one column (--time-limit)"
-        return Death(words, is_final=True)
+        return Death(Reason("run.too_long", seconds=terms.seconds), is_final=True)
     return Death(how(), last_words(written))
 
 
@@ -130,12 +131,13 @@ def objection(known: Introduction, terms: Terms, *, ships: bool) -> str:
     """Why a worker may get no work, and what to do about it; empty where it may."""
     different = difference(program_versions(), known.versions)
     if different:
-        return f"it has {different}; install the same version there and here"
+        return Reason("run.other_versions", different=different)
     if not known.one_thread:
-        return "it calculates in several threads; start it with its nanny, as dask worker does"
+        return Reason("run.several_threads")
     if not known.sees_job and not ships:
-        what = terms.folder if terms.job_file is None else f"{terms.job_file} as it is here"
-        return f"it does not see {what}; share that folder with it, or add --ship-inputs"
+        if terms.job_file is None:
+            return Reason("run.folder_unseen", folder=str(terms.folder))
+        return Reason("run.job_unseen", file=str(terms.job_file))
     return ""
 
 

@@ -107,8 +107,8 @@ def test_one_frame_measures_alike_from_its_file_and_from_the_camera(job: Path) -
         other_file = {"source": "", "sha256": ""}
         assert {**frame, **other_file} == {**tiff, **other_file}
     for pair, other in zip(tiff["pairs"], c16["pairs"], strict=True):
-        # steps of 0.02 mm are noise of 0.006 mm
-        assert other["distance_mm"] == pytest.approx(pair["distance_mm"], abs=0.025)
+        # steps of 0.02 mm are noise of 0.006 mm: what it moves stays well within what is stated of the frame
+        assert other["distance_mm"] == pytest.approx(pair["distance_mm"], abs=0.4 * pair["u_mm"])
     depths = [read_scan(folder / name).points[..., 2] for name in ("abc", "c16")]
     both = np.isfinite(depths[0]) & np.isfinite(depths[1])
     assert both.mean() > 0.2

@@ -4,6 +4,7 @@ import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from hashlib import sha256
 from typing import Any
 from unittest import mock
 
@@ -75,7 +76,8 @@ def checked(case: Case) -> ColumnReport:
         named = {"grid": design.grid, "storey": design.storey, "T_model_column": design.T_model_column}
         reason = (f"scans/{case.name}.tiff: ends or breaks off within its header (12 bytes); copy it again",)
         return ColumnReport(case.name, Verdict.ERROR, Verdict.NOT_ASSESSED, reason, **named)
-    scans = {kind: (Scan(np.zeros((9, 3)), f"{case.name}-{kind.plural}.ply", "a" * 64),) for kind in case.kinds}
+    files = {kind: f"{case.name}-{kind.plural}.ply" for kind in case.kinds}
+    scans = {kind: (Scan(np.zeros((9, 3)), file, sha256(file.encode()).hexdigest()),) for kind, file in files.items()}
     up = {f"{kind.plural}_up_deg": 90.0 for kind in case.kinds}
     given = ColumnScans(scans.get(Kind.SLEEVE, ()), scans.get(Kind.REBAR, ()), **up)
     with mock.patch.object(measure, "extract_sizes", lambda scan, kind, *_, **__: _found(case, kind)):

@@ -137,7 +137,7 @@ def _why_not(X: Array, Y: Array, weights: Array, rank: int) -> str:
     if not (np.isfinite(X).all() and np.isfinite(Y).all()):
         return Reason("assembly.fit_not_finite")
     if weights.shape != (len(X),) or not np.isfinite(weights).all() or (weights < 0).any():
-        return f"weights must be {len(X)} numbers, none negative"
+        return Reason("assembly.fit_weights", count=len(X))
     used = weights > 0
     for points, name in ((X[used], "source"), (Y[used], "target")):
         if len(points) <= rank:

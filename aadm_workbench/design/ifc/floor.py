@@ -16,7 +16,7 @@ from aadm_workbench.design.ifc.geometry.shapes import Shapes, evaluator
 from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc.words import BEAM, COLUMN, NOT_BEAM, REBAR, SLEEVE
 from aadm_workbench.design.recognise.shapes import edges
-from aadm_workbench.model import Array
+from aadm_workbench.model import Array, Reason
 
 _PROXIES = ("IfcBuildingElementProxy", "IfcMember", "IfcElementAssembly")
 """Classes that programs export beams as which they do not know to be beams."""
@@ -115,14 +115,14 @@ def _ends(drawn: Array) -> Array | str:
     lengths_mm = np.linalg.norm(ways, axis=1)
     level = np.abs(ways[:, 2]) <= _LEVEL_SINE * lengths_mm
     if not level.any():
-        return "does not lie: nothing of it is level"
+        return Reason("ifc.beam_not_level")
     along = _forwards(ways[level][int(lengths_mm[level].argmax())])
     corners = drawn.reshape(-1, 3)
     reach = (corners - corners[0]) @ along
     if np.ptp(reach) < np.ptp(corners[:, 2]):
-        return f"does not lie: it is {np.ptp(corners[:, 2]):.0f} mm high and {np.ptp(reach):.0f} mm long"
+        return Reason("ifc.beam_upright", high_mm=np.ptp(corners[:, 2]), long_mm=np.ptp(reach))
     if np.ptp(reach) < _SHORTEST_MM:
-        return f"is {np.ptp(reach):.0f} mm long: no beam between two columns"
+        return Reason("ifc.beam_short", long_mm=np.ptp(reach))
     ends = (corners[reach < reach.min() + _AT_END_MM], corners[reach > reach.max() - _AT_END_MM])
     return np.array([_lower_middle(face, along) for face in ends])
 

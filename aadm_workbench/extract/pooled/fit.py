@@ -41,8 +41,13 @@ _SETTLED_MM = 4e-3  # a fifth of what the best camera errs by (docs/method.md, 2
 _POINTS_MAX = 30  # of each kind and feature
 # first centres are right within a millimetre, at a fourth of it each; then the steps that are promised
 _SHIFTS_MM = np.arange(-0.9, 0.91, 0.225), np.arange(-0.15, 0.16, 0.05)
-# a core may be that much smaller or larger than nominal; then the same steps
-_RADII_MM = np.arange(-1.0, 1.01, 0.25), np.arange(-0.15, 0.16, 0.05)
+RADII_REACH_MM = 1.0
+"""How far from the radius that is looked for :func:`likeliest_circles` looks; what is farther ends at its edge.
+
+A core may be that much smaller or larger than nominal.
+"""
+# the same steps as of centres
+_RADII_MM = np.arange(-RADII_REACH_MM, RADII_REACH_MM + 0.01, 0.25), np.arange(-0.15, 0.16, 0.05)
 _CORE_PERCENTILE = 25.0  # the lower quartile: ribs only ever add to a radius
 # half of the finest step; as far as rays that pass a top are looked for; past the end of any table
 _TABLE_STEP_MM, _TABLE_REACH_MM, _FAR = 0.025, 6.0, 1_000_000

@@ -35,6 +35,11 @@ def bent_face(frame: HoistingFrame, face: FootFace, radius_mm: float) -> FootFac
     if fitted is None:
         return face
     level, residual_mm = fitted
+    # seen flat, walls of mouths may outnumber the face: what they bend has fewer points close to it than the plane
+    near_mm = _BAND_SIGMAS * min(residual_mm, face.residual_mm)
+    off = points[:, 2] - level_terms(points[:, :2]) @ level
+    if (np.abs(off) < near_mm).sum() <= (np.abs(points[:, 2]) < near_mm).sum():
+        return face
     at_mouths = level_terms(face.mouths)
     # the plane of a bent face is that of its mouths: what is left is how it bends
     plane = np.linalg.lstsq(at_mouths[:, :3], at_mouths @ level, rcond=None)[0]

@@ -73,6 +73,7 @@ SENTENCES: dict[str, Sentence] = {
         "{count} points given, a pose in space needs 3",
         "只有 {count} 个点，求空间位姿需要 3 个",
     ),
+    "assembly.fit_weights": Sentence("weights must be {count:d} numbers, none negative", "权重须为 {count:d} 个非负数"),
     "assembly.fit_few_weights": Sentence("only {count} points have a weight", "只有 {count} 个点有权重"),
     "assembly.fit_not_finite": Sentence("a coordinate is not finite", "坐标不是有限数"),
     "assembly.fit_on_line": Sentence("the {name:word} points lie on one line", "{name:word}点在一条直线上"),

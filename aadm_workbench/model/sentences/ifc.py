@@ -5,6 +5,14 @@ from __future__ import annotations
 from aadm_workbench.model.sentences import Sentence
 
 SENTENCES: dict[str, Sentence] = {
+    "ifc.beam_not_level": Sentence("does not lie: nothing of it is level", "不是水平构件：没有任何水平的部分"),
+    "ifc.beam_short": Sentence(
+        "is {long_mm:.0f} mm long: no beam between two columns", "长 {long_mm:.0f} mm：不是两柱之间的梁"
+    ),
+    "ifc.beam_upright": Sentence(
+        "does not lie: it is {high_mm:.0f} mm high and {long_mm:.0f} mm long",
+        "不是水平构件：高 {high_mm:.0f} mm，长 {long_mm:.0f} mm",
+    ),
     "ifc.above_bars": Sentence(
         "its foot is drawn above the tops of its bars: embedded length is not known",
         "其柱底画在钢筋顶之上：不知埋入长度",

@@ -15,6 +15,42 @@ SENTENCES: dict[str, Sentence] = {
         "内部错误（{error}）；--debug 可显示位置",
     ),
     "run.last_words": Sentence("{what}; the last that it wrote: {words}", "{what}；其最后输出：{words}"),
+    "run.cannot_run": Sentence(
+        "it cannot run aadm ({what}); install there what is installed here",
+        "它无法运行 aadm（{what}）；请在那里安装与本机相同的程序",
+    ),
+    "run.ended": Sentence("ended with status {code:d}", "以状态 {code:d} 结束"),
+    "run.ended_at_once": Sentence("each ended at once", "每个都立即结束"),
+    "run.folder_unseen": Sentence(
+        "it does not see {folder}; share that folder with it, or add --ship-inputs",
+        "它看不到 {folder}；请共享该文件夹，或加上 --ship-inputs",
+    ),
+    "run.gets_no_work": Sentence("the worker {name} gets no work: {why}", "工作进程 {name} 不被分配工作：{why}"),
+    "run.job_unseen": Sentence(
+        "it does not see {file} as it is here; share that folder with it, or add --ship-inputs",
+        "它看到的 {file} 与本机不同或不存在；请共享该文件夹，或加上 --ship-inputs",
+    ),
+    "run.killed": Sentence("killed by signal {signal}", "被信号 {signal} 终止"),
+    "run.killed_in_vain": Sentence("killed (and does not end)", "已终止（但仍未结束）"),
+    "run.killed_unseen": Sentence("killed (nobody there says how)", "被终止（那里没有说明原因）"),
+    "run.other_code": Sentence("other code under the same version of aadm", "版本相同而代码不同的 aadm"),
+    "run.other_versions": Sentence(
+        "it has {different}; install the same version there and here", "它装有 {different}；请在两处安装相同的版本"
+    ),
+    "run.several_threads": Sentence(
+        "it calculates in several threads; start it with its nanny, as dask worker does",
+        "它以多个线程计算；请像 dask worker 那样连同其 nanny 一起启动",
+    ),
+    "run.stopped": Sentence("stopped ({what})", "停止（{what}）"),
+    "run.stopped_by_dask": Sentence("stopped by Dask ({what})", "被 Dask 停止（{what}）"),
+    "run.too_large": Sentence(
+        "{how}, because it held more memory than it may (--memory-limit)",
+        "{how}，因为占用的内存超过允许值（--memory-limit）",
+    ),
+    "run.too_long": Sentence(
+        "ended after {seconds:g} s, the time limit for one column (--time-limit)",
+        "在 {seconds:g} s 后结束：这是单根柱的时限（--time-limit）",
+    ),
     "run.no_group": Sentence(
         "the design has no {kind:word}, but the job names a scan of them ({names})",
         "设计中没有{kind:word}，而任务给出了其扫描（{names}）",
@@ -61,6 +97,7 @@ SENTENCES: dict[str, Sentence] = {
         "{file}: results cannot be kept there: {why}",
         "{file}：结果无法保存在那里：{why}",
     ),
+    "run.no_answer": Sentence("its answer makes no sense ({why})", "其应答无法理解（{why}）"),
     "run.no_events": Sentence(
         "{target}: events cannot be written there ({why})", "{target}：无法把事件写到那里（{why}）"
     ),
