@@ -86,6 +86,7 @@ class _Bars:
     points: tuple[AssemblyPoint, ...]
     complete: bool
     lost_mm: float
+    rings: float | None
 
 
 def extract_rebars(
@@ -191,7 +192,8 @@ def _measured(
     known, lost_mm = known_edges(scan.learned, Kind.REBAR, patches.of(tops.kept).eye, axes_on(level)), 0.0
     if lines is not None and known is not None:
         fit, lost_mm = _drawn_to_discs(fit, lines, known), known.most_lost_mm
-    return _Bars(tops, fit, _points(tops, fit, priors.lean, level, lost_mm), signs.complete, dropped_mm)
+    points = _points(tops, fit, priors.lean, level, lost_mm)
+    return _Bars(tops, fit, points, signs.complete, dropped_mm, None if lines is None else dropped_mm / bend.pitch_mm)
 
 
 def _own_levels(scan: Scan, sample: Thinned, level: Plane, centres: Array, radius_mm: float) -> Array:
@@ -284,7 +286,16 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
         "wall_points": int(fit.wall_count.sum()),
     }
     return Extraction(
-        Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality, complete=bars.complete
+        Kind.REBAR,
+        "refined",
+        points,
+        tops_level,
+        vertical,
+        source,
+        exposed,
+        quality,
+        complete=bars.complete,
+        rings=bars.rings,
     )
 
 

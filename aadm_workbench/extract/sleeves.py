@@ -15,7 +15,7 @@ from aadm_workbench.extract.circle import AGREES_MM
 from aadm_workbench.extract.edges.learned_edges import (
     known_edges,
 )
-from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
+from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped, tells_of_rings
 from aadm_workbench.extract.edges.seen_disc import sight_lines_on_face
 from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
 from aadm_workbench.extract.foot_face import FootFace, faces_with_holes, level_with_rings
@@ -245,7 +245,16 @@ def _measured(
         **learned,
     }
     return Extraction(
-        Kind.SLEEVE, "refined", points, face, -face.normal, "foot face", quality=quality, complete=signs.complete
+        Kind.SLEEVE,
+        "refined",
+        points,
+        face,
+        -face.normal,
+        "foot face",
+        quality=quality,
+        complete=signs.complete,
+        # one ring or two is told by the edges; whether any is, by what lies behind them
+        rings=float(min(rings, 1)) if tells_of_rings(gaps) else None,
     )
 
 
