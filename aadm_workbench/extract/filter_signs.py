@@ -21,6 +21,7 @@ from aadm_workbench.extract.edges.bend import BLURRED
 from aadm_workbench.extract.patches import Patches
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Reason, Scan
 from aadm_workbench.model.measured import TO_SIGMA
+from aadm_workbench.model.special import median
 
 _FALL_MM = (1.0, 60.0)  # from pixel to pixel on a ramp
 _SOME = 8  # runs: noise is the same in all
@@ -141,7 +142,7 @@ def _ramps(height: FloatArray, in_air: BoolArray, step: int) -> IntArray:
 def _noise_mm(bend: FloatArray) -> float:
     """Standard deviation of single pixels by their second differences (n,), where most lie on a floor far below."""
     bend = np.abs(bend[np.isfinite(bend)])
-    return float(TO_SIGMA * np.median(bend) / np.sqrt(6.0)) if len(bend) else 0.0  # 6 = 1² + 2² + 1²
+    return float(TO_SIGMA * median(bend) / np.sqrt(6.0)) if len(bend) else 0.0  # 6 = 1² + 2² + 1²
 
 
 def _roughness(height: FloatArray, on_surface: BoolArray, step: int) -> tuple[float, int] | None:

@@ -40,6 +40,7 @@ from aadm_workbench.model import (
     BoolArray,
 )
 from aadm_workbench.model.measured import TO_SIGMA
+from aadm_workbench.model.special import median
 
 WALL_COUNT_MIN = 20
 """Points of a bore: fewer do not tell on which side its wall shows. A choice: ±30 % moves centres by up to 0.3 u."""
@@ -129,7 +130,7 @@ def _are_spalled(lines: SightLines, centre: Array, radius_mm: float, pitch_mm: f
     distance = np.hypot(lines.x - centre[:, :1], lines.y - centre[:, 1:])
     low_mm, high_mm = _SPALL_RING_MM[0] + _SPALL_RING_PITCHES * pitch_mm, _SPALL_RING_MM[1]
     ring = (distance > radius_mm + low_mm) & (distance < radius_mm + high_mm) & (lines.height > -_SPALL_DEPTH_MM[1])
-    noise_mm = TO_SIGMA * float(np.median(np.abs(lines.height[ring]))) if ring.any() else 0.0
+    noise_mm = TO_SIGMA * float(median(np.abs(lines.height[ring]))) if ring.any() else 0.0
     broken = ring & (lines.height < -max(_SPALL_DEPTH_MM[0], _SPALL_NOISES * noise_mm))
     return np.asarray(broken.sum(axis=1) > _SPALL_SHARE * ring.sum(axis=1))
 
@@ -215,7 +216,7 @@ def fit_as_learned(
     if rings:
         like = (like + _narrow_discs(lines, fit.centre, radius_mm, known.pitch_mm)) / 2.0
     joint = replace(joint, centre=without_view(joint.centre, like, lines.slope))
-    off_pitches = (seen.radius - float(np.median(joint.radius))) / known.pitch_mm
+    off_pitches = (seen.radius - float(median(joint.radius))) / known.pitch_mm
     view_mm = ERODED_PARTS_VIEW_MM if rings else PARTS_VIEW_MM[1.0]
     return with_learned_discs(fit, joint, whole, lines.slope, known, view_mm), off_pitches
 

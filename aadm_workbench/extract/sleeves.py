@@ -37,6 +37,7 @@ from aadm_workbench.model import (
     Scan,
     codes_of,
 )
+from aadm_workbench.model.special import median
 
 _ENOUGH_MOUTHS = 3  # in a plane: what chance leaves in the noise of a wall is not round
 _NO_MOUTHS = {"extract.no_hole", "extract.no_measured_hole", "extract.no_round_mouth"}
@@ -180,7 +181,7 @@ def _in_face(
 def _is_of_another_size(seen: Extraction, diameter_mm: float) -> bool:
     """Whether mouths are all so far off their diameter that another size is likelier."""
     measured_mm = [point.diameter_mm for point in seen.points]
-    return bool(measured_mm) and abs(float(np.median(measured_mm)) / diameter_mm - 1.0) > _RADIUS_MISFIT / 2.0
+    return bool(measured_mm) and abs(float(median(measured_mm)) / diameter_mm - 1.0) > _RADIUS_MISFIT / 2.0
 
 
 def _facing_away_from_walls(face: Plane, centres: Array, sample: Thinned, radius_mm: float) -> tuple[Plane, Array]:

@@ -31,6 +31,7 @@ from aadm_workbench.model import (
     TrialReport,
     Verdict,
 )
+from aadm_workbench.model.special import median_of_known
 
 _SAMPLE = 10_000  # points: a look, not a measurement
 
@@ -116,7 +117,7 @@ def _named(scan: Scan, method: str, rng: np.random.Generator) -> NamedScan:
 
 def _distance_mm(scan: Scan) -> float:
     some = scan.points.reshape(-1, 3)[:: scan.points.size // 3 // _SAMPLE + 1, 2]
-    return float(np.nanmedian(np.abs(some))) if np.isfinite(some).any() else 0.0
+    return median_of_known(np.abs(some)) if np.isfinite(some).any() else 0.0
 
 
 def _stretched(scan: Scan, across: float, along: float) -> Scan:

@@ -30,6 +30,7 @@ from aadm_workbench.extract.pooled.system import Priors
 from aadm_workbench.extract.sleeves import BORE_LEAN_U
 from aadm_workbench.model import Array, ColumnDesign, Finding, Kind, codes_of
 from aadm_workbench.model.measured import OF_MEDIAN, TO_SIGMA
+from aadm_workbench.model.special import median
 
 _FILTERS = {SMOOTHED.code: "smoothed", GAPS_FILLED.code: "gaps_filled", COPIED.code: "edges_fattened"}
 
@@ -145,9 +146,9 @@ def exposed_length_findings(
         return
     # A bar that is designed to end higher sticks out further.
     heights = np.array([float(target.centre[2]) for target, _ in seen])
-    over = np.array([length for _, length in seen]) - (heights - np.median(heights))
-    usual_mm = float(np.median(over)) if design_exposed_mm is None else design_exposed_mm
-    spread_mm = TO_SIGMA * float(np.median(np.abs(over - usual_mm))) if design_exposed_mm is None else 0.0
+    over = np.array([length for _, length in seen]) - (heights - median(heights))
+    usual_mm = float(median(over)) if design_exposed_mm is None else design_exposed_mm
+    spread_mm = TO_SIGMA * float(median(np.abs(over - usual_mm))) if design_exposed_mm is None else 0.0
     threshold_mm = PLAY_MM + _LENGTH_SIGMAS * float(np.hypot(U_MM, spread_mm))
     of = "as the others do" if design_exposed_mm is None else "by design"
     for (target, length), deviation in zip(seen, over - usual_mm, strict=True):
@@ -241,9 +242,9 @@ def _shear(group: SeenGroup) -> _Shear | None:
     if group.kind is Kind.SLEEVE and extraction.method == "refined":
         found = _of_bores(leans, own)
         return _Shear(found.value / vertical[2], found.covariance + shared, len(known))
-    middle = np.median(leans, axis=0)
-    scatter = TO_SIGMA * float(np.median(np.abs(leans - middle)))
-    u = OF_MEDIAN * math.hypot(scatter, math.sqrt(float(np.median(np.trace(own, axis1=1, axis2=2) / 2.0))))
+    middle = median(leans, axis=0)
+    scatter = TO_SIGMA * float(median(np.abs(leans - middle)))
+    u = OF_MEDIAN * math.hypot(scatter, math.sqrt(float(median(np.trace(own, axis1=1, axis2=2) / 2.0))))
     return _Shear(middle / vertical[2], u**2 / len(known) * np.eye(2) + shared, len(known))
 
 
