@@ -15,7 +15,6 @@ import numpy as np
 
 from aadm_workbench.assembly.decision import DecisionRule
 from aadm_workbench.assembly.findings.of_column import Seen, with_findings
-from aadm_workbench.assembly.following import told_once
 from aadm_workbench.assembly.inspect import describe_ambiguity
 from aadm_workbench.assembly.matching.match import Match
 from aadm_workbench.assembly.pairs import in_column_frame
@@ -80,7 +79,10 @@ def check_column(
             trial, repair = _repair(design, measured[Kind.SLEEVE], measured[Kind.REBAR], trial, settings)
         section = _section(design, scans, measured, settings)
     report = replace(_report(design, measured, trial, checks, settings.profile), repair=repair, section=section)
-    report = told_once(report)
+    if report.reasons:
+        from aadm_workbench.assembly.following import told_once
+
+        report = told_once(report)
     seen = {kind: Seen(seen_group(design, kind, scans, measured[kind]), scans.of(kind)[0]) for kind in measured}
     rng = np.random.default_rng([settings.seed, 4])
     with stage("assembly"):
