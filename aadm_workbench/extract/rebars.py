@@ -59,10 +59,10 @@ _USUAL_SPOILT, _SPOILT_U_MM = 0.13, 1.5
 # u and u by 6 %)
 _BEYOND_TAIL_MM, _FLYING = 1.2, 0.05
 _FOREIGN = 0.3  # share of outline points that are ribs
-# of an edge, pitches; over which outline points thin out (a choice: ±30 % moves centres by 0.3 and 1.0 u, u by 1 and 6 %)
+# of an edge, pitches; where outline points thin out (±30 % moves centres by 0.3 and 1.0 u, and u by 1 and 6 %)
 _SOFTNESS, _RIM_TAIL_PITCHES = 0.08, 1.2
 _SIDE_LAW = BracketLaw(0.08, 0.8)  # most of a side's points lie on ribs
-_INSIDE_MM, _FAR_MM = 0.3, 1.0  # what lies so far out, or in, is of no sound disc (a choice: ±30 % moves u by up to 46 %)
+_INSIDE_MM, _FAR_MM = 0.3, 1.0  # what lies so far out, or in, is of no sound disc (±30 % moves u by up to 46 %)
 
 _TURNING_PRIORS = replace(BAR_PRIORS, lean=0.1)  # before the vertical is known bars lean by degrees
 # of the size looked for: cores have 0.94 to 1.03 of it, outlines a few hundredths more or less; each look finds more
