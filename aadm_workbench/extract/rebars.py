@@ -60,21 +60,17 @@ _USUAL_SPOILT, _SPOILT_U_MM = 0.13, 1.5
 # u and u by 6 %)
 _BEYOND_TAIL_MM, _FLYING = 1.2, 0.05
 _FOREIGN = 0.3  # share of outline points that are ribs
-# of an edge, in pitches; over which outline points thin out inwards (a choice: ±30 % moves centres by up to 0.3 and 1.0
-# u, and u by 1 and 6 %)
+# of an edge, pitches; where outline points thin out (±30 % moves centres by 0.3 and 1.0 u, and u by 1 and 6 %)
 _SOFTNESS, _RIM_TAIL_PITCHES = 0.08, 1.2
 _SIDE_LAW = BracketLaw(0.08, 0.8)  # most of a side's points lie on ribs
-# outline points so far out, or in, are no part of a sound disc (a choice: ±30 % moves u of single tops by up to 46 %)
-_INSIDE_MM, _FAR_MM = 0.3, 1.0
+_INSIDE_MM, _FAR_MM = 0.3, 1.0  # what lies so far out, or in, is of no sound disc (±30 % moves u by up to 46 %)
 
 _TURNING_PRIORS = replace(BAR_PRIORS, lean=0.1)  # before the vertical is known bars lean by degrees
-# of the size that was looked for: cores have 0.94 to 1.03 of it, outlines a few hundredths more or less; each look
-# finds more of what is larger than the last one took it for
+# of the size looked for: cores have 0.94 to 1.03 of it, outlines a few hundredths more or less; each look finds more
 _OF_SIZE, _SIZES_TRIED = (0.9, 1.06), 3
 _NEAR_THE_REACH = 0.75  # of the search for radii: what the fit brings back from its edge
 _NEAR_DISC_MM = 1.5  # between a disc and the fit: filters and ribs move one by less, a hidden top by more
-# a patch reaches 14 mm beyond its bar, and what passes a top is looked at 6 mm beyond it
-_ASIDE_MM = 4.0
+_ASIDE_MM = 4.0  # a patch reaches 14 mm beyond its bar, and what passes a top is looked at 6 mm beyond it
 _TURNS = 3  # each is seen along what the last one's bars show: a choice, not tuned since
 
 
