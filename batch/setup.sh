@@ -108,6 +108,8 @@ make_environment() {
         quietly "$venv/bin/python" -m pip install --no-deps --only-binary=:all: --no-binary=odfpy \
             --requirement "$root/requirements/$1.txt"
         quietly "$venv/bin/python" -m pip install --no-deps --no-index --no-build-isolation --editable "$root"
+        # pip compiles what it copies; an editable tree would be compiled by its first check.
+        quietly "$venv/bin/python" -m compileall -q "$root/aadm_workbench" "$root/batch"
         quietly "$venv/bin/python" -m pip check
         made_of >"$venv/aadm-made"
         printf '%s\n' "$wanted" >"$venv/aadm-wanted"

@@ -33,6 +33,9 @@ SIZES_MM = (
 )
 """Bars and the bores of sleeves that are made for them."""
 
+RARE_SIZES_MM = ((12.0, 28.0), (12.0, 32.0), (36.0, 58.0), (40.0, 66.0))
+"""The thinnest and the thickest that are spliced so."""
+
 _SPREAD_MM, _SEEN_DEPTH_MM, _MARGIN_MM = 0.5, 130.0, 34.0
 _LARGEST_HALF_MM = 150.0
 
@@ -53,7 +56,8 @@ class Pattern(Setting):
 class Scenario:
     """What is unlike a sound column: what the site did, filters of the camera, slips of the job; ``keyed`` patterns.
 
-    ``other``: the foot is that of another column, which the job has too.
+    ``other``: the foot is that of another column, which the job has too. ``rare``: the thinnest and the thickest bars,
+    in the rows of walls, in double rows and in plum-blossom order.
     """
 
     site: tuple[str, ...] = ()
@@ -61,6 +65,7 @@ class Scenario:
     slip: Callable[[np.random.Generator], Slip] = lambda rng: NO_SLIP
     keyed: bool = False
     other: bool = False
+    rare: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +95,24 @@ def random_pattern(rng: np.random.Generator, *, keyed: bool) -> Pattern:
         places = ring(wide, wide * float(rng.choice([1.0, rng.uniform(0.8, 1.0)])), per_side)
     if not rows and per_side > 2 and (keyed or rng.random() < 0.25):
         places = np.delete(places, _left_out(places, rng, keyed=keyed), axis=0)
+    return _pattern(places, sleeve_mm, bar_mm, per_side, rng)
+
+
+def rare_pattern(rng: np.random.Generator) -> Pattern:
+    """A row of a wall, a double row, or two rows in plum-blossom order, of the thinnest or the thickest bars."""
+    bar_mm, sleeve_mm = RARE_SIZES_MM[rng.integers(len(RARE_SIZES_MM))]
+    count = int(rng.integers(3, 6))
+    step_mm = min(float(rng.uniform(2.0, 3.0)) * sleeve_mm, 2 * _LARGEST_HALF_MM / count)
+    apart_mm = float(rng.uniform(1.6, 2.5)) * sleeve_mm
+    row = np.array([(k * step_mm, 0.0) for k in range(count)])
+    beside = row + np.array([0.0, apart_mm])
+    staggered = beside[:-1] + np.array([step_mm / 2.0, 0.0])
+    order = rng.integers(3)
+    places = row if order == 0 else np.vstack([row, beside if order == 1 else staggered])
+    return _pattern(places, sleeve_mm, bar_mm, count, rng)
+
+
+def _pattern(places: Array, sleeve_mm: float, bar_mm: float, per_side: int, rng: np.random.Generator) -> Pattern:
     places = places - places.mean(axis=0)
     half = float(np.abs(places).max())
     exposed = 8.0 * bar_mm
@@ -133,7 +156,7 @@ def built_column(scenario: Scenario, number: int, camera: str = "ray") -> Column
 
     ``camera``: ``ray``, or ``fringe`` for fringe projection by path tracing, which takes a minute for each column.
     """
-    scene = Scenario(scenario.site, keyed=scenario.keyed, other=scenario.other)
+    scene = Scenario(scenario.site, keyed=scenario.keyed, other=scenario.other, rare=scenario.rare)
     rendered = _rendered(scene, number, camera)
     rng = np.random.default_rng([1, number])
     filters, slip = scenario.filters(rng), scenario.slip(rng)
@@ -147,12 +170,12 @@ def built_column(scenario: Scenario, number: int, camera: str = "ray") -> Column
 
 @lru_cache(maxsize=20)  # filters and slips change what was rendered: a kind's scenes serve the next kind
 def _rendered(scenario: Scenario, number: int, camera: str) -> Column:
-    words = (*scenario.site, *(name for name in ("keyed", "other") if getattr(scenario, name)))
+    words = (*scenario.site, *(name for name in ("keyed", "other", "rare") if getattr(scenario, name)))
     return _render(scenario, np.random.default_rng([zlib.crc32("-".join(words).encode()), number]), camera)
 
 
 def _render(scenario: Scenario, rng: np.random.Generator, camera: str) -> Column:
-    setting = random_pattern(rng, keyed=scenario.keyed)
+    setting = rare_pattern(rng) if scenario.rare else random_pattern(rng, keyed=scenario.keyed)
     foot, bars = random_foot(setting, rng, _SPREAD_MM), random_bars(setting, rng, _SPREAD_MM)
     if scenario.other:
         foot = random_foot(_unlike(setting, rng), rng, _SPREAD_MM)

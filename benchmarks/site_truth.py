@@ -30,7 +30,8 @@ _DECIDED = (Verdict.PASS, Verdict.FAIL)
 class Errors:
     """Of the points of one group: how many there are to measure, how many were, and how far off these are, mm.
 
-    ``inside``: whether the true centre lies in the stated 95 % region. ``ghosts`` lie more than 3 mm off.
+    ``inside``: whether the true centre lies in the stated 95 % region. ``ghosts`` lie more than 3 mm off, or where
+    nothing is to be seen; where the report leaves open which point is which, more than 3 mm off every one.
     """
 
     kind: Kind
@@ -41,6 +42,12 @@ class Errors:
     inside: BoolArray
 
 
+def _covered(column: Column, kind: Kind) -> list[bool]:
+    """Which are wholly under tape."""
+    count = len(column.bars.bars)
+    return [sleeve.taped >= 0.8 for sleeve in column.foot.sleeves] if kind is Kind.SLEEVE else [False] * count
+
+
 def _measurable(column: Column, kind: Kind) -> list[bool]:
     """Mouths that are not under tape, and tops, as far as they lie in the picture."""
     if kind is Kind.REBAR:
@@ -48,7 +55,7 @@ def _measurable(column: Column, kind: Kind) -> list[bool]:
         return _in_picture(column.rebars, column.slip, across).tolist()
     sleeves = column.foot.sleeves
     in_picture = _in_picture(column.sleeves, column.slip, [sleeve.diameter for sleeve in sleeves])
-    return [sleeve.taped < 0.8 and seen for sleeve, seen in zip(sleeves, in_picture.tolist(), strict=True)]
+    return [seen and not taped for taped, seen in zip(_covered(column, kind), in_picture.tolist(), strict=True)]
 
 
 def _in_picture(scan: TrueScan, slip: Slip, across_mm: Sequence[float]) -> BoolArray:
@@ -69,7 +76,7 @@ def _group(report: ColumnReport, kind: Kind) -> GroupReport | None:
 def errors_of(column: Column, report: ColumnReport, kind: Kind) -> Errors:
     """Centres that the report gives against the true ones, both in the scan frame, in the plane."""
     group, scan = _group(report, kind), column.sleeves if kind is Kind.SLEEVE else column.rebars
-    measurable = _measurable(column, kind)
+    measurable, covered = _measurable(column, kind), _covered(column, kind)
     distances, inside, ghosts, found = [], [], 0, 0
     true = _told(scan.points_scan(), column)
     for k, point in enumerate(group.points if group is not None else ()):
@@ -77,10 +84,14 @@ def errors_of(column: Column, report: ColumnReport, kind: Kind) -> Errors:
             continue
         assert group is not None
         assert group.fit is not None
-        off = group.fit.T_design_scan[:2, :3] @ (np.array(point.scan_mm) - true[k])
+        offs = (np.array(point.scan_mm) - true) @ group.fit.T_design_scan[:2, :3].T
+        off, nearest = offs[k], int(np.hypot(*offs.T).argmin())
+        if group.fit.orientation == "ambiguous" and group.verdict is Verdict.NOT_MEASURED:
+            ghosts += bool(np.hypot(*offs[nearest]) > GHOST_MM or covered[nearest])
+            continue
         distance = float(np.hypot(*off))
         found += measurable[k]
-        if distance > GHOST_MM or not measurable[k]:
+        if distance > GHOST_MM or covered[k]:
             ghosts += 1
             continue
         distances.append(distance)

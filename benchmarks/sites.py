@@ -124,6 +124,17 @@ TROUBLES: dict[str, Trouble] = {
     "two-heights": _site("two-heights"),
     "bowed": _site("bowed"),
     "warped": _site("warped"),
+    "swapped-gaps": Trouble(
+        Scenario(slip=lambda rng: SLIPS["swapped"], filters=lambda rng: Filters(gaps=int(rng.integers(6, 25)))),
+        ("gaps_filled", "swapped"),
+        void=True,
+    ),
+    "tapes-spalls": Trouble(Scenario(site=("tapes", "spalls"))),
+    "rough-smoothing": Trouble(
+        Scenario(site=("rough",), filters=lambda rng: Filters(gaussian=float(rng.uniform(1.0, 3.0)))), ("smoothed",)
+    ),
+    "rare": Trouble(Scenario(rare=True)),
+    "rare-tapes": Trouble(Scenario(site=("tapes",), rare=True)),
     "sound": Trouble(Scenario()),
 }
 

@@ -27,6 +27,7 @@ from aadm_workbench.model import (
     Verdict,
     codes_of,
 )
+from aadm_workbench.model.special import median
 
 LARGEST_U_TO_LIMIT = 0.409
 """1/sqrt(-2 ln 0.05): with a larger u per axis no radial deviation is within the limit at 95 % (Rice law)."""
@@ -55,7 +56,7 @@ def typical_u_mm(extraction: Extraction) -> float | None:
     if not known or extraction.vertical is None:
         return None
     up = extraction.vertical
-    return float(np.median([np.sqrt(max(np.trace(c) - up @ c @ up, 0.0) / 2.0) for c in known]))
+    return float(median([np.sqrt(max(np.trace(c) - up @ c @ up, 0.0) / 2.0) for c in known]))
 
 
 def unsupported(u_mm: float | None, profile: Profile, kind: Kind) -> tuple[str, ...]:

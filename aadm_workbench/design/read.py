@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 
 from aadm_workbench.design.ifc.model import read_ifc
@@ -23,6 +24,7 @@ def read_model(
     sleeves: str | None = None,
     rebars: str | None = None,
     units: str = "mm",
+    only: Collection[str] | None = None,
 ) -> ModelDesign:
     """Columns, sleeves and connecting rebars of a model, by the format that its name ends in.
 
@@ -34,6 +36,8 @@ def read_model(
         Optional selectors in the syntax of ``ifcopenshell.util.selector``.
     units
         Of a mesh, which does not know its own: mm, cm, m, inch or foot. Other formats bring theirs.
+    only
+        Names of the columns that are asked for: of an IFC model, what belongs to none of them may be left out.
 
     Raises
     ------
@@ -44,7 +48,7 @@ def read_model(
     """
     suffix = Path(path).suffix
     if suffix.lower() in _IFC:
-        return read_ifc(path, columns=columns, sleeves=sleeves, rebars=rebars)
+        return read_ifc(path, columns=columns, sleeves=sleeves, rebars=rebars, only=only)
     rules = Rules(columns, sleeves, rebars)
     if suffix.lower() == ".fcstd":
         from aadm_workbench.design.fcstd import read_fcstd

@@ -10,6 +10,7 @@ from aadm_workbench.extract.foot_face import find_discs, rastered
 from aadm_workbench.extract.plane import axes_on, find_planes
 from aadm_workbench.extract.sample import Thinned, counts_in_cells, in_company
 from aadm_workbench.model import Array, BoolArray, FloatArray, Plane
+from aadm_workbench.model.special import median_of_known, percentiles
 
 _FLOOR_SHARE = 0.2  # of the points: less is no floor
 _FLOOR_COVERED, _ENOUGH = 0.6, 20_000  # of the floor beside bars; points that tell that: a choice, not tuned since
@@ -62,7 +63,7 @@ def standing_along(sample: Thinned, vertical: Array, radius_mm: float) -> Standi
 
 def _level(points: FloatArray, vertical: Array, centres: Array, radius_mm: float) -> float:
     """Height of the tops: the median over the discs."""
-    return float(np.nanmedian(top_heights(points, vertical, centres, radius_mm)))
+    return median_of_known(top_heights(points, vertical, centres, radius_mm))
 
 
 def top_heights(points: FloatArray, vertical: Array, centres: Array, radius_mm: float) -> Array:
@@ -96,7 +97,7 @@ def _floors(sample: Thinned, viewpoint: Array | None, radius_mm: float, rng: np.
 def _covered(points: FloatArray, plane: Plane, cell_mm: float) -> float:
     """Share of the rectangle about points (n, 3) of a plane in which they lie: tops of bars leave most of it empty."""
     some = points[:: len(points) // _ENOUGH + 1] @ axes_on(plane)[:2].T.astype(points.dtype)
-    sides_mm = np.ptp(np.percentile(some, (1.0, 99.0), axis=0), axis=0)  # one stray in a hundred stretches nothing
+    sides_mm = np.ptp(percentiles(some, (1.0, 99.0)), axis=0)  # one stray in a hundred stretches nothing
     return float(len(counts_in_cells(some, cell_mm)) * cell_mm**2 / max(float(np.prod(sides_mm + cell_mm)), 1e-9))
 
 
@@ -137,5 +138,5 @@ def _is_on_top(local: Array, radius_mm: float) -> BoolArray:
 
 def _spacing(plan: Array, radius_mm: float) -> float:
     """Typical distance of neighbours in the plan where it is well filled."""
-    filled = float(np.percentile(counts_in_cells(plan, radius_mm), 80))  # most cells hold a part of a top alone
+    filled = float(percentiles(counts_in_cells(plan, radius_mm), 80))  # most cells hold a part of a top alone
     return float(radius_mm / np.sqrt(max(filled, 1.0)))

@@ -19,8 +19,9 @@ import numpy as np
 
 from aadm_workbench.extract.edges.bend import BLURRED
 from aadm_workbench.extract.patches import Patches
-from aadm_workbench.model import Array, BoolArray, FloatArray, Reason, Scan
+from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Reason, Scan
 from aadm_workbench.model.measured import TO_SIGMA
+from aadm_workbench.model.special import median
 
 _FALL_MM = (1.0, 60.0)  # from pixel to pixel on a ramp
 _SOME = 8  # runs: noise is the same in all
@@ -30,6 +31,11 @@ _OFF_WALL_MM, _OFF_LEAN = 2.5, 0.08  # ribs and chamfers stay nearer to a wall; 
 _BELOW_MM = 3.0  # of the surface that a feature lies in
 _WITHIN_MM = 1.5  # of it, where its noise is looked at
 _OWN_NOISE = 0.55  # noise of which half is shared over a pixel and more comes to 0.7, a median of three to 0.5
+# over four pixels: 0.49 and more without a filter, on both cameras; a mean or a median over a window has a quarter
+_FAR, _FAR_NOISE = 4, 0.4
+# relative variance of a mean square times the number of differences: 2 of normal noise, 1.5 once the largest are cut
+# off, twice that as neighbouring differences share two points of three; 95 %
+_FINE_VARIANCE, _FINE_SIGMAS = 3.0, 2.0
 _RAMPED, _RAMPED_UNLOST = 0.1, 0.03  # slips of the fringe order and flying pixels come to 0.02
 # a camera loses one pixel in two thousand at least (path-traced scans of concrete), so that of so many it loses ten;
 # with none lost a few ramps tell of a filter that path-traced scans, which lose some, never showed
@@ -48,16 +54,22 @@ _FEWEST = 200  # points of a surface whose noise is looked at
 class FilterSigns:
     """Signs of filters about the features of one scan.
 
-    ``ramps``: places of even fall through the air, for each pixel of the features' outlines. ``fine``: second
+    ``ramps``: places of even fall through the air, for each pixel of the features' outlines; ``usual_ramps`` those of
+    a feature in the middle: the side of one that is thicker than it should be looks like a ramp. ``fine``: second
     differences of heights over one pixel against those over two, squared; 1 for noise that every pixel has of its own,
-    0 for what is smooth. ``lost``: share of pixels without a point among such with points on all sides; ``looked_at``:
-    how many these are.
+    0 for what is smooth; ``far`` against those over four: a window that is wider than one pixel leaves steps, which are
+    half of what they are over two. ``fine_u`` and ``far_u`` are standard uncertainties. ``lost``: share of pixels
+    without a point among such with points on all sides; ``looked_at``: how many these are.
     """
 
     ramps: float = 0.0
     fine: float = 1.0
     lost: float = 0.0
     looked_at: int = 0
+    fine_u: float = 0.0
+    usual_ramps: float = 0.0
+    far: float = 1.0
+    far_u: float = 0.0
 
     @property
     def complete(self) -> bool:
@@ -66,13 +78,14 @@ class FilterSigns:
 
     def reason(self, *, blurred: bool) -> str:
         """Why nothing is to be measured in such a scan; empty where neither a filter shows nor a blur."""
-        if self.fine < _OWN_NOISE:
+        smooth = self.fine + _FINE_SIGMAS * self.fine_u < _OWN_NOISE
+        if smooth or self.far + _FINE_SIGMAS * self.far_u < _FAR_NOISE:
             return SMOOTHED
         if self.lost < _UNLOST and self.ramps > (_RAMPED_COMPLETE if self.complete else _RAMPED_UNLOST):
             return GAPS_FILLED
         if blurred:
             return BLURRED
-        return SMOOTHED if self.ramps > _RAMPED else ""
+        return SMOOTHED if self.usual_ramps > _RAMPED else ""
 
 
 def filter_signs(
@@ -91,36 +104,49 @@ def filter_signs(
     off_wall = inside > np.float32(_OFF_WALL_MM) - np.float32(_OFF_LEAN) * patches.height
     in_air = (off_wall & (patches.height < -_BELOW_MM)).ravel()
     on_surface = ((inside < -2.0 * pitch_mm) & (np.abs(patches.height) < _WITHIN_MM)).reshape(shape)
-    ramps = sum(_ramps(patches.height.ravel(), in_air, step) for step in (1, patches.columns))
-    outline = len(centre) * 2.0 * np.pi * radius_mm / pitch_mm
+    size = height.shape[1] * height.shape[2]
+    runs = [_ramps(patches.height.ravel(), in_air, step) // size for step in (1, patches.columns)]
+    each = np.bincount(np.concatenate(runs), minlength=len(centre)) / (2.0 * np.pi * radius_mm / pitch_mm)
+    ramps, usual = float(each.mean()), float(np.median(each))
     rows = slice(None, None, _EVERY)
-    first, second = (_roughness(height[:, rows], on_surface[:, rows], step) if flat else None for step in (1, 2))
-    return FilterSigns(float(ramps / outline), _ratio(first, second), *_lost(height))
+    first, second, fourth = (
+        _roughness(height[:, rows], on_surface[:, rows], step) if flat else None for step in (1, 2, _FAR)
+    )
+    (fine, fine_u), (far, far_u) = _ratio(first, second), _ratio(first, fourth)
+    return FilterSigns(ramps, fine, *_lost(height), fine_u, usual, far, far_u)
 
 
-def _ramps(height: FloatArray, in_air: BoolArray, step: int) -> int:
-    """Runs of four pixels so many apart that fall evenly, those in the middle in the air; both flattened."""
+def _ratio(one: tuple[float, int] | None, other: tuple[float, int] | None) -> tuple[float, float]:
+    """Of two mean squares of so many, and its standard uncertainty; 1 where one is not known."""
+    if one is None or other is None or not other[0]:
+        return 1.0, 0.0
+    ratio = one[0] / other[0]
+    return ratio, ratio * float(np.sqrt(_FINE_VARIANCE / one[1] + _FINE_VARIANCE / other[1]))
+
+
+def _ramps(height: FloatArray, in_air: BoolArray, step: int) -> IntArray:
+    """Where (m,) four pixels so many apart fall evenly, those in the middle in the air; all flattened."""
     at = np.flatnonzero(in_air)
     at = at[(at >= step) & (at < len(height) - 2 * step)]
     at = at[in_air[at + step]]
     if not len(at):
-        return 0
+        return at
     run = np.stack([height[at + step * place] for place in (-1, 0, 1, 2)])
     fall = np.diff(run, axis=0)
     least_mm = max(_FALL_MM[0], _FALL_SIGMAS * _noise_mm(fall[1, ::_SOME] - fall[0, ::_SOME]))
     fall = np.where(fall[1] < 0, -fall, fall)
     low, high = fall.min(axis=0), fall.max(axis=0)
-    return int(((low > least_mm) & (high < _FALL_MM[1]) & (high < _EVEN * low)).sum())
+    return np.asarray(at[(low > least_mm) & (high < _FALL_MM[1]) & (high < _EVEN * low)])
 
 
 def _noise_mm(bend: FloatArray) -> float:
     """Standard deviation of single pixels by their second differences (n,), where most lie on a floor far below."""
     bend = np.abs(bend[np.isfinite(bend)])
-    return float(TO_SIGMA * np.median(bend) / np.sqrt(6.0)) if len(bend) else 0.0  # 6 = 1² + 2² + 1²
+    return float(TO_SIGMA * median(bend) / np.sqrt(6.0)) if len(bend) else 0.0  # 6 = 1² + 2² + 1²
 
 
-def _roughness(height: FloatArray, on_surface: BoolArray, step: int) -> float | None:
-    """Mean square of the smaller second differences over so many pixels, mm²; None where too little is seen.
+def _roughness(height: FloatArray, on_surface: BoolArray, step: int) -> tuple[float, int] | None:
+    """Mean square of the smaller second differences over so many pixels, mm², of how many; None where few are seen.
 
     Rounded heights have few different ones: a median would say nothing.
     """
@@ -130,11 +156,7 @@ def _roughness(height: FloatArray, on_surface: BoolArray, step: int) -> float | 
     before, own, behind = (height[at[0], at[1], at[2] + shift] for shift in (0, step, 2 * step))
     bend = np.abs(before - 2 * own + behind)
     widest = np.partition(bend, int(_KEPT * len(bend)))[int(_KEPT * len(bend))]
-    return float(np.mean(np.minimum(bend, widest) ** 2))
-
-
-def _ratio(one: float | None, other: float | None) -> float:
-    return 1.0 if one is None or not other else one / other
+    return float(np.mean(np.minimum(bend, widest) ** 2)), len(bend)
 
 
 def _lost(height: FloatArray) -> tuple[float, int]:

@@ -20,6 +20,7 @@ from aadm_workbench.extract.plane import facing, find_planes, in_plane, refined_
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm
 from aadm_workbench.model import Array, FloatArray, Plane, Scan
 from aadm_workbench.model.measured import TO_SIGMA
+from aadm_workbench.model.special import median, percentiles
 
 FACE_BAND_MM = 1.5
 """About the plane of a face that is smooth."""
@@ -103,7 +104,7 @@ def _outer(plane: Plane, points: FloatArray) -> tuple[float, float]:
     layer = height[np.abs(height) < _LAYER_MM]
     if not len(layer):
         return 0.0, 0.0
-    low, high = np.percentile(layer, _OUTER_PERCENT)
+    low, high = percentiles(layer, _OUTER_PERCENT)
     return float(low), float(high)
 
 
@@ -114,7 +115,7 @@ def _noise_mm(scan: Scan) -> float:
     depth = scan.points[:: 4 * _EVERY, :, 2]
     bend = np.abs(depth[:, :-2] - 2.0 * depth[:, 1:-1] + depth[:, 2:])
     bend = bend[np.isfinite(bend)]
-    return float(TO_SIGMA * np.median(bend) / np.sqrt(6.0)) if len(bend) else 0.0  # 6 = 1² + 2² + 1²
+    return float(TO_SIGMA * median(bend) / np.sqrt(6.0)) if len(bend) else 0.0  # 6 = 1² + 2² + 1²
 
 
 def level_with_rings(patches: Patches, radius_mm: float) -> tuple[Patches, bool]:
@@ -126,7 +127,7 @@ def level_with_rings(patches: Patches, radius_mm: float) -> tuple[Patches, bool]
     rise = np.zeros(len(patches.x))
     for k in np.flatnonzero(np.bincount(owner[height > _RISE_MM[0]], minlength=len(rise))).tolist():
         about = height[owner == k]
-        rise[k] = np.median(about[np.abs(about) < _RISE_MM[1]])
+        rise[k] = median(about[np.abs(about) < _RISE_MM[1]])
     rise[~(rise >= _RISE_MM[0])] = 0.0
     return (patches.raised(rise), True) if rise.any() else (patches, False)
 
@@ -153,7 +154,7 @@ def rastered(xy: Array, cell_mm: float, margin_mm: float) -> Raster:
     Cells grow where there would be too many.
     """
     some = xy[:: len(xy) // _EXTENT_FROM + 1]
-    low, high = np.percentile(some, (0.1, 99.9), axis=0)  # one stray in a thousand stretches nothing
+    low, high = percentiles(some, (0.1, 99.9))  # one stray in a thousand stretches nothing
     low, high = low - margin_mm, high + margin_mm
     cell_mm = max(cell_mm, float(np.sqrt(np.prod(high - low) / _MOST_CELLS)))
     columns, rows = (np.ceil((high - low) / cell_mm)).astype(int) + 1

@@ -12,6 +12,7 @@ from typing import TypeAlias
 import numpy as np
 
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Extraction, Kind, Scan, in_one
+from aadm_workbench.model.special import median
 
 Recipe: TypeAlias = Callable[..., Extraction]
 
@@ -134,7 +135,7 @@ def distinct_sizes(diameters_mm: Iterable[float]) -> tuple[float, ...]:
         else:
             groups.append([diameter_mm])
     groups.sort(key=len, reverse=True)
-    return tuple(float(np.median(group)) for group in groups)
+    return tuple(float(median(group)) for group in groups)
 
 
 def extract_sizes(

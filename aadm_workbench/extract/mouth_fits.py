@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from aadm_workbench.extract.circle import AGREES_MM
 from aadm_workbench.extract.edges.bend import bend_at_edges
 from aadm_workbench.extract.edges.edge_shift import (
     ERODED_PARTS_VIEW_MM,
@@ -39,6 +40,7 @@ from aadm_workbench.model import (
     BoolArray,
 )
 from aadm_workbench.model.measured import TO_SIGMA
+from aadm_workbench.model.special import median
 
 WALL_COUNT_MIN = 20
 """Points of a bore: fewer do not tell on which side its wall shows. A choice: ±30 % moves centres by up to 0.3 u."""
@@ -55,6 +57,11 @@ _SURELY_ERODED_PITCHES = 1.2  # of the face at mouths, on cameras that drop one 
 _SPALL_RING_MM, _SPALL_RING_PITCHES, _SPALL_DEPTH_MM = (1.2, 4.0), 1.5, (1.0, 6.0)
 # of noise, one in a thousand is beyond; of the ring's points, in which flying pixels and dirt are one in a hundred
 _SPALL_NOISES, _SPALL_SHARE = 3.0, 0.05
+# slivers reach a pixel into a mouth; strays, and slips of the fringe order that hit the face, are one in a hundred
+# points of a rim, a tape over a tenth of a mouth has a fifth of it; bins of an outline hold a pixel each
+_COVERED_PITCHES, _COVERED_SHARE, _COVERED_BESIDE = 1.5, 0.12, 2
+# a quarter of a pitch that all edges are seen off moves no whole circle, and half of one by 4/pi of it
+_HALF_RIM_PITCHES = 0.32
 _ERODED_RADIUS_MAX = 0.5  # rings: beyond, walls that light pushes know the radius better
 _BY_BORES = _ERODED_RADIUS_MAX  # rings at which the radius is that of the bores, whatever the rims show
 _BROKEN_U_MM = 0.3  # of a broken rim, seen by a camera that adds to its edges
@@ -81,6 +88,15 @@ def fit_mouths(
     A mouth that is taped or broken is no disc: it is measured by what is sound of its rim, whatever the others are.
     None where the picture is out of focus.
     """
+    mouths, covered = _without_tapes(mouths, diameter_mm / 2, pitch_mm)
+    fit = _fit_by_edges(mouths, covered, lines, diameter_mm, pitch_mm, rings)
+    half = (_HALF_RIM_PITCHES * pitch_mm) ** 2 * covered[:, None, None] * np.eye(2)
+    return None if fit is None else replace(fit, covariance=fit.covariance + half)
+
+
+def _fit_by_edges(
+    mouths: Mouths, covered: BoolArray, lines: SightLines | None, diameter_mm: float, pitch_mm: float, rings: int
+) -> PooledFit | None:
     if lines is None:
         return _fit_of_sharp(mouths, diameter_mm, pitch_mm)
     seen = _seen(lines, mouths.centre, diameter_mm, pitch_mm)
@@ -88,6 +104,7 @@ def fit_mouths(
         rings = 2
     whole = np.hypot(*(seen.centre - mouths.centre).T) < _WHOLE_WITHIN_MM + _WHOLE_PITCHES * rings * pitch_mm
     whole &= ~_are_spalled(lines, mouths.centre, diameter_mm / 2, pitch_mm)
+    whole &= ~covered
     if not whole.any():
         fit = _fit_of_sharp(mouths, diameter_mm, pitch_mm)
         return _shifted(fit, shift_of_rims(lines.slope, mouths.rims, fit.centre, diameter_mm / 2, pitch_mm))
@@ -113,9 +130,23 @@ def _are_spalled(lines: SightLines, centre: Array, radius_mm: float, pitch_mm: f
     distance = np.hypot(lines.x - centre[:, :1], lines.y - centre[:, 1:])
     low_mm, high_mm = _SPALL_RING_MM[0] + _SPALL_RING_PITCHES * pitch_mm, _SPALL_RING_MM[1]
     ring = (distance > radius_mm + low_mm) & (distance < radius_mm + high_mm) & (lines.height > -_SPALL_DEPTH_MM[1])
-    noise_mm = TO_SIGMA * float(np.median(np.abs(lines.height[ring]))) if ring.any() else 0.0
+    noise_mm = TO_SIGMA * float(median(np.abs(lines.height[ring]))) if ring.any() else 0.0
     broken = ring & (lines.height < -max(_SPALL_DEPTH_MM[0], _SPALL_NOISES * noise_mm))
     return np.asarray(broken.sum(axis=1) > _SPALL_SHARE * ring.sum(axis=1))
+
+
+def _without_tapes(mouths: Mouths, radius_mm: float, pitch_mm: float) -> tuple[Mouths, BoolArray]:
+    """The mouths without edges of what lies across them, tape or grout, and which (k,) are partly covered by that.
+
+    Such an edge runs farther in than any camera sees a rim: no part of it is one, nor what lies next to it.
+    """
+    rims = mouths.rims
+    across = rims.seen & (rims.distance(mouths.centre) < radius_mm - max(AGREES_MM, _COVERED_PITCHES * pitch_mm))
+    covered = across.sum(axis=1) > _COVERED_SHARE * rims.seen.sum(axis=1)
+    wide = across.copy()
+    for shift in range(1, _COVERED_BESIDE + 1):
+        wide |= np.roll(across, shift, axis=1) | np.roll(across, -shift, axis=1)
+    return replace(mouths, rims=rims.only(~(wide & covered[:, None]))), np.asarray(covered)
 
 
 def with_unseen_edges(fit: PooledFit, patches: Patches, radius_mm: float, pitch_mm: float) -> PooledFit:
@@ -185,7 +216,7 @@ def fit_as_learned(
     if rings:
         like = (like + _narrow_discs(lines, fit.centre, radius_mm, known.pitch_mm)) / 2.0
     joint = replace(joint, centre=without_view(joint.centre, like, lines.slope))
-    off_pitches = (seen.radius - float(np.median(joint.radius))) / known.pitch_mm
+    off_pitches = (seen.radius - float(median(joint.radius))) / known.pitch_mm
     view_mm = ERODED_PARTS_VIEW_MM if rings else PARTS_VIEW_MM[1.0]
     return with_learned_discs(fit, joint, whole, lines.slope, known, view_mm), off_pitches
 

@@ -28,6 +28,7 @@ from aadm_workbench.extract.plane import BAND_SIGMAS, LEAST_BAND_MM, WIDEST_BAND
 from aadm_workbench.extract.sample import thinned
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane, Scan
 from aadm_workbench.model.measured import TO_SIGMA
+from aadm_workbench.model.special import median
 
 _TOP_ZONE_MM = 8.0  # a cut of 15 degrees over a 28 mm bar
 _CORE = 0.95  # of the radius
@@ -136,7 +137,7 @@ def _least_squares(points: Array, seen: BoolArray, normal: Array, offset: Array)
         offset = np.where(enough, np.einsum("ki,ki->k", normal, centre), offset)
         off = np.abs(np.einsum("kmi,ki->km", about, normal))
         spread = np.array(
-            [TO_SIGMA * float(np.median(o[i])) if i.any() else 0.0 for o, i in zip(off, inside, strict=True)]
+            [TO_SIGMA * float(median(o[i])) if i.any() else 0.0 for o, i in zip(off, inside, strict=True)]
         )
         residual_mm = np.where(enough, spread, residual_mm)
         band_mm = np.clip(BAND_SIGMAS * residual_mm, LEAST_BAND_MM, widest_mm)
@@ -188,8 +189,8 @@ def own_diameters(
     if known.sum() < _FEWEST:
         return OwnDiameters(np.full(len(places), np.nan), 0.0)
     beyond = own_mm[known] - shared_mm[known]
-    usual_mm = float(np.median(beyond))
-    scatter_mm = TO_SIGMA * float(np.median(np.abs(beyond - usual_mm)))
+    usual_mm = float(median(beyond))
+    scatter_mm = TO_SIGMA * float(median(np.abs(beyond - usual_mm)))
     least_mm = _LEAST_U_MM if known.sum() >= _ENOUGH else _UNKNOWN_U_MM
     u_mm = max(scatter_mm, least_mm) * float(np.sqrt(1.0 + _OF_MEDIAN / known.sum()))
     return OwnDiameters(own_mm - usual_mm, u_mm)
@@ -207,7 +208,7 @@ def _radii(scan: Scan, level: Plane, places: Array, radius_mm: float, rng: np.ra
     top = PlanPoints.of(patches.x, patches.y, np.flatnonzero(on_top))
     inside = np.bincount(top.owner[top.distance(np.zeros_like(centres)) < radius_mm], minlength=len(places))
     pitch_mm = np.sqrt(np.pi * radius_mm**2 / np.maximum(inside, 1))
-    usual_pitch_mm = float(np.median(pitch_mm[planes.found]))
+    usual_pitch_mm = float(median(pitch_mm[planes.found]))
     bins = bins_for(radius_mm, usual_pitch_mm)
     centre, radius = np.zeros((len(places), 2)), np.full(len(places), radius_mm)
     for _ in range(_ROUNDS):

@@ -15,6 +15,7 @@ from aadm_workbench.extract.circle import PlanPoints
 from aadm_workbench.extract.plane import axes_on, from_plane, in_plane
 from aadm_workbench.extract.sample import Thinned
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Plane, Scan
+from aadm_workbench.model.special import median
 
 _LABEL_CELL_MM = 2.0  # half of what a patch reaches beyond a mouth
 _CHUNK = 400_000  # points at a time: 10 MB in double precision
@@ -202,7 +203,7 @@ def plane_of_pixel(scan: Scan, sample: Thinned, plane: Plane) -> Array | None:
     homography, mapped = np.asarray(answer, np.float64), _mapped(np.asarray(answer, np.float64), pixels)
     beside = _mapped(homography, pixels + np.array([1.0, 0.0]))
     off, pitch_mm = np.abs(mapped - seen).max(axis=1), np.abs(beside - mapped).max(axis=1)
-    return homography if np.median(off) < _HOMOGRAPHY_WITHIN * np.median(pitch_mm) else None
+    return homography if median(off) < _HOMOGRAPHY_WITHIN * median(pitch_mm) else None
 
 
 def _mapped(homography: Array, pixels: Array) -> Array:

@@ -12,6 +12,7 @@ import numpy as np
 
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, FloatArray, IntArray, Kind, Plane
 from aadm_workbench.model.measured import TO_SIGMA
+from aadm_workbench.model.special import median, percentiles
 
 INLIER_DISTANCE_MM = 1.2
 """Three standard deviations of the reference camera's noise at 2 m (0.4 mm): a wider band takes in walls."""
@@ -77,7 +78,7 @@ def refined_plane(points: FloatArray, start: Plane, inlier_distance_mm: float = 
         about = inliers - centre
         normal = np.linalg.eigh(about.T @ about)[1][:, 0]
         normal = normal if normal @ plane.normal > 0 else -normal
-        residual = TO_SIGMA * float(np.median(np.abs(about @ normal)))
+        residual = TO_SIGMA * float(median(np.abs(about @ normal)))
         plane = Plane(normal, float(normal @ centre), residual)
         band = min(widest_mm, max(BAND_SIGMAS * residual, LEAST_BAND_MM))
     return plane
@@ -194,6 +195,4 @@ def seen_lengths(depth: Array, seen: BoolArray) -> list[float | None]:
     ``depth`` (k, m) mm of the points along the axis, and which of them are there, ``seen`` (k, m).
     """
     enough = seen.sum(axis=1) >= _SEEN_COUNT_MIN
-    return [
-        float(np.percentile(d[s], _SEEN_PERCENT)) if e else None for d, s, e in zip(depth, seen, enough, strict=True)
-    ]
+    return [float(percentiles(d[s], _SEEN_PERCENT)) if e else None for d, s, e in zip(depth, seen, enough, strict=True)]

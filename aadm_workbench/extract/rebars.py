@@ -22,6 +22,7 @@ from aadm_workbench.extract.edges.learned_edges import (
     with_learned_discs,
     without_losses,
 )
+from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
 from aadm_workbench.extract.edges.seen_disc import SightLines, seen_discs, sight_lines_on_tops
 from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
 from aadm_workbench.extract.own_tops import TopPlanes, top_planes
@@ -42,6 +43,7 @@ from aadm_workbench.extract.pooled.system import Priors, State
 from aadm_workbench.extract.sample import Thinned, thinned
 from aadm_workbench.extract.tops import BENT_TOP_BAND_MM, REACH_MM, Tops, burr_u_mm, tops_in, with_sides_that_lean
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, Kind, Plane, Reason, Scan
+from aadm_workbench.model.special import median
 
 _SAMPLE = 90_000  # every fifth row and column of 1920 × 1200
 _START_DEPTH_MM = 15.0  # of a side below its top: bars that lean as usual move by 0.08 mm there
@@ -85,6 +87,7 @@ class _Bars:
     points: tuple[AssemblyPoint, ...]
     complete: bool
     lost_mm: float
+    rings: float | None
 
 
 def extract_rebars(
@@ -121,7 +124,7 @@ def extract_rebars(
     for _ in range(_SIZES_TRIED):
         if isinstance(bars, str) or _is_of_size(bars, sizes_mm[0]):
             break
-        sizes_mm = (2.0 * float(np.median(bars.fit.outline_radius)), *others_mm)
+        sizes_mm = (2.0 * float(median(bars.fit.outline_radius)), *others_mm)
         bars = _measured(scan, sample, standing, places, sizes_mm, BAR_PRIORS, rng)
     if isinstance(bars, str):
         return _nothing(bars)
@@ -130,7 +133,7 @@ def extract_rebars(
 
 def _is_of_size(bars: _Bars, diameter_mm: float) -> bool:
     low, high = _OF_SIZE
-    radius_mm = float(np.median(bars.fit.outline_radius))
+    radius_mm = float(median(bars.fit.outline_radius))
     at_the_edge = abs(radius_mm - diameter_mm / 2) > _NEAR_THE_REACH * RADII_REACH_MM
     return low < 2.0 * radius_mm / diameter_mm < high and not at_the_edge
 
@@ -174,7 +177,7 @@ def _measured(
         return Reason("extract.no_top", diameter_mm=sizes_mm[0])
     lines = _lines(patches, planes, tops)
     bend = _bend(lines, tops, radius_mm)
-    pitch_mm = float(np.median(tops.pitch_mm))
+    pitch_mm = float(median(tops.pitch_mm))
     signs = filter_signs(patches.of(tops.kept), tops.centre, radius_mm, pitch_mm, -1.0)
     if reason := signs.reason(blurred=bend.blurred):
         return reason
@@ -187,10 +190,15 @@ def _measured(
     if leaning is not tops:
         tops, fit = leaning, _fit(leaning, radius_mm, priors)
     fit, dropped_mm = _shifted(fit, tops, lines, bend)
+    own, height = patches.of(tops.kept), planes.of(tops.kept).height(patches.of(tops.kept))
+    rings = rings_dropped(gaps_at_steps(own, height, tops.centre, radius_mm, pitch_mm))
+    # Where rings were dropped edges stand that much inside, however well they go with the size that was looked for.
+    fit = replace(fit, radius_u_mm=max(fit.radius_u_mm, rings * pitch_mm))
     known, lost_mm = known_edges(scan.learned, Kind.REBAR, patches.of(tops.kept).eye, axes_on(level)), 0.0
     if lines is not None and known is not None:
         fit, lost_mm = _drawn_to_discs(fit, lines, known), known.most_lost_mm
-    return _Bars(tops, fit, _points(tops, fit, priors.lean, level, lost_mm), signs.complete, dropped_mm)
+    points = _points(tops, fit, priors.lean, level, lost_mm)
+    return _Bars(tops, fit, points, signs.complete, dropped_mm, None if lines is None else dropped_mm / bend.pitch_mm)
 
 
 def _own_levels(scan: Scan, sample: Thinned, level: Plane, centres: Array, radius_mm: float) -> Array:
@@ -210,7 +218,7 @@ def _lines(patches: Patches, planes: TopPlanes, tops: Tops) -> SightLines | None
 
 
 def _bend(lines: SightLines | None, tops: Tops, radius_mm: float) -> Bend:
-    pitch_mm = float(np.median(tops.pitch_mm))
+    pitch_mm = float(median(tops.pitch_mm))
     if lines is None:
         return no_bend(pitch_mm, -1.0)
     seen = seen_discs(lines, np.abs(lines.height) < BENT_TOP_BAND_MM, tops.centre, radius_mm, pitch_mm, -1.0)
@@ -231,13 +239,13 @@ def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -
 def _drawn_to_discs(fit: PooledFit, lines: SightLines, known: KnownEdges) -> PooledFit:
     """The fit, its centres drawn to discs of lines of sight set right by what was learned of the camera."""
     lines, on = without_losses(lines, fit.centre, -1.0, known), np.abs(lines.height) < LEARNED_BAND_MM
-    discs = seen_discs(lines, on, fit.centre, float(np.median(fit.outline_radius)), known.pitch_mm, -1.0)
+    discs = seen_discs(lines, on, fit.centre, float(median(fit.outline_radius)), known.pitch_mm, -1.0)
     near = np.hypot(*(discs.centre - fit.centre).T) < _NEAR_DISC_MM
     return with_learned_discs(fit, discs, near, lines.slope, known, PARTS_VIEW_MM[-1.0])
 
 
 def _fit(tops: Tops, radius_mm: float, priors: Priors) -> PooledFit:
-    pitch_mm = float(np.median(tops.pitch_mm))
+    pitch_mm = float(median(tops.pitch_mm))
     beyond = Rims(tops.beyond.xy, tops.beyond.seen, 1.0, RimLaw(pitch_mm, _BEYOND_TAIL_MM, _FLYING, softness=_SOFTNESS))
     rims = Rims(
         tops.rims.xy, tops.rims.seen, -1.0, RimLaw(pitch_mm, _RIM_TAIL_PITCHES * pitch_mm, _FOREIGN, softness=_SOFTNESS)
@@ -259,7 +267,7 @@ def _nothing(reason: str) -> Extraction:
 def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extraction:
     tops, fit = bars.tops, bars.fit
     # where a filter drops rings, it does so on the side of the step alone: outlines are that much out of round
-    within_mm = max(AGREES_MM, 2.0 * float(np.median(tops.pitch_mm)))
+    within_mm = max(AGREES_MM, 2.0 * float(median(tops.pitch_mm)))
     within_mm = max(within_mm, min(within_mm + bars.lost_mm, _OUT_OF_ROUND * diameter_mm / 2))
     agree = agreeing_shares(tops.rims, fit.centre, fit.outline_radius, within_mm)
     off = 2 * fit.outline_radius / diameter_mm - 1.0
@@ -272,10 +280,10 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
     if standing.floor is None:
         vertical, source = _mean_axis(points), "bar axes"
     exposed = tuple(_exposed(point, standing.floor) for point in points)
-    tops_level = Plane(vertical, float(np.median([vertical @ point.centre for point in points])))
+    tops_level = Plane(vertical, float(median([vertical @ point.centre for point in points])))
     quality = {
-        "point_pitch_mm": float(np.median(tops.pitch_mm)),
-        "plane_residual_mm": float(np.median(tops.residual_mm)),
+        "point_pitch_mm": float(median(tops.pitch_mm)),
+        "plane_residual_mm": float(median(tops.residual_mm)),
         "diameter_u_mm": 2.0 * fit.radius_u_mm,
         "edge_coverage": float(np.mean(tops.rims.coverage)),
         "edge_residual_mm": fit.edge_mm,
@@ -283,7 +291,16 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
         "wall_points": int(fit.wall_count.sum()),
     }
     return Extraction(
-        Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality, complete=bars.complete
+        Kind.REBAR,
+        "refined",
+        points,
+        tops_level,
+        vertical,
+        source,
+        exposed,
+        quality,
+        complete=bars.complete,
+        rings=bars.rings,
     )
 
 
@@ -320,13 +337,13 @@ def _shape_u_mm(tops: Tops, fit: PooledFit, lost_mm: float) -> Array:
     spoilt += 0.5 * (behind > _FAR_MM + lost_mm).sum(axis=1) / count + 0.5 * (1.0 - tops.rims.coverage)
     held = tops.beyond.seen.sum(axis=1) > 0.5 * count
     ribs = np.where(held, *_SHAPE_U_PITCHES) * tops.pitch_mm
-    burrs = burr_u_mm(tops.rims, fit.centre, float(np.median(fit.outline_radius)))
+    burrs = burr_u_mm(tops.rims, fit.centre, float(median(fit.outline_radius)))
     return np.asarray(np.hypot(np.hypot(ribs, burrs), _SPOILT_U_MM * spoilt))
 
 
 def _mean_axis(points: tuple[AssemblyPoint, ...]) -> Array:
     """Robust mean of the bar axes: their median, made a unit vector."""
-    middle = np.median([point.axis for point in points], axis=0)
+    middle = median([point.axis for point in points], axis=0)
     return np.asarray(middle / np.linalg.norm(middle))
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray, Scan
+from aadm_workbench.model.special import percentiles
 
 _CELLS_MAX = 4_000_000  # 32 MB of counts
 _LIKE_MM, _COMPANY, _ALONE = 10.0, 1, 4.0  # seen steeply, the side of a bar falls by so much between thinned pixels
@@ -81,7 +82,7 @@ def point_pitch_mm(sample: Thinned, on_plane: FloatArray) -> float:
     if len(on_plane) < 50:  # nothing to count: what most cameras see at 1.5 m
         return 1.0
     every = len(on_plane) // _ENOUGH + 1
-    filled = every * np.percentile(counts_in_cells(on_plane[::every], _CELL_MM), 75)  # cells at edges are half empty
+    filled = every * percentiles(counts_in_cells(on_plane[::every], _CELL_MM), 75)  # cells at edges are half empty
     return float(_CELL_MM * np.sqrt(sample.share / max(filled, 1.0)))
 
 

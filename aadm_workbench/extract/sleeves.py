@@ -15,7 +15,7 @@ from aadm_workbench.extract.circle import AGREES_MM
 from aadm_workbench.extract.edges.learned_edges import (
     known_edges,
 )
-from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped
+from aadm_workbench.extract.edges.lost_rings import gaps_at_steps, rings_dropped, tells_of_rings
 from aadm_workbench.extract.edges.seen_disc import sight_lines_on_face
 from aadm_workbench.extract.filter_signs import COPIED, copies_depths, filter_signs
 from aadm_workbench.extract.foot_face import FootFace, faces_with_holes, level_with_rings
@@ -37,6 +37,7 @@ from aadm_workbench.model import (
     Scan,
     codes_of,
 )
+from aadm_workbench.model.special import median
 
 _ENOUGH_MOUTHS = 3  # in a plane: what chance leaves in the noise of a wall is not round
 _NO_MOUTHS = {"extract.no_hole", "extract.no_measured_hole", "extract.no_round_mouth"}
@@ -180,7 +181,7 @@ def _in_face(
 def _is_of_another_size(seen: Extraction, diameter_mm: float) -> bool:
     """Whether mouths are all so far off their diameter that another size is likelier."""
     measured_mm = [point.diameter_mm for point in seen.points]
-    return bool(measured_mm) and abs(float(np.median(measured_mm)) / diameter_mm - 1.0) > _RADIUS_MISFIT / 2.0
+    return bool(measured_mm) and abs(float(median(measured_mm)) / diameter_mm - 1.0) > _RADIUS_MISFIT / 2.0
 
 
 def _facing_away_from_walls(face: Plane, centres: Array, sample: Thinned, radius_mm: float) -> tuple[Plane, Array]:
@@ -244,7 +245,17 @@ def _measured(
         **learned,
     }
     return Extraction(
-        Kind.SLEEVE, "refined", points, face, -face.normal, "foot face", quality=quality, complete=signs.complete
+        Kind.SLEEVE,
+        "refined",
+        points,
+        face,
+        -face.normal,
+        "foot face",
+        quality=quality,
+        complete=signs.complete,
+        # one ring or two is told by the edges; whether any is, by what lies behind them
+        rings=float(min(rings, 1)) if tells_of_rings(gaps) else None,
+        noise_seen=layer.flat,
     )
 
 

@@ -27,6 +27,7 @@ from aadm_workbench.extract.circle import (
 from aadm_workbench.extract.own_tops import TopPlanes, top_planes
 from aadm_workbench.extract.patches import Patches
 from aadm_workbench.model import Array, BoolArray, FloatArray, IntArray
+from aadm_workbench.model.special import median
 
 REACH_MM = 14.0
 """How far around a bar points are taken, beyond its nominal radius."""
@@ -106,7 +107,7 @@ def tops_in(
     bands_mm = np.maximum(_TOP_BAND_SIGMAS * planes.residual_mm, band_mm).astype(np.float32)[:, None]
     on_top = (np.abs(height) < bands_mm) & planes.found[:, None]
     pitch_mm = np.sqrt(np.pi * radius_mm**2 / np.maximum(on_top.sum(axis=1), 1))
-    bins = bins_for(radius_mm, float(np.median(pitch_mm[planes.found])) if planes.found.any() else radius_mm)
+    bins = bins_for(radius_mm, float(median(pitch_mm[planes.found])) if planes.found.any() else radius_mm)
     top = PlanPoints.of(patches.x, patches.y, np.flatnonzero(on_top))
     zone_mm = _OUTLINE_ZONE * radius_mm, radius_mm + _OUTLINE_BEYOND_MM
     start = np.zeros((len(places), 2))
@@ -296,7 +297,7 @@ def _usual(values: Array) -> float:
     ordered, held = np.sort(values), max(2, round(_ALIKE_SHARE * len(values)))
     width = ordered[held - 1 :] - ordered[: len(values) - held + 1]
     first = int(np.flatnonzero(width <= max(_ALIKE_MM, width.min()))[0])
-    middle = float(np.median(ordered[first : first + held]))
+    middle = float(median(ordered[first : first + held]))
     for _ in range(_ROUNDS):
-        middle = float(np.median(ordered[np.abs(ordered - middle) <= _ALIKE_MM]))
+        middle = float(median(ordered[np.abs(ordered - middle) <= _ALIKE_MM]))
     return middle

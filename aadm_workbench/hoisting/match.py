@@ -14,6 +14,7 @@ from aadm_workbench.model import Array, IntArray, Reason
 _LARGEST_TURN = np.radians(46.0)
 _SAME_COST_MM = 12.0  # 1 mm for each of twelve points: placements that differ by less are told apart by nothing
 _CONTRADICTS_MM = 30.0  # 2.5 mm for each of twelve points: then the declared corner is wrong; a choice, not tuned since
+_SLID_MM = 10.0  # what moves a pattern by more lays its points on others: no two are nearer to each other
 _FEWEST = 3  # two points lie on every pattern
 
 
@@ -36,12 +37,14 @@ class Matched:
 
     ``off_declared`` is how far, in radians, things hang and stand off what ``near`` claims, where it chose: the turn of
     the column against its bars, or that of the camera about the corner named. At 45° it would be the next turn.
+    ``slid``: one of them lies as well some places farther along a row.
     """
 
     sleeves: Laid
     rebars: Laid
     orientation: str
     off_declared: float = 0.0
+    slid: bool = False
 
 
 @dataclass(frozen=True)
@@ -92,19 +95,17 @@ def match_hoisting(
             return NoMatch(_contradiction(near, _nearest_corner(best, eye, rebar_places)))
         chosen = fitting[0]
         orientation = "declared" if alike else "resolved"
-    turned = [found for found in on_foot if abs(wrap(chosen.yaw - found.yaw)) < _LARGEST_TURN]
-    if not turned:
+    foot = _hung(on_foot, chosen)
+    if foot is None:
         return NoMatch(Reason("hoisting.turned_far"))
-    cheapest = turned[0].cost_mm
-    close = [found for found in turned if found.cost_mm < cheapest + _SAME_COST_MM]
-    foot = min(close, key=lambda found: abs(wrap(chosen.yaw - found.yaw)))
     off = 0.0
     if near is not None:
         # What a pattern settles by itself, no declaration decides.
         off = _from_corner(chosen, eye, rebar_places) if orientation == "declared" else 0.0
         if any(_elsewhere(found, foot) for found in on_foot if found.cost_mm < foot.cost_mm + _SAME_COST_MM):
             off = max(off, abs(wrap(chosen.yaw - foot.yaw)))
-    return Matched(_laid(foot), _laid(chosen), orientation, off)
+    slid = _may_have_slid(on_bars, chosen, rebar_places) or _may_have_slid(on_foot, foot, sleeve_places)
+    return Matched(_laid(foot), _laid(chosen), orientation, off, slid)
 
 
 def _worth(found: list[PlanarPlacement]) -> list[PlanarPlacement]:
@@ -114,6 +115,24 @@ def _worth(found: list[PlanarPlacement]) -> list[PlanarPlacement]:
 def _elsewhere(one: PlanarPlacement, other: PlanarPlacement) -> bool:
     # patterns look alike at 90 degrees and less often at 60: a third of that is scatter
     return bool(abs(wrap(one.yaw - other.yaw)) > np.radians(20.0))
+
+
+def _hung(on_foot: list[PlanarPlacement], bars: PlanarPlacement) -> PlanarPlacement | None:
+    """The placement of the foot that is turned least against the bars, of those that lie alike; None if all are far."""
+    turned = [found for found in on_foot if abs(wrap(bars.yaw - found.yaw)) < _LARGEST_TURN]
+    close = [found for found in turned if found.cost_mm < turned[0].cost_mm + _SAME_COST_MM]
+    return min(close, key=lambda found: abs(wrap(bars.yaw - found.yaw)), default=None)
+
+
+def _may_have_slid(every: list[PlanarPlacement], chosen: PlanarPlacement, places: Array) -> bool:
+    """Whether the pattern lies as well some places along a row: a row that is not seen whole tells no point's name."""
+    middle = places.mean(axis=0)
+    at = turn(-chosen.yaw) @ (middle - chosen.shift)
+    return any(
+        np.hypot(*(turn(-found.yaw) @ (middle - found.shift) - at)) > _SLID_MM
+        for found in every
+        if not _elsewhere(found, chosen) and found.cost_mm < chosen.cost_mm + _SAME_COST_MM
+    )
 
 
 def _nearest_corner(found: PlanarPlacement, eye: Array, places: Array) -> tuple[int, int]:

@@ -25,6 +25,7 @@ from aadm_workbench.hoisting.moved import moved_since, still_known, with_scans_n
 from aadm_workbench.hoisting.offsets import HungFit
 from aadm_workbench.hoisting.pairs import report_pairs, unmeasured
 from aadm_workbench.hoisting.pattern_fit import Pattern
+from aadm_workbench.hoisting.plain_sight import missing_labels
 from aadm_workbench.hoisting.sense import shown_sleeves, why_half, why_not_bars, why_not_foot
 from aadm_workbench.hoisting.sequence.sighting import SightedMeasurement, Sighting, with_sighting
 from aadm_workbench.hoisting.sequence.track import Found, follow, has_lost_bars, has_lost_foot
@@ -205,11 +206,14 @@ def _measured(
         column = replace(column, rebars_before=known)
         hung = _bars(frame, found, foot, column)
     sleeves_known = measured_labels(column.sleeves_before, design.sleeves)
-    hung = replace(hung, before=(*sleeves_known, *measured_labels(column.rebars_before, design.rebars)))
+    missing = missing_labels(frame, hung, design)
+    before = (*sleeves_known, *measured_labels(column.rebars_before, design.rebars))
+    hung = replace(hung, before=tuple(label for label in before if label not in missing), missing=missing)
     shown = shown_sleeves(frame, found.face, foot)
     half = why_half(shown)
     unlike = why_not_foot(found.face, foot, column.diameter_mm(Kind.SLEEVE))
     unlike = unlike or why_not_bars(frame, hung, found.bars, matched, column.diameter_mm(Kind.REBAR))
+    unlike = unlike or (Reason("hoisting.slid") if matched.slid else "")
     if unlike:
         return unmeasured(scan, design, METHOD, half or unlike)
     measured = report_pairs(scan, frame, design, hung, matched.orientation, settings.profile, settings.decision, half)

@@ -23,7 +23,7 @@ class HungFit:
     """All that was fitted in one frame: the foot in the axes of its face, the bars in axes along their vertical.
 
     ``floor`` (3,) is its normal in the axes of the face, None where too little of it is seen; ``before`` are the labels
-    of what was measured before hoisting.
+    of what was measured before hoisting, ``missing`` those of what is seen not to be there.
     """
 
     face: FootFace
@@ -32,6 +32,7 @@ class HungFit:
     bars: BarFit
     floor: Array | None = None
     before: tuple[str, ...] = ()
+    missing: tuple[str, ...] = ()
 
     @property
     def seen(self) -> BoolArray:

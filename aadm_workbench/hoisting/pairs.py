@@ -12,6 +12,7 @@ from aadm_workbench.hoisting.correction import correction_of
 from aadm_workbench.hoisting.frame import HoistingFrame
 from aadm_workbench.hoisting.moved import repair_in_words
 from aadm_workbench.hoisting.offsets import HungFit, Offsets, offsets_of
+from aadm_workbench.hoisting.plain_sight import missing_in_words
 from aadm_workbench.hoisting.unseen import look_again, unseen_in_words, verdict_unseen, would_pass
 from aadm_workbench.model import (
     Array,
@@ -63,6 +64,8 @@ def report_pairs(
     keys = _keys(found.sleeves)
     correction = correction_of(hung, found, rule, design)
     tilt = float(np.degrees(np.arccos(np.clip(found.to_bars[2] @ hung.face.axes[2], -1.0, 1.0))))
+    bent = () if correction is None else correction.repairs
+    said = (reason,) if reason else _reasons(pairs, rule, bent, hung.missing, design)
     report = HoistingReport(
         source=scan.source,
         keys=tuple(design.sleeves[k].label for k in keys),
@@ -72,7 +75,7 @@ def report_pairs(
         verdict=_verdict(pairs, rule, reason),
         pairs=pairs,
         correction=correction,
-        reasons=_reasons(pairs, rule, reason, () if correction is None else correction.repairs),
+        reasons=said,
         sha256=scan.sha256,
         method="refined",
         quality=_quality(hung),
@@ -101,6 +104,8 @@ def _pair(
     sleeve_seen, rebar_seen = bool(hung.foot.seen[k]), bool(hung.bars.seen[k])
     labels = design.sleeves[k].label, design.rebars[k].label
     unseen = [label for label, seen in zip(labels, (sleeve_seen, rebar_seen), strict=True) if not seen]
+    missing = tuple(label for label in unseen if label in hung.missing)
+    said = missing_in_words(missing, design)
     covariance = found.of_pair(k)
     verdict, probability = Verdict.NOT_ASSESSED, None
     if rule is not None and not reason:
@@ -116,7 +121,7 @@ def _pair(
         distance_mm=float(found.distances[k]),
         u_mm=standard_uncertainty(covariance),
         seen=sleeve_seen and rebar_seen,
-        reason=unseen_in_words(unseen, hung.before),
+        reason=unseen_in_words([label for label in unseen if label not in missing], hung.before, said),
         sleeve_seen=sleeve_seen,
         rebar_seen=rebar_seen,
         limit_mm=None if rule is None else rule.upper,
@@ -132,12 +137,15 @@ def _verdict(pairs: Sequence[HoistingPair], rule: Rule | None, reason: str) -> V
 
 
 def _reasons(
-    pairs: Sequence[HoistingPair], rule: Rule | None, reason: str, repairs: Sequence[Repair]
+    pairs: Sequence[HoistingPair],
+    rule: Rule | None,
+    repairs: Sequence[Repair],
+    missing: tuple[str, ...],
+    design: ColumnDesign,
 ) -> tuple[str, ...]:
-    if reason:
-        return (reason,)
+    said = missing_in_words(missing, design)
     if rule is None:
-        return ()
+        return said
     clause = describe_limit(rule)
     inferred = [pair for pair in pairs if would_pass(pair)]
     beyond = [
@@ -158,7 +166,7 @@ def _reasons(
         if pair.verdict is Verdict.INCONCLUSIVE and pair not in inferred
     ]
     bent = [repair_in_words(one) for one in repairs]
-    return (*bent, *beyond, *unsure, *look_again(inferred))
+    return (*said, *bent, *beyond, *unsure, *look_again(inferred, missing))
 
 
 def key_labels(design: ColumnDesign, near: tuple[int, int]) -> tuple[str, str, str]:

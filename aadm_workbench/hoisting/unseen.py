@@ -25,11 +25,15 @@ def verdict_unseen(verdict: Verdict, unseen: Sequence[str], before: Sequence[str
     return Verdict.INCONCLUSIVE if inferred and verdict is Verdict.PASS else verdict
 
 
-def unseen_in_words(unseen: Sequence[str], before: Sequence[str]) -> str:
-    """Of a pair: which of its points were not seen, and where their places come from; empty where both were seen."""
+def unseen_in_words(unseen: Sequence[str], before: Sequence[str], missing: Sequence[Reason] = ()) -> str:
+    """Of a pair: which of its points were not seen, and where their places come from; empty where both were seen.
+
+    What is ``missing``, said already, was seen not to be there: where its place comes from is of no account.
+    """
     inferred = [label for label in unseen if label not in before]
     resting = [label for label in unseen if label in before]
-    said = [Reason("hoisting.inferred", labels=inferred)] if inferred else []
+    said = [*missing]
+    said += [Reason("hoisting.inferred", labels=inferred)] if inferred else []
     said += [Reason("hoisting.resting", labels=resting)] if resting else []
     return in_one(said)
 
@@ -40,9 +44,12 @@ def would_pass(pair: HoistingPair) -> bool:
     return pair.verdict is Verdict.INCONCLUSIVE and sure
 
 
-def look_again(pairs: Sequence[HoistingPair]) -> tuple[str, ...]:
-    """A sentence on the pairs that only their own evidence could let pass, where there are any."""
-    points = [point for pair in pairs for point in _hidden(pair)]
+def look_again(pairs: Sequence[HoistingPair], missing: Sequence[str] = ()) -> tuple[str, ...]:
+    """A sentence on the pairs that only their own evidence could let pass, where there are any.
+
+    At what is ``missing`` no other corner need look.
+    """
+    points = [point for pair in pairs for point in _hidden(pair) if point not in missing]
     text = Reason("hoisting.look_again", labels=points)
     return (text,) if points else ()
 

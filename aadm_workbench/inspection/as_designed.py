@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -29,6 +29,7 @@ def read_design(
     sleeves: str | None = None,
     rebars: str | None = None,
     units: str = "mm",
+    only: Collection[str] | None = None,
 ) -> ModelDesign:
     """Columns, sleeves and connecting rebars of a model of any format, point clouds (.pcd) among them.
 
@@ -40,6 +41,8 @@ def read_design(
         Optional selectors in the syntax of ``ifcopenshell.util.selector``.
     units
         Of a mesh or a cloud: mm, cm, m, inch or foot. Other formats bring theirs.
+    only
+        Names of the columns that are asked for: of an IFC model, what belongs to none of them may be left out.
 
     Raises
     ------
@@ -52,7 +55,7 @@ def read_design(
         return read_cloud(Path(path), Rules(columns, sleeves, rebars), units=units)
     from aadm_workbench.design.read import read_model
 
-    return read_model(path, columns=columns, sleeves=sleeves, rebars=rebars, units=units)
+    return read_model(path, columns=columns, sleeves=sleeves, rebars=rebars, units=units, only=only)
 
 
 @contextmanager

@@ -40,6 +40,7 @@ from aadm_workbench.model import (
     Reason,
     Scan,
 )
+from aadm_workbench.model.special import median
 
 if TYPE_CHECKING:
     from aadm_workbench.assembly.survey.control import ControlPose
@@ -126,7 +127,7 @@ def _measure(
 ) -> Measured:
     """Extract, match and inspect one group of points; ``before`` it others were measured, with the same camera."""
     views, points, up_deg = scans.of(kind), design.points(kind), scans.up_deg(kind)
-    scan, diameter_mm = views[0], float(np.median(_diameters_mm(points)))
+    scan, diameter_mm = views[0], float(median(_diameters_mm(points)))
     rng = np.random.default_rng([settings.seed, list(Kind).index(kind)])
     known = Known(design, up_deg)
     with stage("extract"):

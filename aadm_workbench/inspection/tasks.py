@@ -140,7 +140,7 @@ def plan_job(job: Job, *, only: Sequence[str] = (), method: str = "refined") -> 
     columns = chosen_columns(job, only)
     model, unreadable = None, ""
     try:
-        model = model_of(job)
+        model = model_of(job, [column.id for column in columns if column.design is None])
     except DesignError as error:
         # It costs only the columns that are looked up in it.
         if not any(column.design is not None for column in columns):
@@ -168,8 +168,8 @@ def chosen_columns(job: Job, only: Sequence[str]) -> tuple[JobColumn, ...]:
     return tuple(column for column in job.columns if not only or column.id in only)
 
 
-def model_of(job: Job) -> ModelDesign | None:
-    """The job's model, called as the job calls it; None where it has none.
+def model_of(job: Job, ids: Sequence[str]) -> ModelDesign | None:
+    """What the job's model says of columns of these ids, called as the job calls it; None where it has no model.
 
     Raises
     ------
@@ -183,7 +183,7 @@ def model_of(job: Job) -> ModelDesign | None:
     path = job.folder / job.model.path
     rules = {"columns": job.model.columns, "sleeves": job.model.sleeves, "rebars": job.model.rebars}
     with unforeseen_in(str(path)):
-        model = read_design(path, **rules, units=job.model.units)
+        model = read_design(path, **rules, units=job.model.units, only=ids)
     return replace(model, source=job.model.path)
 
 

@@ -50,6 +50,9 @@ class LearnedEdges:
         surface is seen to end, in distances of neighbouring pixels. Empty: not learned.
     share
         Of discs that are set right by ``lost``, in each centre; the rest is the fit of all witnesses.
+    rings
+        How many rings of pixels the camera was seen to drop at steps, as :class:`~aadm_workbench.model.Extraction` has
+        it; None where nothing told.
     apart_pitches
         How far, per axis, all centres of this kind may be off together.
     """
@@ -61,6 +64,7 @@ class LearnedEdges:
     lost: tuple[tuple[float, float], ...] = ()
     share: float = 0.0
     apart_pitches: float = 0.0
+    rings: float | None = None
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,9 @@ Value: TypeAlias = "str | tuple[str, ...]"
 _JOINED = {" ": (" ", ""), "and": (" and ", "和"), "or": (" or ", "或"), ";": ("; ", "；"), ".": (". ", "。")}
 """What several values of one place are joined by, English and Chinese, where its format says so; else by commas."""
 
+_TEXTS = {"", "word", *_JOINED}
+"""Formats of places that numbers fill as they are."""
+
 _SAID = {"what", "why"}
 """Places in which a library puts another of its sentences."""
 
@@ -56,11 +59,11 @@ class Reason(str):
 
     def __new__(cls, code: str, /, **values: object) -> Reason:
         """Fill the English sentence; the values are kept as they stand in it."""
-        places = places_of(sentence(code)[0])
+        places = _english(code)
         kept = {place.name: _kept(values[place.name], place.form) for place in places if place.name}
         reason = super().__new__(cls, _filled(places, kept, 0))
-        object.__setattr__(reason, "code", code)
-        object.__setattr__(reason, "values", kept)
+        _set(reason, "code", code)
+        _set(reason, "values", kept)
         return reason
 
     def __setattr__(self, name: str, value: object) -> None:
@@ -159,31 +162,44 @@ def places_of(text: str) -> tuple[Place, ...]:
     return tuple(Place(before, name or "", form or "") for before, name, form, _ in Formatter().parse(text))
 
 
+_set = object.__setattr__
+
+
+@cache
+def _english(code: str) -> tuple[Place, ...]:
+    return places_of(sentence(code)[0])
+
+
 def _again(code: str, values: dict[str, Value]) -> Reason:
     return Reason(code, **values)
 
 
 def _kept(value: object, form: str) -> Value:
-    if isinstance(value, BaseException):
-        return reason_of(value)
+    if isinstance(value, float):  # most are: no other question is asked of them
+        return str(value) if form in _TEXTS else format(value, form)
     if isinstance(value, str) and not isinstance(value, Enum):
         return value
+    if isinstance(value, BaseException):
+        return reason_of(value)
     parts = tuple(value) if isinstance(value, Iterable) else ()
     if parts and all(isinstance(part, str) for part in parts):
         return parts
     plain = value.value if isinstance(value, Enum) else value
-    return str(plain) if form in {"", "word", *_JOINED} else format(plain, form)
+    return str(plain) if form in _TEXTS else format(plain, form)
 
 
 def _filled(places: tuple[Place, ...], values: Mapping[str, Value], language: int) -> str:
-    return "".join(
-        place.before + (_shown(values[place.name], place.form, language) if place.name else "") for place in places
-    )
+    parts: list[str] = []
+    for before, name, form in places:
+        parts.append(before)
+        if name:
+            parts.append(_shown(values[name], form, language))
+    return "".join(parts)
 
 
 def _shown(value: Value, form: str, language: int) -> str:
     if isinstance(value, tuple):
         return _JOINED.get(form, (", ", "、"))[language].join(_shown(one, form, language) for one in value)
     if isinstance(value, Reason):
-        return value.in_language("zh" if language else "en")
+        return value.in_language("zh") if language else str(value)
     return sentences_of("words").get(f"words.{value}", (value, value))[language] if form == "word" else value

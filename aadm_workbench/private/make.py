@@ -17,6 +17,9 @@ PROBLEMS = ("busy", "in-use", "network", "no-wheel", "certificate", "proxy", "sp
 _NEEDED_BYTES = 10**9
 """The packages take 670 MB, their wheels 180 MB while they are unpacked."""
 
+_ROOMS = ("aadm_workbench", "batch")
+"""Folders of the product that its checks import from."""
+
 _OF_PIP = {
     "CERTIFICATE_VERIFY_FAILED": "certificate",
     "407 Proxy": "proxy",
@@ -72,6 +75,7 @@ def make(folder: Path, wheels: str) -> None:
             (new / "tmp").mkdir(parents=True)
         install(begun, wheels)
         prove(new)
+        compile_own()
         with begun.lock:
             shutil.rmtree(new / "tmp", ignore_errors=True)
             write_note(new)
@@ -165,6 +169,17 @@ def prove(new: Path) -> None:
     if done.returncode != 0:
         said = done.stdout.decode("utf-8", errors="replace").strip()
         raise NotMadeError("broken", said.replace("\n", "; ") or f"the proof ended with {done.returncode}")
+
+
+def compile_own() -> None:
+    """Byte-compile the product itself, so that no check has to; in a folder that cannot be written, each has to."""
+    from compileall import compile_dir
+
+    from aadm_workbench.private import pins
+
+    say("  compiling the product")
+    for room in _ROOMS:
+        compile_dir(pins.ROOT / room, quiet=2)
 
 
 def begun_without(new: Path) -> "set[str]":

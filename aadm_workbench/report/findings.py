@@ -22,6 +22,11 @@ class Finding:
     key_reasons: tuple[Phrase, ...]
     more: int
 
+    @property
+    def is_told(self) -> bool:
+        """Whether there are but words to say: nothing of the column was measured."""
+        return not self.column.groups and not self.column.hoisting_frames
+
 
 def findings(report: JobReport) -> list[Finding]:
     """One for each column, the worst first."""

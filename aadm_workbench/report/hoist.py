@@ -59,7 +59,20 @@ def _rank(verdict: str) -> int:
 
 
 def headline(report: JobReport) -> Phrase:
-    """``4 of 8 columns must not be hoisted``."""
-    number, total = len(in_state(report, "no")), len(report.columns)
-    name = {0: "none_forbidden", 1: "one_forbidden"}.get(number, "forbidden")
+    """``4 of 8 columns must not be hoisted``; where none must not, how many wait; else that all may."""
+    total = len(report.columns)
+    state = worst_state(report)
+    if total == 1:
+        return phrase(f"headline.{_OF_ONE[state]}")
+    number = len(in_state(report, state))
+    name = {"yes": "all_may", "not_yet": "some_wait"}.get(state, "one_forbidden" if number == 1 else "forbidden")
     return phrase(f"headline.{name}").filled(number=number, total=total)
+
+
+_OF_ONE = {"yes": "the_one_may", "not_yet": "the_one_waits", "no": "the_one_must_not"}
+
+
+def worst_state(report: JobReport) -> HoistState:
+    """What a report has to say first."""
+    states = {hoist_of(column).state for column in report.columns}
+    return "no" if "no" in states else "not_yet" if "not_yet" in states else "yes"

@@ -148,7 +148,7 @@ def _of_column(column: ColumnReport) -> Iterator[tuple[str, str]]:
     if column.verdict not in SUMMED:
         yield f"Invalid enum value '{column.verdict}'", "verdict"
     if not 0 < len(column.id) <= LONGEST_ID:
-        yield f"Expected up to {LONGEST_ID} characters", "id"
+        yield f"Expected 1 to {LONGEST_ID} characters", "id"
     for kind in Kind:
         for place, point in enumerate(column.points(kind)):
             if not _LABEL[kind].fullmatch(point.label):

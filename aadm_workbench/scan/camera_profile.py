@@ -37,6 +37,7 @@ class _Edges(msgspec.Struct, forbid_unknown_fields=True):
     lost: tuple[tuple[float, float], ...] = ()
     share: float = 0.0
     apart_pitches: float = 0.0
+    rings: float | None = None
 
 
 class _Learned(msgspec.Struct, forbid_unknown_fields=True):
@@ -89,6 +90,7 @@ def profile_text(profile: CameraProfile, figures: str = "") -> str:
         lines += ["", f"[learned.{name}]", f"stretch = {_pair(edges.stretch)}", f"spread = {edges.spread:.4g}"]
         lines += [f"scatter_pitches = {edges.scatter_pitches:.4g}", f"size = {_pair(edges.size)}"]
         lines += [f"share = {edges.share:.3f}", f"apart_pitches = {edges.apart_pitches:.4g}"]
+        lines += [] if edges.rings is None else [f"rings = {edges.rings:.2f}"]
         lines += [f"lost = [{', '.join(f'[{slope:g}, {pitches:.3f}]' for slope, pitches in edges.lost)}]"]
     return "\n".join(lines) + "\n" + figures
 
@@ -145,4 +147,5 @@ def _edges(found: _Edges) -> LearnedEdges:
         found.lost,
         found.share,
         found.apart_pitches,
+        found.rings,
     )

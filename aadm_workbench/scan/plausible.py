@@ -16,6 +16,7 @@ import numpy as np
 
 from aadm_workbench.errors import ScanError
 from aadm_workbench.model import Array, AssemblyPoint, BoolArray, IntArray, Reason, Scan, codes_of
+from aadm_workbench.model.special import median, percentiles
 
 FEWEST_POINTS = 500
 """Fewer than this cannot show a pattern of holes or bars."""
@@ -70,7 +71,7 @@ def check_plausible(scan: Scan, expected_extent_mm: float) -> Scan:
     ratio = float(spans_mm.max()) / expected_extent_mm
     if _is_plausible(ratio):
         refuse_ray_distances(scan, sample)
-        return _without_strays(scan, np.median(sample, axis=0), LARGEST_EXTENT_RATIO * expected_extent_mm)
+        return _without_strays(scan, median(sample, axis=0), LARGEST_EXTENT_RATIO * expected_extent_mm)
     if scan.declared_scale != 1.0 and _is_plausible(ratio * scan.declared_scale):
         return check_plausible(_in_declared_unit(scan), expected_extent_mm)
     sizes = " x ".join(f"{span:.4g}" for span in spans_mm)
@@ -113,7 +114,7 @@ def _without_strays(scan: Scan, middle: Array, reach_mm: float) -> Scan:
 
 def _robust_spans(points: Array) -> Array:
     """Return (3,) the sides in mm of the box that holds the middle 98 % of the points along each axis."""
-    lower, upper = np.percentile(points, _PERCENTILES, axis=0)
+    lower, upper = percentiles(points, _PERCENTILES)
     spans: Array = upper - lower
     return spans
 

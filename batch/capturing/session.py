@@ -15,6 +15,9 @@ from aadm_workbench.errors import CameraGoneError, CaptureError, EndOfFramesErro
 from aadm_workbench.report.hoisting_fitness import stamp_of
 from aadm_workbench.scan.write_capture import write_capture
 
+# of the time between frames: a column that swings at the pace of its frames would seem to stand, so no two are apart
+# alike (steps of the golden section, which come back to no pace)
+_UNEVEN, _GOLDEN = (0.8, 1.2), 0.6180339887
 _AGAIN_AFTER_S = 1.0  # a camera that starts takes some seconds: to ask more often only fills the screen
 
 
@@ -59,7 +62,7 @@ class Session:
 
 @dataclass
 class LiveFolder:
-    """A camera that writes a capture into a folder, ``every_s`` seconds, whenever it is asked.
+    """A camera that writes a capture into a folder, every ``every_s`` seconds in the mean, whenever it is asked.
 
     ``ended``: it plays captures again, and has played and been asked after the last.
     """
@@ -70,13 +73,16 @@ class LiveFolder:
     clock: Callable[[], float] = monotonic
     ended: bool = False
     _next: float = field(default=0.0, init=False)
+    _taken: int = field(default=0, init=False)
 
     def fault(self) -> str:
         """Write the next frame if it is time; what kept it from being written, empty where nothing did."""
         now = self.clock()
         if now < self._next:
             return ""
-        self._next = now + self.every_s
+        self._taken += 1
+        share = _UNEVEN[0] + (_UNEVEN[1] - _UNEVEN[0]) * (self._taken * _GOLDEN % 1.0)
+        self._next = now + share * self.every_s
         try:
             self.session.take(self.folder / name_of(datetime.now(UTC)))
         except EndOfFramesError:

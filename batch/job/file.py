@@ -63,6 +63,7 @@ def read_job(path: Path) -> Job:
     camera, depth_scale_mm = _camera(top)
     learned = _camera_profile(top, path.parent)
     model, units = _model(top), top.one_of("units", ("mm", "m"), "mm")
+    lines = top.lines  # and not the table itself: what the text says is let go of
     return Job(
         source=str(path),
         folder=path.parent,
@@ -80,7 +81,7 @@ def read_job(path: Path) -> Job:
         capture=_capture(top),
         stack=_stack(top),
         camera_profile=learned,
-        line_of=lambda name: top.line("columns", [column.id for column in columns].index(name), "id"),
+        line_of=lambda name: lines.of(("columns", [column.id for column in columns].index(name), "id")),
     )
 
 

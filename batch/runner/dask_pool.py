@@ -262,7 +262,7 @@ class DaskPool:
             self._log(f"{worker.address}: {line}")
         return death_of(
             written,
-            lambda: self._exit(worker, known) or "killed (nobody there says how)",
+            lambda: self._exit(worker, known) or Reason("run.killed_unseen"),
             self._terms,
             is_overdue=self._overdue(worker, 0.0),
         )

@@ -198,7 +198,7 @@ class LocalPool:
             if monotonic() - began > _EXIT_S:
                 self._processes.kill(number)
             sleep(0.01)
-        return words or "killed (and does not end)"
+        return words or Reason("run.killed_in_vain")
 
     def _is_overdue(self, worker: _Worker, grace_s: float) -> bool:
         return worker.place is not None and self._terms.is_over(monotonic() - worker.began - grace_s)

@@ -7,8 +7,6 @@ sample floor, without its numbers: ``journal_words.json``, which ``python -m ben
 
 from __future__ import annotations
 
-import base64
-import binascii
 import json
 import re
 import struct
@@ -17,6 +15,8 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 LONGEST_TEXT_BYTES = 2**26
 """A column takes 50 KB, one with a hundred hoisting frames 2 MB; what unpacks to more is none of this program."""
@@ -36,7 +36,17 @@ Lengths in reports have four decimals, angles and ratios six, directions nine, o
 _DOUBLE = "\x05"
 _MARK = re.compile("[\x01-\x05]")
 _NUMBER = re.compile(r"-?\d{1,15}\.(\d{2,20})(?:e-?\d{1,3})?")  # a shorter one is best told where it stands
-_LEVEL = 6  # the best one saves a hundredth more, in twice the time
+_LEVEL = 9  # a seventh more time than the usual one, once for each column that is measured, and a hundredth less
+
+_SIGNS = np.frombuffer(
+    b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;<=>?@^_`{|}~", dtype=np.uint8
+)
+"""Of base 85, as RFC 1924 and ``base64.b85encode`` have it: four bytes in five signs, each of them one byte in JSON."""
+
+_NO_SIGN = 255  # no digit is as large
+_DIGITS = np.full(256, _NO_SIGN, dtype=np.uint8)  # one for each byte
+_DIGITS[_SIGNS] = np.arange(len(_SIGNS))
+_PLACES = len(_SIGNS) ** np.arange(4, -1, -1)  # of five digits, the highest first
 
 
 def pack(text: str) -> str:
@@ -60,7 +70,7 @@ def pack(text: str) -> str:
     packer = zlib.compressobj(_LEVEL, zdict=_words())
     packed = packer.compress(words.encode(errors="surrogatepass")) + packer.flush()
     numbers = b"".join(_gathered(found[mark], form) for mark, (_, form) in _KINDS.items())
-    return f"{base64.b64encode(packed).decode()} {base64.b64encode(zlib.compress(numbers, _LEVEL)).decode()}"
+    return f"{in_signs(packed)} {in_signs(zlib.compress(numbers, _LEVEL))}"
 
 
 def unpack(packed: str) -> str:
@@ -77,7 +87,7 @@ def unpack(packed: str) -> str:
     try:
         words = _inflated(parts[0], zlib.decompressobj(zdict=_words())).decode(errors="surrogatepass")
         numbers = _inflated(parts[1], zlib.decompressobj())
-    except (zlib.error, binascii.Error) as error:
+    except zlib.error as error:
         raise ValueError(str(error)) from error
     pieces, marks = _MARK.split(words), _MARK.findall(words)
     told = _told(numbers, marks)
@@ -135,10 +145,29 @@ def _spread(numbers: bytes, place: int, form: str, count: int) -> tuple[Sequence
 
 
 def _inflated(text: str, packer: zlib._Decompress) -> bytes:
-    content = packer.decompress(base64.b64decode(text, validate=True), LONGEST_TEXT_BYTES)
+    content = packer.decompress(_of_signs(text), LONGEST_TEXT_BYTES)
     if not packer.eof:
         raise ValueError("it breaks off, or is far too long")
     return content
+
+
+def in_signs(content: bytes) -> str:
+    """Bytes as signs of base 85; numpy takes a twentieth of the time that the standard library does."""
+    left = -len(content) % 4
+    quads = np.frombuffer(content + bytes(left), dtype=">u4").astype(np.int64)
+    signs: bytes = _SIGNS[quads[:, np.newaxis] // _PLACES % len(_SIGNS)].tobytes()
+    return signs[: len(signs) - left].decode()
+
+
+def _of_signs(text: str) -> bytes:
+    """The bytes that :func:`in_signs` was given."""
+    left = -len(text) % 5
+    digits = _DIGITS[np.frombuffer(text.encode("ascii", "replace") + b"~" * left, dtype=np.uint8)].reshape(-1, 5)
+    quads = digits.astype(np.int64) @ _PLACES
+    if (digits == _NO_SIGN).any() or (quads >= 2**32).any():
+        raise ValueError("there are signs that no bytes are written in")
+    content: bytes = quads.astype(">u4").tobytes()
+    return content[: len(content) - left]
 
 
 @cache

@@ -17,6 +17,8 @@ from dataclasses import dataclass
 from queue import SimpleQueue
 from typing import IO, Any
 
+from aadm_workbench.model import Reason
+
 _LENGTH = struct.Struct("<Q")
 
 
@@ -118,4 +120,4 @@ def _understood(message: bytes) -> Any:
     try:
         return pickle.loads(message)  # noqa: S301 - from a process that this one started
     except Exception as error:  # noqa: BLE001 - whatever it is, the task has no outcome
-        return Failed(f"its answer makes no sense ({type(error).__name__}: {error})".splitlines()[0])
+        return Failed(Reason("run.no_answer", why=f"{type(error).__name__}: {error}".splitlines()[0]))

@@ -9,17 +9,18 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator
-
-from rich.box import SIMPLE_HEAD
-from rich.console import Console, ConsoleOptions, RenderableType
-from rich.segment import Segment
-from rich.table import Table
-from rich.text import Text
+from typing import TYPE_CHECKING
 
 from aadm_workbench.model import Verdict
 from aadm_workbench.model.reason import Language, sentence
 
 from ..switches import printable
+
+if TYPE_CHECKING:  # tables and colours are loaded by who shows some: a line on stderr needs none
+    from rich.console import Console, ConsoleOptions, RenderableType
+    from rich.segment import Segment
+    from rich.table import Table
+    from rich.text import Text
 
 STYLE = {
     Verdict.PASS: ("✓", "green"),
@@ -37,6 +38,8 @@ _UNBOUNDED = 100_000
 
 def verdict_text(verdict: Verdict, language: Language = "en") -> Text:
     """A verdict as people read it: sign, word, colour."""
+    from rich.text import Text
+
     sign, style = STYLE[verdict]
     return Text(f"{sign} {in_words(verdict, language)}".strip(), style=style)
 
@@ -48,6 +51,9 @@ def in_words(verdict: Verdict, language: Language = "en") -> str:
 
 def new_table(*headings: str, numbers: tuple[str, ...] = (), title: str | None = None) -> Table:
     """An empty table; columns of ``numbers`` are set flush right."""
+    from rich.box import SIMPLE_HEAD
+    from rich.table import Table
+
     plain = not sys.stdout.isatty()
     table = Table(
         box=None if plain else SIMPLE_HEAD, title=title, title_justify="left", title_style="bold", pad_edge=False
@@ -59,6 +65,9 @@ def new_table(*headings: str, numbers: tuple[str, ...] = (), title: str | None =
 
 def show(*parts: Table | Text | str) -> None:
     """Write tables and lines to stdout."""
+    from rich.table import Table
+    from rich.text import Text
+
     console = _console(sys.stdout.isatty())
     try:
         with console.capture() as capture:
@@ -87,17 +96,19 @@ def say(message: str) -> None:
     sys.stderr.flush()
 
 
-class _PlainSpeaking(Console):
-    """A console in which what is shown cannot steer the terminal: names come from the files of others."""
-
-    def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterator[Segment]:
-        """Render as any console, with control characters spelt out."""
-        for segment in super().render(renderable, options):
-            yield segment if segment.control else Segment(printable(segment.text), segment.style)
-
-
 def _console(is_terminal: bool) -> Console:
-    return _PlainSpeaking(
+    from rich.console import Console
+    from rich.segment import Segment
+
+    class PlainSpeaking(Console):
+        """A console in which what is shown cannot steer the terminal: names come from the files of others."""
+
+        def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterator[Segment]:
+            """Render as any console, with control characters spelt out."""
+            for segment in super().render(renderable, options):
+                yield segment if segment.control else Segment(printable(segment.text), segment.style)
+
+    return PlainSpeaking(
         file=sys.stdout, width=None if is_terminal else _UNBOUNDED, highlight=False, markup=False, emoji=False
     )
 

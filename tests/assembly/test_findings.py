@@ -12,7 +12,8 @@ from aadm_workbench.assembly.findings.diameters import sizes_in_words
 from aadm_workbench.assembly.findings.finding import SeenGroup
 from aadm_workbench.assembly.findings.rules import findings_of
 from aadm_workbench.assembly.findings.scale import student_quantile
-from aadm_workbench.assembly.matching.match import match_extraction
+from aadm_workbench.assembly.matching.match import Match, match_extraction
+from aadm_workbench.extract.filter_signs import SMOOTHED
 from aadm_workbench.inspection.tasks import design_shape
 from aadm_workbench.model import (
     AssemblyPoint,
@@ -276,6 +277,15 @@ def test_sound_groups_of_any_size_and_scatter_have_no_finding() -> None:
             seed=seed,
         )
         assert found_in(replace(seen, scale_error=1e-4)) == [], seed
+
+
+@pytest.mark.parametrize("noise_seen", [True, False])
+def test_where_one_scan_was_smoothed_so_was_one_that_is_too_rough_to_show_it(noise_seen: bool) -> None:
+    sleeves, bars = group(square()), group(square(), kind=Kind.REBAR, design_mm=20.0)
+    sleeves = replace(sleeves, extraction=replace(sleeves.extraction, noise_seen=noise_seen))
+    bars = replace(bars, extraction=replace(bars.extraction, points=(), reason=SMOOTHED), match=Match(reason=SMOOTHED))
+    about = {name for finding in found_in(sleeves, bars) if finding.code == "smoothed" for name in finding.about}
+    assert about == ({"rebars"} if noise_seen else {"rebars", "sleeves"})
 
 
 def test_sizes_are_told_apart_by_their_cores() -> None:

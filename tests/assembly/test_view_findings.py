@@ -11,7 +11,7 @@ def test_a_camera_that_bends_or_is_not_that_of_its_profile_is_told() -> None:
         "camera_bends": {"camera_bend_mm": 0.3, "camera_bend_u_mm": 0.03, "camera_bend_stated_u_mm": 0.06},
         "profile_differs": {"learned_edges_off_pixels": -1.1},
     }
-    for code, quality in seen.items():
+    for code, quality in (*seen.items(), ("profile_differs", {"learned_rings_off": 1.0})):
         told = replace(sound, extraction=replace(sound.extraction, quality={**sound.extraction.quality, **quality}))
         (found,) = found_in(told)
         assert found.code == code
@@ -20,6 +20,11 @@ def test_a_camera_that_bends_or_is_not_that_of_its_profile_is_told() -> None:
     (found,) = found_in(replace(sound, extraction=replace(sound.extraction, quality=older)))
     assert (found.code, found.holds_back) == ("profile_of_other_laws", False)
     assert found.values["laws"] == 0
-    quiet = {"camera_bend_mm": 0.03, "camera_bend_u_mm": 0.02, "learned_edges_off_pixels": 0.5}
+    quiet = {
+        "camera_bend_mm": 0.03,
+        "camera_bend_u_mm": 0.02,
+        "learned_edges_off_pixels": 0.5,
+        "learned_rings_off": -0.3,
+    }
     told = replace(sound, extraction=replace(sound.extraction, quality={**sound.extraction.quality, **quiet}))
     assert found_in(told) == []

@@ -100,7 +100,7 @@ def test_design_of_one_column(model: list[dict[str, Any]], capsys: Output) -> No
     assert main(["design", "m.ifc", "--column", "C-302"]) == 2
     assert "has no column called 'C-302'" in capsys.readouterr().err
     assert main(["design", "m.ifc", "--column", "IfcWall", "--sleeves", "IfcPipe"]) == 11
-    assert model[-1] == {"columns": "IfcWall", "sleeves": "IfcPipe", "rebars": None, "units": "mm"}
+    assert model[-1] == {"columns": "IfcWall", "sleeves": "IfcPipe", "rebars": None, "units": "mm", "only": None}
     assert "no column with grouting sleeves in its foot; it holds 3 IfcWall" in capsys.readouterr().err
 
 

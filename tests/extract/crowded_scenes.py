@@ -48,12 +48,16 @@ def foot_before_wall(centres: Array, radius_mm: float, rng: np.random.Generator)
     return _scan(depth, noise, lost, rng)
 
 
-def bars_among_stubs(tops: Array, radius_mm: float, stubs: Array, rng: np.random.Generator) -> Scan:
-    """Bars with tops (k, 3) mm, and lower stubs (m, 3) as thick as they are, on a floor 1,100 mm away."""
+def bars_among_stubs(
+    tops: Array, radius_mm: Array | float, stubs: Array, rng: np.random.Generator, length_mm: Array | float = np.inf
+) -> Scan:
+    """Bars with tops (k, 3) mm, and lower stubs (m, 3), on a floor 1,100 mm away, each of a radius and a length."""
     depth = np.full(X.shape, 1100.0)
-    for top in np.vstack([tops, stubs]):
-        disc = np.hypot(X * top[2] - top[0], Y * top[2] - top[1]) < radius_mm
-        side = _far_wall(top[:2], radius_mm, -1.0)
-        here = np.where(disc, top[2], np.where(side > top[2], side, np.inf))
+    radii = np.broadcast_to(radius_mm, len(tops) + len(stubs))
+    ends = np.broadcast_to(length_mm, len(radii)) + np.vstack([tops, stubs])[:, 2]
+    for top, own_mm, end in zip(np.vstack([tops, stubs]), radii, ends, strict=True):
+        disc = np.hypot(X * top[2] - top[0], Y * top[2] - top[1]) < own_mm
+        side = _far_wall(top[:2], own_mm, -1.0)
+        here = np.where(disc, top[2], np.where((side > top[2]) & (side < end), side, np.inf))
         depth = np.fmin(depth, here)
     return _scan(depth, 0.08, 0.003, rng)

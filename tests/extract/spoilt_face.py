@@ -6,8 +6,8 @@ each place. A bore is a place without a floor.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -27,7 +27,8 @@ _HALVINGS = 9
 class SpoiltFoot:
     """Bores of one ``radius`` at ``centres`` (n, 2), some ``plugged`` or ``covered``; ``spoilt`` is done to the face.
 
-    Where a bore is ``covered`` there is face.
+    Where a bore is ``covered`` there is face; where it is ``taped``, on the side of a direction, rad, from a share of
+    the radius on.
     """
 
     centres: Floats
@@ -35,6 +36,7 @@ class SpoiltFoot:
     spoilt: Sequence[Depth] = ()
     plugged: frozenset[int] = frozenset()
     covered: frozenset[int] = frozenset()
+    taped: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     plug_mm: float = 10.0
     land_mm: float = 0.0
 
@@ -49,7 +51,9 @@ class SpoiltFoot:
                 deepest[squares < (self.radius + self.land_mm) ** 2] = 0.0
             if number not in self.covered:
                 end_mm = self.plug_mm if number in self.plugged else np.inf
-                deepest[squares < self.radius**2] = end_mm
+                turn, share = self.taped.get(number, (0.0, np.inf))
+                open_ = (x - cx) * np.cos(turn) + (y - cy) * np.sin(turn) < share * self.radius
+                deepest[(squares < self.radius**2) & open_] = end_mm
         return deepest
 
 
@@ -108,6 +112,29 @@ def with_slips(
         slipped = open_ & ~lit & (rng.random(z.shape) > 0.1)
         z = np.where(lit, far_mm, np.where(slipped, distance_mm - before_mm, z))
     z += rng.normal(0.0, 0.1, z.shape)
+    return replace(scan, points=depth_to_points(z.astype(np.float32), camera))
+
+
+def mixing(scan: Scan, foot: SpoiltFoot, distance_mm: float, rng: np.random.Generator, parts: int = 4) -> Scan:
+    """The scan by a camera that projects fringes: a pixel that an edge crosses has the phase of its part on the face.
+
+    From 270 mm beside the camera that stands off by as much of the distance as its middle does aside.
+    """
+    camera, z = scan.camera, scan.points[..., 2].astype(np.float64)
+    assert camera is not None
+    steps = (np.arange(parts) + 0.5) / parts - 0.5
+    on_face, aside = np.zeros(z.shape), np.zeros(z.shape)
+    middle = -np.array([40.0, -25.0])
+    for down in steps:
+        for right in steps:
+            u, v = np.meshgrid(np.arange(camera.width) + right, np.arange(camera.height) + down)
+            x, y = (u - camera.cx) / camera.fx * distance_mm, (v - camera.cy) / camera.fy * distance_mm
+            hit = foot.depth(x - middle[0], y - middle[1]) == 0.0
+            on_face += hit / parts**2
+            aside += hit * right * distance_mm / camera.fx / parts**2
+    mixed = (on_face > 0.25) & (on_face < 1.0) & (rng.random(z.shape) > 0.05)
+    off = aside / np.maximum(on_face, 1e-9) * distance_mm / 270.0
+    z = np.where(mixed, distance_mm + off + rng.normal(0.0, 0.05, z.shape), z)
     return replace(scan, points=depth_to_points(z.astype(np.float32), camera))
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from aadm_workbench.extract.sleeves import extract_sleeves
 from aadm_workbench.model import Array, Scan
-from tests.extract.spoilt_face import SpoiltFoot, dish, grooves, scanned, true_points, with_slips
+from tests.extract.spoilt_face import SpoiltFoot, dish, grooves, mixing, scanned, true_points, with_slips
 
 PLACES = np.array([(-75.0, -45.0), (0.0, -45.0), (75.0, -45.0), (-75.0, 45.0), (0.0, 45.0), (75.0, 45.0)])
 FOOT = SpoiltFoot(PLACES, 18.0)
@@ -39,21 +39,25 @@ def test_spalls_at_most_mouths_are_no_picture_out_of_focus(seed: int) -> None:
     assert ghosts == 0
 
 
-def test_a_plug_is_no_wall_of_its_bore() -> None:
-    foot = replace(FOOT, plugged=frozenset({1, 4}))
-    off, _ = misses_mm(scanned(foot, 1100.0, np.random.default_rng(4)), foot, 1100.0)
-    assert off.max() < 0.2
+@pytest.mark.parametrize("mixes", [False, True])
+def test_a_plug_is_no_wall_of_its_bore(mixes: bool) -> None:
+    foot, rng = replace(FOOT, plugged=frozenset({1, 4})), np.random.default_rng(4)
+    scan = scanned(foot, 1100.0, rng)
+    off, ghosts = misses_mm(mixing(scan, foot, 1100.0, rng) if mixes else scan, foot, 1100.0)
+    assert off.max() < (0.3 if mixes else 0.2)
+    assert ghosts == 0
 
 
+@pytest.mark.parametrize("mixes", [False, True])
 @pytest.mark.parametrize("before_mm", [45.0, 105.0])
-def test_slips_of_the_fringes_before_unlit_bores_are_no_bars(before_mm: float) -> None:
+def test_slips_of_the_fringes_before_unlit_bores_are_no_bars(before_mm: float, mixes: bool) -> None:
     rng = np.random.default_rng(8)
     foot = replace(FOOT, radius=16.0)
     plain = scanned(foot, 1800.0, rng)
     scan = with_slips(plain, foot, 1800.0, rng, end_mm=130.0, before_mm=before_mm)
     before = (scan.points[..., 2] < 1800.0 - 20.0).sum() / np.isnan(plain.points[..., 2]).sum()
     assert before > 0.5
-    off, ghosts = misses_mm(scan, foot, 1800.0)
+    off, ghosts = misses_mm(mixing(scan, foot, 1800.0, rng) if mixes else scan, foot, 1800.0)
     assert off[PLACES[:, 0] < 70.0].max() < 0.5  # of the others nothing is lit behind the face
     assert ghosts == 0
 
@@ -81,3 +85,21 @@ def test_keys_up_to_the_mouths_are_neither_mouths_nor_walls(period_mm: float, de
     off, ghosts = misses_mm(scanned(foot, 1000.0, np.random.default_rng(7)), foot, 1000.0)
     assert off.max() < 0.6
     assert ghosts == 0
+
+
+@pytest.mark.parametrize("mixes", [False, True])
+@pytest.mark.parametrize("share", [0.1, 0.4])
+def test_tape_over_a_part_of_a_mouth_moves_it_no_farther_than_is_said(share: float, mixes: bool) -> None:
+    rng = np.random.default_rng([8, mixes])
+    foot = replace(FOOT, taped={0: (0.3, share), 2: (2.1, share), 5: (4.4, share)})
+    scan = scanned(foot, 1100.0, rng)
+    scan = mixing(scan, foot, 1100.0, rng) if mixes else scan
+    found = extract_sleeves(scan, 2.0 * foot.radius, np.random.default_rng(3))
+    true = true_points(foot, 1100.0)
+    assert len(found.points) >= 5
+    for point in found.points:
+        off = (true - point.centre)[np.hypot(*(true - point.centre)[:, :2].T).argmin(), :2]
+        assert np.hypot(*off) < 0.4
+        assert point.covariance is not None
+        assert off @ np.linalg.solve(point.covariance[:2, :2], off) < 13.8  # one in a thousand
+        assert abs(point.diameter_mm - 2.0 * foot.radius) < 0.4

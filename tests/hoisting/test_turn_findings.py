@@ -68,5 +68,16 @@ def test_what_the_pattern_settles_itself_no_declaration_decides() -> None:
     assert hung(43.0, 42.0, key=30.0j).off_declared == 0.0
 
 
+@pytest.mark.parametrize(("shown", "named"), [(slice(0, 5), False), (slice(1, 6), False), (slice(0, 6), True)])
+def test_a_row_whose_end_is_not_seen_is_not_named_by_chance(shown: slice, named: bool) -> None:
+    """A wall with six sleeves in a row, of which five are found: named from either end it fits, a pitch apart."""
+    row = [complex(-500.0 + 200.0 * k, 0.3 * (-1) ** k) for k in range(6)]
+    eye = np.array([0.0, -900.0])
+    mouths, bars = flat([place + 2.0 for place in row[shown]]), flat(row)
+    found = match_hoisting(mouths, bars, eye, bars, bars, None)
+    assert isinstance(found, Matched)
+    assert found.slid != named
+
+
 def test_without_near_nothing_is_claimed() -> None:
     assert with_turn_finding(frame(), None, math.radians(43.0)) == frame()

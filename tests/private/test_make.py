@@ -1,8 +1,10 @@
 """The private environment is made, repaired and taken away by its own program, offline, in awkward places."""
 
+import shutil
 import socket
 import subprocess
 import time
+from importlib.util import cache_from_source
 from pathlib import Path
 
 import pytest
@@ -76,6 +78,19 @@ def test_made_from_a_folder_of_wheels(addon: Addon) -> None:
     file, *_ = line_of(process).rsplit(" ", 1)
     assert "site" in file
     end(process)
+
+
+def test_the_product_is_compiled_when_it_is_installed(quick: Addon) -> None:
+    """What a check imports is byte code already; a folder that nobody may write to does not keep it from being made."""
+    files = list((quick.root / "aadm_workbench").rglob("*.py"))
+    assert not [path for path in files if Path(cache_from_source(str(path))).exists()]
+    quick.make()
+    assert [path for path in files if not Path(cache_from_source(str(path))).exists()] == []
+    for folder in quick.root.rglob("__pycache__"):
+        shutil.rmtree(folder)
+        folder.touch()  # no folder of that name can be made any more, not even by root
+    shutil.rmtree(quick.environments)
+    assert not quick.make()[-1].startswith("!")
 
 
 def test_missing_wheel_is_said_and_nothing_is_left(addon: Addon) -> None:

@@ -43,3 +43,21 @@ def test_cause_of_a_failed_trial_comes_first(floor: dict[str, Any]) -> None:
     assert first.hoist.cause.en == "it does not go on its bars"
     unseen = next(finding for finding in findings(typed(floor)) if finding.column.id == "C-4")
     assert [reason.en for reason in unseen.key_reasons] == ["S8 not measured: not found in the scan"]
+
+
+@pytest.mark.parametrize(
+    ("names", "said", "chinese"),
+    [
+        (("C-1", "C-6"), "1 of 2 columns not cleared yet", "2 根柱中有 1 根尚未放行"),
+        (("C-1", HOSTILE), "All 2 columns may be hoisted", "2 根柱均可吊装"),
+        (("C-1", "C-2"), "1 of 2 columns must not be hoisted", "2 根柱中有 1 根不得吊装"),
+        (("C-1",), "The column may be hoisted", "该柱可以吊装"),
+        (("C-6",), "The column is not cleared yet", "该柱尚未放行"),
+        (("C-5",), "The column must not be hoisted", "该柱不得吊装"),
+    ],
+)
+def test_the_headline_never_sounds_like_a_go_where_one_waits(
+    floor: dict[str, Any], names: tuple[str, ...], said: str, chinese: str
+) -> None:
+    report = typed(floor | {"columns": [column for column in floor["columns"] if column["id"] in names]})
+    assert headline(report) == (said, chinese)

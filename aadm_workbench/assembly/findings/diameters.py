@@ -18,6 +18,7 @@ from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
 from aadm_workbench.extract.method import distinct_sizes
 from aadm_workbench.extract.own_tops import OwnDiameters, own_diameters
 from aadm_workbench.model import Array, AssemblyPoint, Finding, Kind, Measure, Scan
+from aadm_workbench.model.special import median
 
 CORE_BELOW = 0.06
 """Cores are thinner than nominal by up to this part: 19.3 mm ± 0.5 mm of 20 mm (GB/T 1499.2-2018, Table 3, d1)."""
@@ -48,7 +49,7 @@ def diameter_findings(group: SeenGroup) -> Iterator[Finding]:
     measured = [(target, point) for target, point in group.placed() if _is_known(point)]
     shared_u_mm = _shared_u_mm(group)
     for of_size in _by_size(measured):
-        design_mm = float(np.median([target.diameter_mm for target, _ in of_size]))
+        design_mm = float(median([target.diameter_mm for target, _ in of_size]))
         low_mm, high_mm = allowed_mm(group.kind, design_mm)
         off = [
             (target, point)
@@ -72,10 +73,10 @@ def bore_against_design(group: SeenGroup) -> Measure | None:
     if distinct_sizes(design_mm.tolist())[1:] and group.match.orientation == "ambiguous":
         return None  # it is open which size was meant where
     ratio = np.array([point.point.diameter_mm for _, point in measured]) / design_mm
-    own_mm = float(np.median([_u_mm(point, 0.0) for _, point in measured])) / math.sqrt(len(measured))
-    middle_mm = float(np.median(design_mm))
+    own_mm = float(median([_u_mm(point, 0.0) for _, point in measured])) / math.sqrt(len(measured))
+    middle_mm = float(median(design_mm))
     u_mm = math.hypot(_shared_u_mm(group), own_mm, sleeve_play_mm(middle_mm) / _EVENLY)
-    return Measure(float(np.median(ratio)), u_mm / middle_mm)
+    return Measure(float(median(ratio)), u_mm / middle_mm)
 
 
 def _shared_u_mm(group: SeenGroup) -> float:
@@ -139,8 +140,8 @@ def _beyond(value: float, low: float, high: float, expanded: float) -> bool:
 def _said(
     kind: Kind, about: Sequence[str], off: Sequence[PlacedPoint], design_mm: float, shared_u_mm: float
 ) -> Finding:
-    measured_mm = float(np.median([point.point.diameter_mm for point in off]))
-    expanded_mm = COVERAGE * float(np.median([_u_mm(point, shared_u_mm) for point in off]))
+    measured_mm = float(median([point.point.diameter_mm for point in off]))
+    expanded_mm = COVERAGE * float(median([_u_mm(point, shared_u_mm) for point in off]))
     values: dict[str, object] = {"measured_mm": measured_mm, "U_mm": expanded_mm, "design_mm": design_mm}
     if kind is Kind.SLEEVE:
         return make_finding("diameter_differs.sleeve", about, **values, play_mm=sleeve_play_mm(design_mm))
@@ -183,7 +184,7 @@ def _shared_diameter(group: SeenGroup, low_mm: float, high_mm: float) -> Measure
 
     Nothing contradicts the design in it, or that was told: where the edges leave it open, it is one of sound bars.
     """
-    measured_mm = float(np.median([point.point.diameter_mm for _, point in group.placed()]))
+    measured_mm = float(median([point.point.diameter_mm for _, point in group.placed()]))
     u_mm = min(_shared_u_mm(group), (high_mm - low_mm) / 2.0 / _EVENLY)
     return Measure(min(max(measured_mm, low_mm), high_mm) - measured_mm, u_mm)
 

@@ -6,6 +6,7 @@ named for two columns, or twice for one, is found by the hash of its file, whate
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice
@@ -119,7 +120,7 @@ class SeenGroup:
         return [(target, point) for target, point in zip(self.design, points, strict=True) if point is not None]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class _Use:
     """One file of one group of one column."""
 
@@ -144,9 +145,13 @@ class _Shared:
 
 def with_same_scans(columns: Sequence[ColumnReport]) -> Sequence[ColumnReport]:
     """The columns of a job, each with a finding where a scan of it was used elsewhere too."""
+    scans = each(columns, scans_of)
+    often = Counter(use.sha256 for _, uses in scans for use in uses)
     by_hash: dict[str, _Shared] = {}
-    for number, (name, uses) in enumerate(each(columns, scans_of)):
+    for number, (name, uses) in enumerate(scans):
         for use in uses:
+            if often[use.sha256] < 2:  # as nearly all are: nothing is kept of those
+                continue
             shared = by_hash.setdefault(use.sha256, _Shared({}, {}))
             shared.ids[number] = name
             shared.uses.setdefault(number, []).append(use)

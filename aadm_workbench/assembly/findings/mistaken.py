@@ -12,11 +12,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aadm_workbench.assembly.findings.diameters import CORE_ABOVE, CORE_BELOW, sizes_in_words
+from aadm_workbench.assembly.findings.diameters import (
+    CORE_ABOVE,
+    CORE_BELOW,
+    diameter_findings,
+    sizes_in_words,
+)
 from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.matching.match import match_extraction
 from aadm_workbench.design.recognise.pattern import OVER_RIBS_MM
@@ -79,12 +84,14 @@ def mistaken_findings(
     for kind in (kind for kind in lost if kind not in crossed):
         found = _of_another_column(groups[kind], scans[kind], others)
         found = found or _of_other_sizes(groups[kind], scans[kind])
-        if found is not None:
-            yield found
-        else:
+        told = [found] if found is not None else list(odd_size_findings(groups[kind], scans[kind]))
+        yield from told
+        if not told:
             unexplained.append((groups[kind], scans[kind]))
     yield from length_findings(unexplained)
     for kind, group in groups.items():
+        if group.match.is_shifted:
+            yield from odd_size_findings(group, scans[kind])
         doubtful = _hardly_fits(group) or group.match.contradiction == "turn_contradicted"
         found = _of_another_column(group, scans[kind], others) if doubtful and kind not in crossed else None
         if found is not None:
@@ -158,6 +165,25 @@ def _sizes(points: Sequence[AssemblyPoint]) -> tuple[float, ...]:
     return tuple(sorted({point.diameter_mm for point in points}))
 
 
+def odd_size_findings(group: SeenGroup, scan: NamedScan) -> Iterator[Finding]:
+    """A finding on those of a few bars that are thicker than designed, where all lie on the design only with them.
+
+    A bar with a cap is none of the size that was looked for: without it the others lie nowhere, or in two places.
+    """
+    designed_mm = _sizes(group.design)
+    if group.kind is not Kind.REBAR or len(designed_mm) != 1:
+        return
+    for size_mm in (size for size in _sizes_about(designed_mm) if size > designed_mm[0]):
+        extraction = scan.look(group.kind, [*designed_mm, size_mm])
+        match = match_extraction(group.design, extraction)
+        whole = bool(match) and match.placements[0].found == len(group.design) and not match.is_shifted
+        if whole and match.placements[0].rms_mm < _OF_THREE_MM:
+            found = list(diameter_findings(replace(group, extraction=extraction, match=match)))
+            if found and group.kind.plural not in found[0].about:
+                yield from found
+                return
+
+
 def _of_other_sizes(group: SeenGroup, scan: NamedScan) -> Finding | None:
     """Bars, or sleeves, of another size that stand where those of the design should."""
     designed_mm = _sizes(group.design)
@@ -165,6 +191,9 @@ def _of_other_sizes(group: SeenGroup, scan: NamedScan) -> Finding | None:
         extraction = scan.look(group.kind, [size_mm])
         if fits(group.design, extraction):
             seen_mm = float(np.median([point.diameter_mm for point in extraction.points]))
+            told = replace(group, extraction=extraction, match=match_extraction(group.design, extraction))
+            if not list(diameter_findings(told)):
+                continue  # as designed, for all that is known: that they were not found as such has another cause
             values: dict[str, object] = {"design_mm": designed_mm[0], "measured_mm": seen_mm}
             if group.kind is Kind.SLEEVE:
                 return make_finding("diameter_differs.other_sleeves", [group.kind.plural], **values)

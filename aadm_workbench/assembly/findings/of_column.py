@@ -31,12 +31,14 @@ from aadm_workbench.model import (
     TrialReport,
     Verdict,
 )
+from aadm_workbench.model.special import median_of_known
 
 _SAMPLE = 10_000  # points: a look, not a measurement
 
-TAKES_BACK = ("scale_differs", "other_column", "swapped", "gaps_filled")
+TAKES_BACK = ("scale_differs", "other_column", "swapped", "gaps_filled", "smoothed")
 """A part in a hundred moves a point at the corner of a column by millimetres, whoever is to blame; and some points of
-another column, or of the other group, lie on this one by chance; how far filled edges were moved nobody knows."""
+another column, or of the other group, lie on this one by chance; how far filled or smoothed edges were moved nobody
+knows."""
 
 OPENS_TRIAL = "common_lean"
 """Of all sleeves and of all bars: places within a plane are as they were; leans, and with them the room in the sleeves,
@@ -115,7 +117,7 @@ def _named(scan: Scan, method: str, rng: np.random.Generator) -> NamedScan:
 
 def _distance_mm(scan: Scan) -> float:
     some = scan.points.reshape(-1, 3)[:: scan.points.size // 3 // _SAMPLE + 1, 2]
-    return float(np.nanmedian(np.abs(some))) if np.isfinite(some).any() else 0.0
+    return median_of_known(np.abs(some)) if np.isfinite(some).any() else 0.0
 
 
 def _stretched(scan: Scan, across: float, along: float) -> Scan:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from aadm_workbench.model import Array, BoolArray
+from aadm_workbench.model.special import distinct
 
 
 def best_assignment(margins: Array) -> list[tuple[int, int]]:
@@ -35,7 +36,7 @@ def best_assignment(margins: Array) -> list[tuple[int, int]]:
 
 def _highest_threshold(margins: Array, going: BoolArray, most: int) -> float:
     """The largest margin that so many pairs can all have at once: found by bisection over the margins there are."""
-    levels = np.unique(margins[going])
+    levels = distinct(margins[going])
     low, high = 0, len(levels) - 1
     while low < high:
         middle = (low + high + 1) // 2

@@ -25,6 +25,7 @@ from aadm_workbench.assembly.matching.pattern_search import (
 from aadm_workbench.assembly.matching.symmetry import is_its_own_mirror
 from aadm_workbench.assembly.pose.eopa import EopaFit, fit_eopa_planar, plane_basis, upright_transform, wrap
 from aadm_workbench.model import Array, AssemblyPoint, Extraction, IntArray, Orientation, Reason
+from aadm_workbench.model.special import median
 
 DECLARED_WITHIN_RAD = math.radians(44.0)
 """A declared direction chooses the nearest turn within this; half of the 90° between the turns of a square."""
@@ -237,7 +238,7 @@ def _mirrored(measured: int, design: int) -> str:
 
 def _plausible(placements: list[Placement], best: PlanarPlacement) -> list[Placement]:
     """The placements that the best one does not rule out: a likelihood ratio under Laplace-distributed deviations."""
-    scale_mm = max(SMALLEST_SCALE_MM, float(np.median(best.deviations_mm[best.matched >= 0])))
+    scale_mm = max(SMALLEST_SCALE_MM, float(median(best.deviations_mm[best.matched >= 0])))
     return [found for found in placements if (found.cost_mm - best.cost_mm) / scale_mm <= DISTINCT_LOG_RATIO]
 
 
@@ -273,7 +274,7 @@ def _scatter_mm(fit: EopaFit, places: Array) -> float:
     # target − aligned = residual, so scaled by s: target − s·aligned = residual − (s − 1)·aligned.
     left = fit.residuals - (fit.scale - 1.0) * (about - fit.residuals)
     freedom = max(2 * len(places) - 4, 1)
-    median_mm = float(np.median(np.hypot(*left.T)))
+    median_mm = float(median(np.hypot(*left.T)))
     return median_mm / math.sqrt(2.0 * math.log(2.0)) * math.sqrt(2 * len(places) / freedom)
 
 

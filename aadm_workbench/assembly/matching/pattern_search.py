@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from aadm_workbench.model import Array, IntArray
+from aadm_workbench.model.special import distinct
 
 GATE_MM = 20.0
 """A measured point belongs to a design point within this distance: 15 mm of error and the pose's own share."""
@@ -131,7 +132,7 @@ def _base_pairs(source: Array) -> tuple[IntArray, IntArray]:
     first, second = np.triu_indices(len(source), 1)
     lengths = np.hypot(*(source[first] - source[second]).T)
     order = np.argsort(-lengths, kind="stable")[: max(1, (3 * len(first) + 3) // 4)]
-    chosen = order[np.unique(np.linspace(0, len(order) - 1, _BASE_PAIRS).astype(int))]
+    chosen = order[distinct(np.linspace(0, len(order) - 1, _BASE_PAIRS).astype(int))]
     return first[chosen], second[chosen]
 
 

@@ -80,7 +80,7 @@ def _mould_of(column: ColumnReport, foot: GroupReport) -> Hashable:
     return hashlib.sha256(repr(column.size_mm).encode() + places.tobytes()).digest()
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class _Foot:
     """What is needed of the n sleeves of a foot, in little memory: offsets (n, 2) mm and u (n,) mm, NaN without any.
 

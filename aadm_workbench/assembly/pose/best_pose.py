@@ -27,6 +27,7 @@ from aadm_workbench.assembly.pairs import Pair
 from aadm_workbench.assembly.pose.eopa import NoFit, turn
 from aadm_workbench.assembly.pose.minimax import fit_minimax, half_turn_pose, half_turn_vectors
 from aadm_workbench.model import Array, IntArray
+from aadm_workbench.model.special import median
 
 WITHIN = 1.0 + 1e-9
 """A largest ratio up to this is within its limits: rounding."""
@@ -151,7 +152,7 @@ def start_pose(pairs: Sequence[Pair], limits_mm: Array, yaw: float, shift: Array
     unscaled = StartPose(yaw, shift, targets.mean(axis=0), 1.0)
     _, q = unscaled.vectors_of(np.array([pair.rebar_xy for pair in pairs]), targets)
     reach_mm = max(float(np.sqrt((q**2).sum(axis=1).mean())), _SHORTEST_TURNING_MM)
-    return StartPose(yaw, shift, unscaled.origin, reach_mm / float(np.median(limits_mm)))
+    return StartPose(yaw, shift, unscaled.origin, reach_mm / float(median(limits_mm)))
 
 
 def gaps_of(pairs: Sequence[Pair], limits_mm: Array) -> Gaps:

@@ -30,6 +30,7 @@ from aadm_workbench.assembly.pose.eopa import NoFit, fit_eopa_planar, planar_tra
 from aadm_workbench.assembly.pose.smallest_common_disc import smallest_common_disc
 from aadm_workbench.errors import AadmError
 from aadm_workbench.model import Array, PoseWindow
+from aadm_workbench.model.special import median
 
 _ROUNDS = 12  # a cap: the turn is settled to its digits after a few, each linear in what is left
 _STILL = 1e-8  # of tan(yaw/2): 0.01 µm at the ends of a column
@@ -132,7 +133,7 @@ def _descend(source: Array, target: Array, limits_mm: Array, yaw: float, shift: 
         if ratio * float(limits_mm.min()) < 1e-12:
             break
         p, q = half_turn_vectors(placed, goal)
-        stretch = float(np.sqrt((q**2).sum(axis=1).mean())) / float(np.median(limits_mm))
+        stretch = float(np.sqrt((q**2).sum(axis=1).mean())) / float(median(limits_mm))
         solution = smallest_common_disc(p[None] / ratio, q[None] / stretch, 1.0 / limits_mm**2, start=share)
         z = solution.z[0] * ratio * np.array([1.0 / stretch, 1.0, 1.0])
         share = solution.multipliers[0]
@@ -176,7 +177,7 @@ def find_window(source: Array, target: Array, limits_mm: Array) -> PoseWindow | 
     weights = 1.0 / limits_mm**2
     if float((weights * (p**2).sum(axis=1)).max()) >= 1.0 - 1e-9:
         return None
-    stretch = float(np.sqrt((q**2).sum(axis=1).mean())) / float(np.median(limits_mm))
+    stretch = float(np.sqrt((q**2).sum(axis=1).mean())) / float(median(limits_mm))
     q = q / stretch
     goals = np.array([[0.0, side, 0.0] for side in (-1, 1)] + [[0.0, 0.0, side] for side in (-1, 1)])
     goals = np.concatenate([goals, [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]])

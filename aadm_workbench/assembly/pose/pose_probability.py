@@ -25,6 +25,7 @@ from aadm_workbench.assembly.pose.eopa import NoFit, turn
 from aadm_workbench.assembly.pose.smallest_common_disc import proven_bound, smallest_common_disc, squared
 from aadm_workbench.assembly.pose.true_offsets import Measured, MeasuredShifts, true_offsets
 from aadm_workbench.model import Array, BoolArray
+from aadm_workbench.model.special import median
 
 SAMPLES = 1200
 """Draws: a probability of 95 % is then known to 0.6 %."""
@@ -130,7 +131,7 @@ def existence_of_a_pose(
 def _known_worse(pairs: Sequence[Pair]) -> BoolArray:
     """Pairs (n,) whose centres are known much worse than is usual of the others."""
     variances = np.array([0.0 if pair.covariance is None else np.trace(pair.covariance) for pair in pairs])
-    return np.asarray(variances > _WORSE * np.median(variances))
+    return np.asarray(variances > _WORSE * median(variances))
 
 
 def _granted(pairs: Sequence[Pair], limits_mm: Array, hardly_seen: BoolArray) -> tuple[tuple[Pair, ...], Array]:

@@ -19,10 +19,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import gammainc, gammaincinv
 
 from aadm_workbench.assembly.matching.pattern_search import USUAL_SCATTER_MM
 from aadm_workbench.model import Array, BoolArray
+from aadm_workbench.model.special import gammainc, gammaincinv
 
 CHAINS = 300
 """So many draws are made at once, each from the one before it."""

@@ -21,6 +21,7 @@ from aadm_workbench.assembly.pose.eopa import planar_transform, turn
 from aadm_workbench.assembly.tolerances import describe_limit
 from aadm_workbench.model import Array, BestPair, BestPose, PairResult, Reason, Rule, TrialPose, Verdict, in_one, worst
 from aadm_workbench.model.measured import OF_MEDIAN, TO_SIGMA
+from aadm_workbench.model.special import median
 
 _FEWEST = 4
 """With fewer axes, that they agree says little."""
@@ -260,8 +261,8 @@ def common_lean(pairs: Sequence[Pair], length_mm: float) -> CommonLean:
 def _shared(shifts: Array, length_mm: float) -> Array:
     if len(shifts) < _FEWEST:
         return np.zeros(2)
-    middle = np.median(shifts, axis=0)
-    scatter_mm = TO_SIGMA * float(np.median(np.abs(shifts - middle)))
+    middle = median(shifts, axis=0)
+    scatter_mm = TO_SIGMA * float(median(np.abs(shifts - middle)))
     chance_mm = OF_MEDIAN * scatter_mm / math.sqrt(len(shifts))
     length = float(np.hypot(*middle))
     counts = length > max(_SIGMAS * chance_mm, math.tan(_SMALLEST_RAD) * length_mm)

@@ -6,7 +6,8 @@ pooled fits would follow them; so what is seen of the face beside the holes is l
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -41,6 +42,8 @@ class PlateCapture:
         (4, 4), by the pins.
     diameter_mm
         (n,) as measured.
+    rings
+        Of pixels that the camera was seen to drop at steps of holes and of pins; None where nothing tells.
     """
 
     source: str
@@ -52,6 +55,7 @@ class PlateCapture:
     place: Array
     T_scan_plate: Array
     diameter_mm: Array
+    rings: Mapping[Kind, float | None] = field(default_factory=dict)
 
     @property
     def distance_mm(self) -> float:
@@ -126,6 +130,7 @@ def captured_plate(scan: Scan, plate: Plate) -> PlateCapture:
         np.array([place for _, place in pairs], dtype=np.int64),
         T_scan_plate,
         np.array([point.diameter_mm for point, _ in pairs]),
+        {Kind.SLEEVE: holes.rings, Kind.REBAR: pins.rings},
     )
 
 

@@ -84,6 +84,7 @@ def learned(captures: Sequence[PlateCapture], plate: Plate) -> Learned:
             discs.losses.lost[kind],
             discs.shares[kind],
             discs.apart_mm / pitch_mm,
+            _rings(captures, kind),
         )
         for kind in Kind
     }
@@ -124,6 +125,11 @@ def _with_discs(captures: Sequence[PlateCapture], plate: Plate) -> tuple[list[Pl
 
 def _of_kind(capture: PlateCapture, plate: Plate, kind: Kind) -> Array:
     return np.array([k for k, place in enumerate(capture.place) if plate.places[place].kind is kind], dtype=np.int64)
+
+
+def _rings(captures: Sequence[PlateCapture], kind: Kind) -> float | None:
+    told = [rings for capture in captures if (rings := capture.rings.get(kind)) is not None]
+    return float(np.median(told)) if told else None
 
 
 def _scale(captures: Sequence[PlateCapture], plate: Plate) -> Measure:

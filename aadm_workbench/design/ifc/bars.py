@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -11,6 +11,7 @@ import numpy as np
 
 from aadm_workbench.design.ifc import names as ifc_names
 from aadm_workbench.design.ifc.attributes import Contradictions, written_diameter_mm
+from aadm_workbench.design.ifc.crowd import Crowd
 from aadm_workbench.design.ifc.geometry.shapes import Shapes
 from aadm_workbench.design.ifc.text.file import OpenedIfc
 from aadm_workbench.design.model_design import NotTaken
@@ -70,9 +71,10 @@ class BarEnd:
         wholes: frozenset[int] = frozenset(),
     ) -> BarEnd:
         """One end (top, axis) of a bar of an element of any kind of model, under the attribute names of IFC."""
+        name = element.Name
         return cls(
             global_id=element.GlobalId,
-            name=element.Name.strip() if isinstance(element.Name, str) else "",
+            name=name.strip() if isinstance(name, str) else "",
             ifc_class=str(element.is_a()),
             top=top[0],
             axis=top[1],
@@ -107,13 +109,17 @@ class FoundBars:
     warnings: tuple[str, ...]
 
     @cached_property
-    def tops(self) -> Array:
-        """(n, 3) mm, model frame, of all ends."""
-        return np.array([end.top for end in self.ends]).reshape(-1, 3)
+    def tops(self) -> Crowd:
+        """The upper ends of all, by place."""
+        return Crowd.of([end.top for end in self.ends])
 
 
-def find_bars(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> FoundBars:
+def find_bars(
+    opened: OpenedIfc, shapes: Shapes, selector: str | None, near: Callable[[Array], bool] | None = None
+) -> FoundBars:
     """All upright bar ends of a model; one element may hold several bars.
+
+    ``near`` tells for the end (3,) mm of a bar whether it is of interest; elements without such an end are passed over.
 
     Elements are chosen by class and PredefinedType, then by name, or by the selector instead of both; what the
     geometry does not support is not taken even so: bars that lean, closed ones, fragments.
@@ -123,7 +129,11 @@ def find_bars(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> FoundB
     contradictions = Contradictions(opened)
     for element, evidence in _candidates(opened, selector):
         with shapes.guarded(element):
-            taken, refused = _ends_of(opened, shapes, element, evidence, selector, contradictions)
+            bars, is_axis = _bars_of(opened, element, shapes)
+            if near is not None and not any(near(leg) for bar in bars for leg in (bar.legs[0].start, bar.legs[-1].end)):
+                continue
+            evidence = Reason("ifc.axis_of", what=evidence) if is_axis else evidence
+            taken, refused = _ends_of(opened, shapes, element, bars, evidence, selector, contradictions)
             ends += taken
             left += refused
             continue
@@ -135,6 +145,7 @@ def _ends_of(
     opened: OpenedIfc,
     shapes: Shapes,
     element: Any,
+    bars: Sequence[Course],
     evidence: str,
     selector: str | None,
     contradictions: Contradictions,
@@ -145,8 +156,6 @@ def _ends_of(
     refused = None
     if not selector:
         refused = opened.naming.of(element).why_not_connecting(opened.naming.predefined_type(element))
-    bars, is_axis = _bars_of(opened, element, shapes)
-    evidence = Reason("ifc.axis_of", what=evidence) if is_axis else evidence
     if not bars:
         left.append(_without_bars(element, shapes, refused))
     lengths_mm = [bar.length_mm for bar in bars]
@@ -211,13 +220,14 @@ def _without_bars(element: Any, shapes: Shapes, refused: str | None) -> NotTaken
 
 def upright_ends(legs: list[Leg]) -> list[tuple[Array, Array]]:
     """(top, axis) of each end that rises straight and to which no other part of the bar comes up."""
-    highest_mm = _highest(legs)
     found = []
-    for leg in (legs[0].reversed(), legs[-1]):
+    for leg, backwards in ((legs[0], True), (legs[-1], False)):
         if not isinstance(leg, Straight) or leg.length_mm < _SHORTEST_MM:
             continue
-        if float(leg.direction @ UP) > _UPRIGHT_COS and float(leg.end @ UP) > highest_mm - _HIGHEST_MM:
-            found.append((leg.end, leg.direction))
+        top, foot = (leg.start, leg.end) if backwards else (leg.end, leg.start)
+        axis = (top - foot) / leg.length_mm
+        if float(axis[2]) > _UPRIGHT_COS and float(top[2]) > _highest(legs) - _HIGHEST_MM:
+            found.append((top, axis))
     return found
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from aadm_workbench.design.ifc.names import optional
 from aadm_workbench.design.ifc.text.file import OpenedIfc
 from aadm_workbench.design.ifc.words import SLEEVE
 from aadm_workbench.design.model_design import NotTaken
+from aadm_workbench.design.recognise.paths import length_of
 from aadm_workbench.design.recognise.shapes import Prism, Shape, edges
 from aadm_workbench.model import Array, BoolArray
 
@@ -47,6 +49,11 @@ class Foot:
     half_size_mm: Array
     height_mm: float
     sides_mm: tuple[float, float]
+
+    @property
+    def reach_mm(self) -> float:
+        """From the middle of the face to its farthest corner, as the frame has it."""
+        return length_of(self.half_size_mm)
 
     def local(self, points: Array) -> Array:
         """Points (..., 3) of the model frame in this frame; large map coordinates cancel before they are turned."""
@@ -80,7 +87,12 @@ class ColumnBody:
     wholes: tuple[Any, ...]
     called: str
 
-    @property
+    @cached_property
+    def piece_marks(self) -> tuple[str | None, ...]:
+        """The marks of moulds that it and the assemblies that it is a part of have; None for those without."""
+        return tuple(map(ifc_names.piece_mark, (self.element, *self.wholes)))
+
+    @cached_property
     def own_ids(self) -> frozenset[int]:
         """Numbers of the column and the assemblies that it is a part of; a GlobalId may be that of several elements."""
         return frozenset([self.element.id(), *(whole.id() for whole in self.wholes)])
@@ -107,8 +119,9 @@ def find_columns(opened: OpenedIfc, shapes: Shapes, selector: str | None) -> tup
 
 
 def _body_of(opened: OpenedIfc, shapes: Shapes, element: Any) -> ColumnBody | None:
-    drawn = [element] if shapes.of_product(element) else concrete_parts(opened, element)
-    body = [shape for part in drawn for shape in shapes.of_product(part)]
+    own = shapes.of_product(element)
+    drawn = [element] if own else concrete_parts(opened, element)
+    body = own or [shape for part in drawn for shape in shapes.of_product(part)]
     feet = feet_of(shapes.placements.of_product(element), body)
     if not feet:
         return None
@@ -120,11 +133,12 @@ def not_a_column(element: Any, reason: str) -> NotTaken:
     return NotTaken.of("column", element, reason, names=names(element))
 
 
-def names(element: Any) -> tuple[str, ...]:
+def names(element: Any, piece_marks: Sequence[str | None] | None = None) -> tuple[str, ...]:
     """All that a job may call a column by: Tag, Mark, PieceMark, Name, GlobalId, its assembly's too."""
     called: list[Any] = []
-    for holder in (element, *ifc_names.wholes(element)):
-        called += [optional(holder, "Tag"), ifc_names.mark(holder), ifc_names.piece_mark(holder)]
+    holders = (element, *ifc_names.wholes(element))
+    for holder, piece_mark in zip(holders, piece_marks or map(ifc_names.piece_mark, holders), strict=True):
+        called += [optional(holder, "Tag"), ifc_names.mark(holder), piece_mark]
         called += [holder.Name, holder.GlobalId]
     return tuple(dict.fromkeys(text for name in called if (text := ifc_names.text_of(name))))
 

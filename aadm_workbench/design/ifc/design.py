@@ -32,10 +32,10 @@ def design_of(body: ColumnBody, found: FoundFoot, under: Under, grid: Sequence[C
     return replace(
         design,
         global_id=body.element.GlobalId,
-        piece_mark=_piece_mark(body),
+        piece_mark=next((mark for mark in body.piece_marks if mark), None),
         storey=next((name for name in map(ifc_names.storey_name, (body.element, *body.wholes)) if name), None),
         grid=grid_position(grid, design.T_model_column[:2, 3]),
-        names=names(body.element),
+        names=names(body.element, body.piece_marks),
     )
 
 
@@ -153,11 +153,6 @@ def _local(T: Array, point: Array) -> Array:
     """A point of the model in the column frame; map coordinates cancel before they are turned."""
     local: Array = (point - T[:3, 3]) @ T[:3, :3]
     return local
-
-
-def _piece_mark(body: ColumnBody) -> str | None:
-    marks = (ifc_names.piece_mark(holder) for holder in (body.element, *body.wholes))
-    return next((mark for mark in marks if mark), None)
 
 
 def _over_ribs(bars: Sequence[BarEnd | None]) -> float | None:

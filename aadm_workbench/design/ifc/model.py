@@ -1,26 +1,23 @@
-"""As-designed assembly points from an IFC model.
-
-Bars that stand in walls: dowels too, but none that a column comes down on.
-"""
+"""As-designed assembly points from an IFC model."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from time import perf_counter
-from typing import Any
 
 import numpy as np
 
 from aadm_workbench.design.ifc import names as ifc_names
 from aadm_workbench.design.ifc.attributes import Contradictions
 from aadm_workbench.design.ifc.bars import BarEnd, FoundBars, find_bars
+from aadm_workbench.design.ifc.chosen import chosen_of
 from aadm_workbench.design.ifc.columns import ColumnBody, find_columns, not_a_column
+from aadm_workbench.design.ifc.crowd import Crowd
 from aadm_workbench.design.ifc.design import design_of, with_ids
 from aadm_workbench.design.ifc.geometry.kernel import closing_kernel
-from aadm_workbench.design.ifc.geometry.placement import frame
 from aadm_workbench.design.ifc.geometry.shapes import Shapes, evaluator
 from aadm_workbench.design.ifc.geometry.solids import BROKEN
 from aadm_workbench.design.ifc.grid import Families, crossings, grid_axes, grids_of
@@ -30,16 +27,13 @@ from aadm_workbench.design.ifc.search import FoundFoot, Nearby, SleeveSearch
 from aadm_workbench.design.ifc.sleeves import MOUTH_TO_FOOT_MM, Candidate, left_out, loose_point, named_candidates
 from aadm_workbench.design.ifc.text.file import OpenedIfc, open_ifc
 from aadm_workbench.design.ifc.under import bars_under
+from aadm_workbench.design.ifc.walls import ends_in_walls
 from aadm_workbench.design.model_design import ModelDesign, NotTaken
 from aadm_workbench.design.recognise.body_faces import faces
-from aadm_workbench.design.recognise.shapes import edges
 from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign, Reason
 
 NO_SLEEVES = Reason("ifc.no_sleeves")
 _SHOWN_PROBLEMS = 6  # of a sort: more fill a screen and say no more
-
-_BESIDE_MM = 1.0  # rounding: a dowel may touch the face of its wall
-_LEVEL_SINE = 0.1  # 6 degrees: what runs more steeply is no course of a wall
 
 
 def read_ifc(
@@ -49,6 +43,7 @@ def read_ifc(
     sleeves: str | None = None,
     rebars: str | None = None,
     bodies: dict[str, list[Array]] | None = None,
+    only: Collection[str] | None = None,
 ) -> ModelDesign:
     """Columns, sleeves and connecting rebars that an IFC model holds.
 
@@ -64,6 +59,8 @@ def read_ifc(
         Optional selectors in the syntax of ``ifcopenshell.util.selector``.
     bodies
         Gets the faces of each column's concrete by its GlobalId, polygons (n, 3) mm in the model frame: for the eye.
+    only
+        Names of the columns that are asked for; others, and all that belongs to none of these, may be left out.
 
     Raises
     ------
@@ -78,7 +75,7 @@ def read_ifc(
     shapes = evaluator(opened.mm, opened.radians, coarse=opened.draws_coarsely)
     # Numbers that overflow are looked at where they come out.
     with np.errstate(all="ignore"), closing_kernel(shapes.solids.kernel):
-        found = _found(opened, shapes, columns, sleeves, rebars, bodies)
+        found = _found(opened, shapes, columns, sleeves, rebars, bodies, only)
     return replace(found, seconds=perf_counter() - began - opened.seconds, parse_seconds=opened.seconds)
 
 
@@ -89,14 +86,22 @@ def _found(
     sleeves: str | None,
     rebars: str | None,
     drawn: dict[str, list[Array]] | None,
+    only: Collection[str] | None = None,
 ) -> ModelDesign:
     """What a model holds; elements that are broken are left out one by one."""
     bodies, unreadable = find_columns(opened, shapes, columns)
+    chosen = chosen_of(bodies, only)
+    bodies = bodies if chosen is None else list(chosen.bodies)
     named, excluded = named_candidates(opened, shapes, sleeves)
-    bars = find_bars(opened, shapes, rebars)
+    bars = find_bars(opened, shapes, rebars, None if chosen is None else chosen.near)
     search = SleeveSearch(opened, shapes, Nearby(named), selected=sleeves is not None, bodies=bodies, bars=bars)
     searched, lost = _searched(shapes, search, bodies)
     feet, doubles = _one_column_each(searched)
+    if chosen is not None:
+        feet = [(body, found) for body, found in feet if body in chosen and found.mouths]
+        if len(feet) < len(chosen.wanted):  # why one has none is told by a look at all
+            return _found(opened, shapes, columns, sleeves, rebars, drawn)
+        named = [candidate for candidate in named if chosen.near(candidate.tube.start)]
     loose_sleeves, refused = loose_sleeves_of(named, feet)
     grids = grids_of(opened.file, shapes)
     designs, used_bars, broken = _designs(shapes, feet, bars, grids)
@@ -216,9 +221,11 @@ def loose_sleeves_of(
 def _hosts(points: Sequence[Array], feet: Sequence[tuple[ColumnBody, FoundFoot]]) -> list[ColumnBody | None]:
     """The column in whose concrete each point of the model lies, if any."""
     hosts: list[ColumnBody | None] = [None] * len(points)
-    stacked = np.array(points).reshape(-1, 3)
+    crowd = Crowd.of(points)
     for body, found in feet:
-        for index in np.flatnonzero(found.foot.encloses(stacked)):
+        foot = found.foot
+        near = crowd.about(foot.T_model_foot[:3, 3], foot.T_model_foot[:3, 2], foot.reach_mm)
+        for index in near[foot.encloses(crowd.points[near])]:
             hosts[index] = hosts[index] or body
     return hosts
 
@@ -263,7 +270,7 @@ def _sleeve_sizes(
     contradictions = Contradictions(opened)
     taken = [mouth.candidate for _, found in feet for mouth in found.mouths]
     for candidate in {id(candidate): candidate for candidate in (*taken, *named)}.values():
-        if candidate.element.is_a("IfcMechanicalFastener"):
+        if ifc_names.is_of(candidate.element, "IfcMechanicalFastener"):
             tube = candidate.tube
             drawn_mm = [size for size in (*tube.bore_mm, tube.outer_mm) if size is not None]
             with shapes.guarded(candidate.element):
@@ -295,49 +302,3 @@ def _world(opened: OpenedIfc, shapes: Shapes) -> Array:
         return shapes.placements.of_context(model)
     except BROKEN:
         return np.eye(4)
-
-
-def ends_in_walls(opened: OpenedIfc, shapes: Shapes, ends: Sequence[BarEnd]) -> dict[int, str]:
-    """Bar ends, by their place in ``ends``, that are parts of a wall or end inside one, with the name of that wall."""
-    found: dict[int, str] = {}
-    if not ends:
-        return found
-    tops = np.array([end.top for end in ends])
-    for wall in opened.file.by_type("IfcWall"):
-        with shapes.guarded(wall):
-            _note_ends(wall, shapes, ends, tops, found)
-    return found
-
-
-def _note_ends(wall: Any, shapes: Shapes, ends: Sequence[BarEnd], tops: Array, found: dict[int, str]) -> None:
-    called = ifc_names.called(wall)
-    own_ids = set(_own_ids(wall))
-    for index in {*np.flatnonzero(_inside(wall, shapes, tops)).tolist()}:
-        found.setdefault(index, called)
-    for index, end in enumerate(ends):
-        if end.wholes & own_ids:
-            found.setdefault(index, called)
-
-
-def _own_ids(wall: Any) -> Iterator[int]:
-    """Numbers of a wall and of the assemblies that it is a part of and no column is."""
-    yield wall.id()
-    for whole in ifc_names.wholes(wall):
-        if not any(part.is_a("IfcColumn") for part in ifc_names.parts(whole)):
-            yield whole.id()
-
-
-def _inside(wall: Any, shapes: Shapes, points: Array) -> Array:
-    """Which points (n, 3) lie in the upright box around a wall, whose long side is the longest level edge."""
-    drawn = edges(shapes.of_product(wall))
-    ways = drawn[:, 1] - drawn[:, 0]
-    lengths_mm = np.linalg.norm(ways, axis=1)
-    level = np.abs(ways[:, 2]) < _LEVEL_SINE * lengths_mm
-    if not level.any():
-        return np.zeros(len(points), dtype=np.bool_)
-    along = ways[level][int(lengths_mm[level].argmax())]
-    T = frame(drawn[0, 0], None, np.array([along[0], along[1], 0.0]))
-    corners, local = ((p - T[:3, 3]) @ T[:3, :3] for p in (drawn.reshape(-1, 3), points))
-    low, high = corners.min(axis=0) - _BESIDE_MM, corners.max(axis=0) + _BESIDE_MM
-    inside: Array = np.all((local >= low) & (local <= high), axis=1)
-    return inside

@@ -34,6 +34,9 @@ _TAG = 7  # place of the attribute in IfcElement
 _PLACES: dict[str, dict[str, int]] = {}
 """Places of attributes by schema and class, such as IFC4.IfcWall."""
 
+_CLASSES: dict[tuple[str, str], bool] = {}
+"""Whether a class, such as IFC4.IfcWall, is one or below one, such as IfcElement."""
+
 
 @dataclass(frozen=True, eq=False)
 class Naming:
@@ -62,7 +65,7 @@ class Naming:
         if number not in self._texts:
             of_type = self._types.get(number)
             told = [element[place] for place in _SAID]
-            if element.is_a("IfcElement"):
+            if is_of(element, "IfcElement"):
                 told.append(element[_TAG])
             if of_type is not None:
                 told += self._texts_of_type(of_type)
@@ -273,8 +276,17 @@ def optional(entity: Any, name: str) -> Any:
     if entity is None:
         return None
     ifc_class = entity.is_a(True)
-    places = _PLACES.get(ifc_class)
-    if places is None:
-        places = _PLACES[ifc_class] = {entity.attribute_name(place): place for place in range(len(entity))}
-    place = places.get(name)
+    try:
+        place = _PLACES[ifc_class].get(name)
+    except KeyError:
+        _PLACES[ifc_class] = {entity.attribute_name(place): place for place in range(len(entity))}
+        return optional(entity, name)
     return None if place is None else entity[place]
+
+
+def is_of(entity: Any, ifc_class: str) -> bool:
+    """Whether an entity is of a class, or of one below it: asked of the schema once for each class that there is."""
+    key = entity.is_a(True), ifc_class
+    if key not in _CLASSES:
+        _CLASSES[key] = bool(entity.is_a(ifc_class))
+    return _CLASSES[key]

@@ -12,6 +12,7 @@ import numpy as np
 
 from aadm_workbench.design.ifc.bars import BarEnd, FoundBars
 from aadm_workbench.design.ifc.columns import ColumnBody, Foot, head_of
+from aadm_workbench.design.ifc.crowd import Crowd
 from aadm_workbench.design.ifc.geometry.shapes import Shapes
 from aadm_workbench.design.ifc.sleeves import (
     BESIDE_MM,
@@ -28,7 +29,7 @@ from aadm_workbench.design.ifc.sleeves import (
 )
 from aadm_workbench.design.ifc.text.file import OpenedIfc
 from aadm_workbench.design.ifc.under import bars_below
-from aadm_workbench.model import Array, Reason
+from aadm_workbench.model import Reason
 
 _BEHIND_MM = 5.0  # beyond this it is said: chamfers and rounding are less
 
@@ -50,13 +51,16 @@ class Nearby:
     candidates: Sequence[Candidate]
 
     @cached_property
-    def _middles(self) -> Array:
-        return np.array([(c.tube.start + c.tube.end) / 2.0 for c in self.candidates]).reshape(-1, 3)
+    def _middles(self) -> Crowd:
+        return Crowd.of([(c.tube.start + c.tube.end) / 2.0 for c in self.candidates])
 
     def to(self, foot: Foot, without: Any = None) -> list[Candidate]:
         """Candidates over whose middle a column stands, those of one element left out."""
-        across_mm = np.abs(foot.local(self._middles)[:, :2])
-        near = np.flatnonzero(np.all(across_mm <= foot.half_size_mm + BESIDE_MM, axis=1)).tolist()
+        around = self._middles.about(
+            foot.T_model_foot[:3, 3], foot.T_model_foot[:3, 2], foot.reach_mm + BESIDE_MM * math.sqrt(2.0)
+        )
+        across_mm = np.abs(foot.local(self._middles.points[around])[:, :2])
+        near = around[np.all(across_mm <= foot.half_size_mm + BESIDE_MM, axis=1)].tolist()
         return [self.candidates[k] for k in near if without is None or self.candidates[k].element is not without]
 
 

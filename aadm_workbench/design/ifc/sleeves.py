@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -77,7 +78,7 @@ class Candidate:
     evidence: Evidence
     why: str
 
-    @property
+    @cached_property
     def is_opening(self) -> bool:
         """Whether it is drawn as what is taken away, so that a solid cylinder is a hole."""
         return self.tube.is_hole or bool(self.element.is_a("IfcFeatureElementSubtraction"))
@@ -131,7 +132,7 @@ def _take_by_name(
 ) -> None:
     """Put one element with what is found, or with what is left out, or with neither."""
     word = opened.naming.find(SLEEVE, element)
-    if (not word and not is_coupler) or element.is_a("IfcElementAssembly"):
+    if (not word and not is_coupler) or ifc_names.is_of(element, "IfcElementAssembly"):
         return
     excluded = opened.naming.find(NOT_SLEEVE, element)
     if excluded:
@@ -140,7 +141,7 @@ def _take_by_name(
     evidence = Evidence.CLASS if is_coupler else Evidence.NAME
     why = ifc_names.evidence_of(element.is_a(), opened.naming.said(element))
     drawn = _candidates(element, shapes, evidence, Reason("ifc.coupler", why=why) if is_coupler else why)
-    if element.is_a("IfcReinforcingElement"):
+    if ifc_names.is_of(element, "IfcReinforcingElement"):
         # Bars are called after the sleeve that they go into.
         drawn = [candidate for candidate in drawn if candidate.is_hollow]
     elif not drawn:
@@ -213,8 +214,7 @@ def own_candidates(opened: OpenedIfc, body: ColumnBody, shapes: Shapes) -> list[
     for element in own.values():
         with shapes.guarded(element):
             if not element.is_a("IfcReinforcingBar") and not opened.naming.find(NOT_SLEEVE, element):
-                why = Reason("ifc.no_name", type=element.is_a())
-                found += _candidates(element, shapes, Evidence.GEOMETRY, why)
+                found += _candidates(element, shapes, Evidence.GEOMETRY, Reason("ifc.no_name", type=element.is_a()))
     return found
 
 

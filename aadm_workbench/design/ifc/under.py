@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -51,21 +52,24 @@ def bars_under(body: ColumnBody, foot: Foot, mouths: Sequence[Mouth], bars: Foun
 
 def bars_below(body: ColumnBody, foot: Foot, bars: FoundBars) -> list[BarEnd]:
     """Bars that come up to a column from below, one for each place in the plane: the end nearest to the foot face."""
-    tops = foot.local(bars.tops)
+    reach_mm = math.hypot(foot.reach_mm + _WIDEST_PAIR_MM * math.sqrt(2.0), foot.height_mm / 2.0)
+    around = bars.tops.near(foot.T_model_foot[:3, 3], reach_mm)
+    tops = foot.local(bars.tops.points[around])
     foot_level_mm = float(foot.T_model_foot[2, 3])
     within = (np.abs(tops[:, :2]) < foot.half_size_mm + _WIDEST_PAIR_MM).all(axis=1)
     within &= np.abs(tops[:, 2]) < foot.height_mm / 2.0
     kept: list[int] = []
     numbers = [int(index) for index in np.flatnonzero(within)]
     for index in sorted(numbers, key=lambda k: (abs(float(tops[k, 2])), k)):
-        from_below = bars.ends[index].lowest_mm < foot_level_mm + _AT_FOOT_MM
-        own = bool(bars.ends[index].wholes & body.own_ids)
+        end = bars.ends[around[index]]
+        from_below = end.lowest_mm < foot_level_mm + _AT_FOOT_MM
+        own = bool(end.wholes & body.own_ids)
         if own or not from_below:
             continue
         apart = tops[kept, :2] - tops[index, :2]
         if (np.hypot(apart[:, 0], apart[:, 1]) > _SAME_BAR_MM).all():
             kept.append(index)
-    return [bars.ends[index] for index in kept]
+    return [bars.ends[around[index]] for index in kept]
 
 
 def _warnings(sleeves: Array, tops: Array, partner: IntArray) -> list[str]:

@@ -33,6 +33,7 @@ _BENT_SIGMAS = {_MOUTHS: 8.0, _TOPS: 4.0}  # chamfers of a few mouths do not can
 _SLIVER_PITCHES, _SLIVER_SIGMAS = 0.25, 4.0  # path-traced mouths: 0.2 to 0.6 before their edge; ray-cast: none
 _ROUGH_EDGES, _ROUGH_SIGMAS = 2.5, 2.0  # heights at edges that scatter so much more than within are mixed ones
 _BLUR_SHARE, _BLUR_ROUGH = 0.12, 1.5  # of the bend at the edge; of the scatter within
+_BLUR_SIGMAS = 2.0  # 95 %: pixels that mixed what an edge separates scatter so far in, too, and towards nowhere
 _BLUR_FROM = {_MOUTHS: 0.0, _TOPS: 0.95}  # of the pitch: small tops are flat nowhere near their edges
 
 BLURRED = Reason("extract.blurred")
@@ -45,8 +46,8 @@ class Bend:
 
     ``u_mm`` is its standard uncertainty, ``inner_mm`` the scatter of heights within, ``ratio`` that at edges over it;
     ``pitch_mm`` the distance of neighbouring lines of sight. ``reach_mm`` is how far it still bends where the edges of
-    a camera in focus are flat again. ``apart_u_mm``: the uncertainty with that of telling it from chamfers, which few
-    discs that are seen along one direction hardly do.
+    a camera in focus are flat again, ``reach_u_mm`` the standard uncertainty of that. ``apart_u_mm``: the uncertainty
+    with that of telling it from chamfers, which few discs that are seen along one direction hardly do.
     """
 
     towards: Array
@@ -57,6 +58,7 @@ class Bend:
     side: float
     reach_mm: float
     apart_u_mm: float = 0.0
+    reach_u_mm: float = 0.0
 
     @property
     def height_mm(self) -> float:
@@ -83,7 +85,8 @@ class Bend:
         """Whether the bend goes on for more pixels than that of a camera in focus."""
         high = self.height_mm > _BLUR_FROM[self.side] * self.pitch_mm
         sure = self.height_mm > _BENT_SIGMAS[self.side] * self.apart_u_mm
-        return self.bent and high and sure and self.reach_mm > _BLUR_SHARE * self.height_mm
+        goes_on = self.reach_mm > _BLUR_SHARE * self.height_mm + _BLUR_SIGMAS * self.reach_u_mm
+        return self.bent and high and sure and goes_on
 
 
 def no_bend(pitch_mm: float, side: float) -> Bend:
@@ -111,12 +114,14 @@ def bend_at_edges(lines: SightLines, centre: Array, radius_mm: float, pitch_mm: 
     # to disc, what the camera does has one direction.
     terms = [np.ones(distance.shape), away * slope_length, away, about_x / distance, about_y / distance]
     (towards, dilution), edge_mm = _common_bend(lines.height, terms, at_edge), _rms(lines.height[at_edge])
-    reach_mm = 0.0
-    if reached.sum() >= _FEWEST and _rms(lines.height[reached]) > _BLUR_ROUGH * inner_mm:
-        reach_mm = float(np.hypot(*_common_bend(lines.height, terms, reached)[0]))
+    reach_mm = reach_u_mm = 0.0
+    if reached.sum() >= _FEWEST and (reached_mm := _rms(lines.height[reached])) > _BLUR_ROUGH * inner_mm:
+        reach, reach_dilution = _common_bend(lines.height, terms, reached)
+        reach_mm, reach_u_mm = float(np.hypot(*reach)), reached_mm * reach_dilution
     u_mm = edge_mm / float(np.sqrt(0.5 * at_edge.sum()))
     apart_u_mm = edge_mm * dilution
-    return Bend(side * towards, u_mm, inner_mm, edge_mm / inner_mm, pitch_mm, side, reach_mm, apart_u_mm)
+    ratio = edge_mm / inner_mm
+    return Bend(side * towards, u_mm, inner_mm, ratio, pitch_mm, side, reach_mm, apart_u_mm, reach_u_mm)
 
 
 def _rms(heights: FloatArray) -> float:

@@ -21,6 +21,7 @@ from aadm_workbench.extract.edges.bend import Bend
 from aadm_workbench.extract.edges.seen_disc import SeenDiscs, SightLines, seen_discs
 from aadm_workbench.extract.pooled.evidence import Walls
 from aadm_workbench.model import Array, BoolArray
+from aadm_workbench.model.special import median
 
 _FEWEST = 60  # gaps: a median of fewer is noise
 # Discs of surfaces that bend: shifts that are taken off, and what is left of them. docs/method.md, 2.4, has the scans.
@@ -196,7 +197,7 @@ def eroded_rings(beyond: Outlines, rims: Outlines, centre: Array, pitch_mm: floa
     if both.sum() < _FEWEST:
         return 0.0
     gap = (beyond.distance(centre) - rims.distance(centre))[both] / pitch_mm
-    return max(0.0, 0.5 * (float(np.median(gap)) - _USUAL_GAP_PITCHES))
+    return max(0.0, 0.5 * (float(median(gap)) - _USUAL_GAP_PITCHES))
 
 
 def shift_of_tops(slope: Array, bend: Bend, eroded: float) -> Shift:
@@ -247,7 +248,7 @@ def shift_of_mouths(
 def shift_of_rims(slope: Array, rims: Outlines, centre: Array, radius_mm: float, pitch_mm: float) -> Shift:
     """The same where no mouth is whole, which lines of sight could tell of: by the rims (k, bins) themselves."""
     behind_mm = (rims.distance(centre) - radius_mm)[rims.seen]
-    pitches = float(np.median(behind_mm)) / pitch_mm if len(behind_mm) else 0.0
+    pitches = float(median(behind_mm)) / pitch_mm if len(behind_mm) else 0.0
     return _shift_of_eroded(slope, pitches, pitch_mm, 0.0)
 
 
@@ -301,6 +302,6 @@ def view_by_walls(walls: Walls, centre: Array, slope: Array, radius_mm: float) -
     if squares <= 0.0:
         return None
     beyond = (distance - radius_mm) / np.maximum(facing, _FACING)
-    off = np.array([np.median(beyond[k, shown[k]]) for k in told.tolist()])
+    off = np.array([median(beyond[k, shown[k]]) for k in told.tolist()])
     variance = _OWN_U_MM**2 / squares + (_SHARED_U_MM * float(steepness[told].sum()) / squares) ** 2
     return float(off @ steepness[told]) / squares, variance

@@ -125,6 +125,8 @@ def with_learned_stretch(extraction: Extraction, profile: CameraProfile | None) 
     normal = np.asarray(extraction.vertical, np.float64)
     points = tuple(_set_right(one, normal, learned) for one in extraction.points)
     quality = {**extraction.quality, "learned_stretch": learned.stretch.value}
+    if extraction.rings is not None and learned.rings is not None:
+        quality["learned_rings_off"] = extraction.rings - learned.rings
     if profile.laws != EDGE_LAWS:
         quality["learned_by_laws"] = profile.laws
     return replace(extraction, points=points, quality=quality)

@@ -55,9 +55,14 @@ def _gaps(height: FloatArray, at: IntArray, step: int) -> IntArray:
     return counts
 
 
+def tells_of_rings(gaps: IntArray) -> bool:
+    """Whether enough lies lit behind steps to tell whether a camera drops rings there."""
+    return int(gaps.sum()) >= _FEWEST
+
+
 def rings_dropped(gaps: IntArray) -> int:
     """How many rings a camera drops at depth steps: 0 (or nobody knows), 1, or 2 for two and more."""
     total = int(gaps.sum())
-    if total < _FEWEST or gaps[0] > _TOUCHING * total:
+    if not tells_of_rings(gaps) or gaps[0] > _TOUCHING * total:
         return 0
     return 1 if gaps[:_SHORT].sum() > _SHORT_SHARE * total else 2

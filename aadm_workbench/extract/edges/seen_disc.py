@@ -18,6 +18,7 @@ import numpy as np
 
 from aadm_workbench.extract.patches import Patches
 from aadm_workbench.model import Array, BoolArray, FloatArray
+from aadm_workbench.model.special import median
 
 _FOREIGN = 0.03  # share of lines that find what the geometry does not tell: flying pixels, random losses
 _ZONE_PITCHES, _ZONE_MM = 5.0, 1.0  # about the edge: farther away a line tells nothing
@@ -131,7 +132,7 @@ def _found_share(
     behind = side * (_distance(lines, centre) - radius_mm) / pitch_mm
     within = (behind > _BEHIND_PITCHES[0]) & (behind < _BEHIND_PITCHES[1])
     share = (on & within).sum(axis=1) / np.maximum(within.sum(axis=1), 1)
-    return float(np.clip(np.median(share), _FOUND_MIN, 1.0 - _FOREIGN))
+    return float(np.clip(median(share), _FOUND_MIN, 1.0 - _FOREIGN))
 
 
 def _distance(lines: SightLines, centre: Array) -> FloatArray:

@@ -17,6 +17,7 @@ import numpy as np
 
 from aadm_workbench.model import Array, BoolArray
 from aadm_workbench.model.measured import TO_SIGMA
+from aadm_workbench.model.special import median
 
 WALL_CORRELATION = 2.5
 """Neighbouring wall points share their errors: standard errors are this much larger."""
@@ -139,7 +140,7 @@ def spread(residual: Array) -> float:
     """Robust standard deviation, mm, of residuals (n,) about their median."""
     if len(residual) < _FEWEST:
         return _SPREAD_UNKNOWN_MM
-    return TO_SIGMA * float(np.median(np.abs(residual - np.median(residual))))
+    return TO_SIGMA * float(median(np.abs(residual - median(residual))))
 
 
 def tukey(scaled: Array) -> Array:

@@ -23,12 +23,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import expit
 
 from aadm_workbench.extract.circle import in_rows
 from aadm_workbench.extract.pooled.evidence import BracketLaw, EdgeTerms, RimLaw, Rims, Walls, WallTerms, spread
 from aadm_workbench.extract.pooled.system import BEYOND, PUSH, RIM, WALL, Priors, State, System
 from aadm_workbench.model import Array, BoolArray, IntArray
+from aadm_workbench.model.special import expit, median, percentiles
 
 _DISAGREE_CHI2, _FEW = 13.8, 25  # 0.1 % of chi-squared with two degrees of freedom
 # between the best and the worst known direction: rims that are known so much better one way are pieces of a circle,
@@ -200,7 +200,7 @@ def likeliest_circles(evidence: list[CircleEvidence], centres: Array, radius_mm:
     radii = radius_mm + np.tile(_RADII_MM[0], (count, 1))
     near, own = _likeliest(thin, centres, radii, _SHIFTS_MM[0])
     _, own = _likeliest(thin, near, own[:, None] + _RADII_MM[1], _SHIFTS_MM[1])
-    core_mm = float(np.percentile(own, _CORE_PERCENTILE))
+    core_mm = float(percentiles(own, _CORE_PERCENTILE))
     radii = np.full((count, 1), core_mm)
     near, _ = _likeliest(thin, centres, radii, _SHIFTS_MM[0])
     return _likeliest(thin, near, radii, _SHIFTS_MM[1])[0], core_mm
@@ -269,7 +269,7 @@ def believed_leans(fit: PooledFit, prior: float) -> tuple[Array, Array]:
     between the two it is not known which, and that counts. A side that does not show tells nothing: the odds stay.
     """
     told, weight = _told_by_sides(fit, prior)
-    common = np.median(fit.lean, axis=0) if len(fit.lean) >= _COMMON_COUNT else np.zeros(2)
+    common = median(fit.lean, axis=0) if len(fit.lean) >= _COMMON_COUNT else np.zeros(2)
     off = weight - told @ common
     usual, usual_off, usual_odds = _posterior(told, off, USUAL_LEAN)
     bent, bent_off, bent_odds = _posterior(told, off, BAR_PRIORS.lean)

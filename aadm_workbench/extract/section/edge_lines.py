@@ -26,6 +26,7 @@ from aadm_workbench.extract.section.strips import (
     pooled,
 )
 from aadm_workbench.model import Array, Reason
+from aadm_workbench.model.special import median
 
 _FIRST_REACH_MM = 30.0  # sections are cast to within 5 mm, and patterns stand within 10 mm of their place in them
 _REACH_MM, _REACH_PITCHES = 4.0, 8.0  # to both sides of an edge that is known by and by; deeper chips are followed
@@ -146,7 +147,7 @@ def edge_lines(
     mixed = pooled([edge.overshoot for edge in seen], samples.pitch_mm)
     lost = [edge.lost_mm for edge in seen if edge.lost_mm is not None]
     # Who loses whole rings at mouths loses them before an empty background, too, or none there: either is as likely.
-    lost_mm = 0.0 if mixed is not None else float(np.median(lost)) if lost else samples.pitch_mm
+    lost_mm = 0.0 if mixed is not None else float(median(lost)) if lost else samples.pitch_mm
     lines: dict[str, EdgeLine | Reason] = {}
     for side, edge in found.items():
         if isinstance(edge, Reason):
@@ -283,19 +284,19 @@ def _levelled(
     # Blocks of as many places each, from end to end.
     blocks = np.array_split(inner[np.argsort(s[inner], kind="stable")], min(_BLOCKS, len(inner) // _BLOCK_PLACES))
     at = [float(s[block].mean()) for block in blocks]
-    level = np.interp(s, at, [float(np.median(height[block])) for block in blocks])
+    level = np.interp(s, at, [float(median(height[block])) for block in blocks])
     near = height[inner] - level[inner]
-    level += _rise(d[inner], near) * (d - float(np.median(d[inner])))
+    level += _rise(d[inner], near) * (d - float(median(d[inner])))
     slope = samples.slope_at(np.outer(line.middle_mm + s, line.along) + line.offset_mm * line.normal) @ line.normal
     return d - slope * level, height - level
 
 
 def _rise(d: Array, height: Array) -> float:
     """How much a face rises outwards before an edge, mm per mm, by the medians of its two halves (n,) there."""
-    outer = d > np.median(d)
+    outer = d > median(d)
     if outer.all() or not outer.any():
         return 0.0
-    return float((np.median(height[outer]) - np.median(height[~outer])) / (d[outer].mean() - d[~outer].mean()))
+    return float((median(height[outer]) - median(height[~outer])) / (d[outer].mean() - d[~outer].mean()))
 
 
 def _blind_mm(s: Array, off: Array, pitch_mm: float) -> float:

@@ -15,6 +15,7 @@ from aadm_workbench.extract.patches import plane_of_pixel
 from aadm_workbench.extract.plane import from_plane, in_plane
 from aadm_workbench.extract.sample import Thinned, point_pitch_mm
 from aadm_workbench.model import Array, BoolArray, IntArray, Plane, Scan
+from aadm_workbench.model.special import distinct
 
 _CELL_PITCHES = 1.6  # fewer than one cell in ten of a sound face then stays empty by chance
 _LOOK_MM = 60.0  # beyond the outline: what is farther away is no part of the foot
@@ -146,7 +147,7 @@ def _by_cells(scan: Scan, face: Plane, band_mm: float, outline: Array, pitch_mm:
     def ask(area: Area) -> Asked:
         cell = np.floor((_grid(area, cell_mm) - low) / cell_mm).astype(np.int64)
         inside = (cell >= 0).all(axis=1) & (cell[:, 0] < columns) & (cell[:, 1] < rows)
-        row, column = np.divmod(np.unique(cell[inside, 1] * columns + cell[inside, 0]), columns)
+        row, column = np.divmod(distinct(cell[inside, 1] * columns + cell[inside, 0]), columns)
         xy: Array = low + (np.column_stack([column, row]) + 0.5) * cell_mm
         return Asked(xy, np.where(filled[row, column], 0.0, np.nan))
 

@@ -15,6 +15,7 @@ from aadm_workbench.extract.section.face_samples import KnownMouths, face_sample
 from aadm_workbench.extract.section.strips import Chip
 from aadm_workbench.model import Array, Extraction, IntArray, Plane, Reason, Scan
 from aadm_workbench.model.measured import OF_MEDIAN, TO_SIGMA
+from aadm_workbench.model.special import median, median_of_known, quantiles
 
 SIDES = ("-y", "+x", "+y", "-x")
 """Edges in order, counter-clockwise seen from above; the column's own directions."""
@@ -170,10 +171,10 @@ def face_heights(
     seen = np.isfinite(grid)
     if seen.sum() < rows * columns / 2:
         return None
-    noise_mm = TO_SIGMA * float(np.nanmedian(np.abs(height - grid[at[:, 1] * columns + at[:, 0]])))
-    cell_u_mm = OF_MEDIAN * noise_mm / float(np.sqrt(np.median(count[seen])))
+    noise_mm = TO_SIGMA * median_of_known(np.abs(height - grid[at[:, 1] * columns + at[:, 0]]))
+    cell_u_mm = OF_MEDIAN * noise_mm / float(np.sqrt(median(count[seen])))
     grid -= _leaning(grid.reshape(rows, columns)).ravel()
-    ends = np.quantile(grid[seen], [_OUTER_SHARE, 1.0 - _OUTER_SHARE])
+    ends = quantiles(grid[seen], [_OUTER_SHARE, 1.0 - _OUTER_SHARE])
     range_mm = max(float(ends[1] - ends[0]), _bent_mm(grid.reshape(rows, columns), (high - low) / cell_mm))
     u_mm = float(np.sqrt(2.0 * (cell_u_mm**2 + _WARP_U_MM**2)))
     return FaceHeights(cell_mm, low, grid.reshape(rows, columns), range_mm, u_mm)
@@ -213,7 +214,7 @@ def _bent_mm(grid: Array, sides: Array) -> float:
     for _ in range(2):
         found = np.linalg.lstsq(terms[kept], heights[kept], rcond=None)[0]
         off = np.abs(heights - terms @ found)
-        kept = off < _STRAY * TO_SIGMA * np.median(off) + _WARP_U_MM
+        kept = off < _STRAY * TO_SIGMA * median(off) + _WARP_U_MM
     x, y = np.meshgrid(np.linspace(0.0, sides[0], _CELLS + 1), np.linspace(0.0, sides[1], _CELLS + 1))
     return float(np.ptp(_second_order(x.ravel(), y.ravel()) @ found))
 

@@ -20,10 +20,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtr
 
 from aadm_workbench.model import Array, BoolArray, IntArray, Reason
 from aadm_workbench.model.measured import TO_SIGMA
+from aadm_workbench.model.special import distinct, median, ndtr
 
 _STRIP_PITCHES = 6.0  # along the edge: some fifty places tell where a strip ends, and a chip of 5 mm fills one
 _FEWEST_STRIPS = 8  # of fewer a line has no scatter
@@ -87,8 +87,8 @@ def ends_of_strips(
     usable = (asked_within > _ASKED_MIN * quarter) & (share > _FOUND_MIN)
     if usable.sum() < max(_FEWEST_STRIPS, _SEEN_MIN * count):
         return OUT_OF_PICTURE
-    found = float(np.median(share[usable]))
-    flush = float(np.median((on_without / np.maximum(asked_without, 1))[usable]))
+    found = float(median(share[usable]))
+    flush = float(median((on_without / np.maximum(asked_without, 1))[usable]))
     if flush > _FLUSH_MAX * found:
         return Reason("extract.section_flush")
     farthest = np.full(count, -reach_mm)
@@ -148,7 +148,7 @@ def line_through(strips: Strips, pitch_mm: float) -> StripLine | Reason:
     residual = strips.end - design @ _outermost(strips, pitch_mm)
     normal, scatter = design.T @ design, 0.0
     for _ in range(_ROUNDS):
-        scatter = max(TO_SIGMA * float(np.median(np.abs(residual))), _LEAST_SCATTER_PITCHES * pitch_mm)
+        scatter = max(TO_SIGMA * float(median(np.abs(residual))), _LEAST_SCATTER_PITCHES * pitch_mm)
         weight = np.maximum(1.0 - (residual / (_TUKEY * scatter)) ** 2, 0.0) ** 2
         normal = design.T @ (weight[:, None] * design)
         found = np.linalg.solve(normal, design.T @ (weight * strips.end))
@@ -166,7 +166,7 @@ def _outermost(strips: Strips, pitch_mm: float) -> Array:
 
     Whatever hides a part of a face, a border of the projector's field for one, ends it too early and never too late.
     """
-    some = np.unique(np.linspace(0, len(strips.along) - 1, _STARTS).astype(int))
+    some = distinct(np.linspace(0, len(strips.along) - 1, _STARTS).astype(int))
     first, second = (some[side] for side in np.triu_indices(len(some), k=1))
     turn = (strips.end[second] - strips.end[first]) / (strips.along[second] - strips.along[first])
     offset = strips.end[first] - turn * strips.along[first]
@@ -239,7 +239,7 @@ def overshoot_of(off: Array, height: Array, band_mm: float, pitch_mm: float) -> 
     kept = [chosen for chosen in bins if chosen.sum() >= _FEWEST_PLACES]
     if not kept or usual <= 0.0:
         return None
-    level = float(np.median(inner))
+    level = float(median(inner))
     if _is_sound(height[kept[-1]] - level, usual):
         return None
     if not any(_is_sound(height[chosen] - level, usual) for chosen in kept):
@@ -256,31 +256,31 @@ def pooled(found: Sequence[Overshoot | None], pitch_mm: float) -> Overshoot | No
     if 2 * len(own) < len(found) or not own:
         return None
     beyond = np.array([one.beyond_mm for one in own])
-    middle = float(np.median(beyond))
-    u_mm = float(np.median([one.u_mm for one in own]))
+    middle = float(median(beyond))
+    u_mm = float(median([one.u_mm for one in own]))
     if len(own) < 3:
         apart = _ONE_ALONE_PITCHES * pitch_mm
     else:
-        apart = TO_SIGMA * float(np.median(np.abs(beyond - middle))) / float(np.sqrt(len(own)))
+        apart = TO_SIGMA * float(median(np.abs(beyond - middle))) / float(np.sqrt(len(own)))
     return Overshoot(middle, float(np.hypot(u_mm, apart)))
 
 
 def _is_sound(over: Array, usual: float) -> bool:
     """Whether heights over the face's level neither scatter more than usual nor are bent."""
-    return TO_SIGMA * float(np.median(np.abs(over))) < _DISTURBED * usual
+    return TO_SIGMA * float(median(np.abs(over))) < _DISTURBED * usual
 
 
 def _scatter(height: Array) -> float:
-    return TO_SIGMA * float(np.median(np.abs(height - np.median(height))))
+    return TO_SIGMA * float(median(np.abs(height - median(height))))
 
 
 def _level(place: Array, height: Array) -> Array:
     """Heights without their slope across the edge: heights of pixels that are lit in part bend, too."""
-    near = place < np.median(place)
+    near = place < median(place)
     if near.all() or not near.any():
         return height
     run = float(place[~near].mean() - place[near].mean())
-    slope = float(np.median(height[~near]) - np.median(height[near])) / run
+    slope = float(median(height[~near]) - median(height[near])) / run
     return np.asarray(height - slope * (place - place.mean()))
 
 

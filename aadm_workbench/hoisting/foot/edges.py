@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from aadm_workbench.hoisting.foot.mouths import NOISE_SIGMAS, MouthView, sector_of
-from aadm_workbench.hoisting.foot.multipath_shift import EdgeRays
 from aadm_workbench.hoisting.foot.walls import WALL, WALL_FEWEST
 from aadm_workbench.hoisting.pattern_fit import State
 from aadm_workbench.model import Array, BoolArray, IntArray
@@ -25,6 +26,40 @@ _RAY_FIELDS = (
     "sampling",
     "owner",
 )
+
+
+@dataclass(frozen=True, eq=False)
+class EdgeRays:
+    """Rays near the edges of mouths, in the axes of the face, mm; sorted by ``owner`` (n,).
+
+    Parameters
+    ----------
+    about
+        (n, 2): where a ray crosses the face, from the centre of its sleeve as its wall appears.
+    direction
+        (n, 2) unit: the ray in the plan. ``climb`` (n,) is its rise per mm of plan.
+    beyond
+        (n,): how far beyond the crossing it ended, in the plan.
+    to_wall
+        (n,): how far beyond the crossing it would end on the wall as it appears.
+    pitch
+        (n,): width of a pixel across the edge.
+    face_sigma, wall_sigma
+        (n,): noise of ``beyond`` on either surface.
+    sampling
+        (n,): log ratio of how many rays return from inside and from the face, around it.
+    """
+
+    about: Array
+    direction: Array
+    climb: Array
+    beyond: Array
+    to_wall: Array
+    pitch: Array
+    face_sigma: Array
+    wall_sigma: Array
+    sampling: Array
+    owner: IntArray
 
 
 def edge_rays(
@@ -62,6 +97,7 @@ def _rays_of(
     used &= sectors[sector_of(about)]
     along = np.einsum("ij,ij->i", about, direction)
     to_wall = np.sqrt(np.maximum(radius_mm**2 - distance**2 + along**2, 0.0)) - along
+    to_wall = to_wall * (1.0 + climb * (direction @ state.own[k, 2:4]))  # a bore that leans away ends farther
     sampling = _sampling(view, centre, radius_mm, noise_mm)
     chosen = np.flatnonzero(used)
     away = along > 0

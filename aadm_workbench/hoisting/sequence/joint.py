@@ -21,7 +21,7 @@ from aadm_workbench.hoisting.pairs import report_pairs
 from aadm_workbench.hoisting.pattern_fit import OWN, Evidence, Pattern, State, as_built, loosened, placed
 from aadm_workbench.hoisting.sense import why_half
 from aadm_workbench.hoisting.sequence.sighting import SightedMeasurement, Sighting, with_sighting
-from aadm_workbench.model import Array, BoolArray, ColumnDesign, HoistingMeasurement, Profile
+from aadm_workbench.model import Array, AssemblyPoint, BoolArray, ColumnDesign, HoistingMeasurement, Profile
 
 _ROUNDS = 6  # poses come from frames that were fitted: the third step is below a micrometre
 _UNLIKELY = 1e-5  # of frames that are labelled rightly and of parts that stand as they stood, to differ so
@@ -168,7 +168,8 @@ def measure_jointly(
     foot, bars = _shapes(sightings)
     if not _agree(foot, bars):
         return None
-    hung = _hung(last.hung, foot, bars, _heights([s.hung for s in sightings]))
+    missing = _missing(sightings, design)
+    hung = _hung(last.hung, foot, bars, _heights([s.hung for s in sightings]), missing, design)
     shown = np.any([s.shown for s in sightings], axis=0)
     half = why_half(shown)
     measured = report_pairs(last.scan, last.frame, design, hung, last.orientation, profile, decision, half)
@@ -210,15 +211,38 @@ def _heights(hung: Sequence[HungFit]) -> Array:
     return np.asarray(known)
 
 
-def _hung(last: HungFit, foot: JointShape, bars: JointShape, heights: Array) -> HungFit:
+def _missing(sightings: Sequence[Sighting], design: ColumnDesign) -> tuple[str, ...]:
+    """Labels of what some frame shows not to be there, and no later one where it should be."""
+    missing: set[str] = set()
+    for sighting in sightings:
+        hung = sighting.hung
+        seen = {
+            point.label
+            for points, shown in ((design.sleeves, hung.foot.seen), (design.rebars, hung.bars.seen))
+            for point, is_seen in zip(points, shown, strict=True)
+            if is_seen
+        }
+        missing = (missing - seen) | set(hung.missing)
+    return tuple(point.label for point in (*design.sleeves, *design.rebars) if point.label in missing)
+
+
+def _there(points: Sequence[AssemblyPoint], missing: Sequence[str]) -> BoolArray:
+    return np.array([point.label not in missing for point in points])
+
+
+def _hung(
+    last: HungFit, foot: JointShape, bars: JointShape, heights: Array, missing: tuple[str, ...], design: ColumnDesign
+) -> HungFit:
     """The last frame's fit, as if it had seen what all have."""
-    foot_fit = replace(last.foot, centres=foot.centres, covariance=foot.covariance, seen=foot.seen, pose=foot.pose)
+    seen = foot.seen & _there(design.sleeves, missing)
+    foot_fit = replace(last.foot, centres=foot.centres, covariance=foot.covariance, seen=seen, pose=foot.pose)
     bar_fit = replace(
         last.bars,
         tops=np.column_stack([bars.centres, heights]),
         covariance=bars.covariance,
-        seen=bars.seen & np.isfinite(heights),
+        seen=bars.seen & np.isfinite(heights) & _there(design.rebars, missing),
         pose=bars.pose,
         turn_u=float(np.sqrt(bars.pose_covariance[2, 2])),
     )
-    return replace(last, foot=foot_fit, bars=bar_fit)
+    before = tuple(label for label in last.before if label not in missing)
+    return replace(last, foot=foot_fit, bars=bar_fit, before=before, missing=missing)

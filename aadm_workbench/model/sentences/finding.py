@@ -4,6 +4,32 @@ from __future__ import annotations
 
 from aadm_workbench.model.sentences import Sentence
 
+_INTRINSICS = Sentence(
+    "the intrinsics that the camera's software exports with the scans (Mech-Eye, Zivid: Camera Intrinsics; Photoneo: "
+    "Camera Matrix; RealSense: Intrinsics)",
+    "相机软件随扫描导出的内参（Mech-Eye、Zivid：Camera Intrinsics；Photoneo：Camera Matrix；RealSense：Intrinsics）",
+)
+_RESOLUTION = Sentence(
+    "another resolution (Zivid: Sampling, Resampling; Photoneo: Resolution)",
+    "另一分辨率（Zivid：Sampling、Resampling；Photoneo：Resolution）",
+)
+_NO_FILLING = Sentence(
+    "Mech-Eye: Gap Filling = Off; Photoneo: Hole Filling = off; Zivid: Hole > Repair = off; RealSense: Hole Filling "
+    "Filter = off",
+    "Mech-Eye：Gap Filling 设为 Off；Photoneo：关闭 Hole Filling；Zivid：关闭 Hole > Repair；RealSense：关闭 Hole "
+    "Filling Filter",
+)
+_NO_SMOOTHING = Sentence(
+    "Mech-Eye: Surface Smoothing = Off; Photoneo: Surface Smoothness = Sharp; Zivid: Smoothing > Gaussian = off; "
+    "RealSense: Spatial Filter = off",
+    "Mech-Eye：Surface Smoothing 设为 Off；Photoneo：Surface Smoothness 设为 Sharp；Zivid：关闭 Smoothing > "
+    "Gaussian；RealSense：关闭 Spatial Filter",
+)
+_DEPTH_UNIT = Sentence(
+    "what the camera's software states (Mech-Eye: Unit; Photoneo and Zivid store millimetres; RealSense: Depth Units)",
+    "请按相机软件给出的值填写（Mech-Eye：Unit；Photoneo 和 Zivid 以毫米存储；RealSense：Depth Units）",
+)
+
 SENTENCES: dict[str, Sentence] = {
     "finding.camera_bends": Sentence(
         "views of the {group:word} differ by what turns with the camera: it bends its picture by up to {bend_mm:.2f} "
@@ -15,25 +41,29 @@ SENTENCES: dict[str, Sentence] = {
     "finding.common_lean.camera": Sentence(
         "all sleeves lean by {sleeves_deg:.1f}° and all bars by {rebars_deg:.1f}° towards the same side of their "
         "images: the principal point of the camera (cx, cy in [camera]) is not that of these scans, or the image "
-        "was cropped; take the intrinsics that the camera's software exports with the scans",
+        f"was cropped; take {_INTRINSICS.en}",
         "全部套筒倾斜 {sleeves_deg:.1f}°、全部钢筋倾斜 {rebars_deg:.1f}°，且朝向图像同一侧：相机主点（[camera] "
-        "中的 cx、cy）与扫描不符，或图像被裁剪过；请采用相机软件随扫描导出的内参",
+        f"中的 cx、cy）与扫描不符，或图像被裁剪过；请采用{_INTRINSICS.zh}",
     ),
     "finding.common_lean.rebar": Sentence(
         "all bars lean alike by {lean_deg:.1f}° against the floor: they stand so, the floor is not level, or the "
-        "principal point of the camera (cx, cy) is wrong: hold a spirit level to one of them",
+        "principal point of the camera (cx, cy) is wrong: hold a spirit level to one of them, "
+        f"and take {_INTRINSICS.en}",
         "全部钢筋相对楼面同向倾斜 {lean_deg:"
-        ".1f}°：可能确实如此，或楼面不平，或相机主点（cx、cy）有误：请用水平尺量一根",
+        f".1f}}°：可能确实如此，或楼面不平，或相机主点（cx、cy）有误：请用水平尺量一根，并采用{_INTRINSICS.zh}",
     ),
     "finding.common_lean.sleeve": Sentence(
         "all sleeves lean alike by {lean_deg:.1f}° against the foot's face: they are cast in so, the face is not "
-        "square to the column, or the principal point of the camera (cx, cy) is wrong: measure one with a square",
+        "square to the column, or the principal point of the camera (cx, cy) is wrong: measure one with a square, and "
+        f"take {_INTRINSICS.en}",
         "全部套筒相对柱底面同向倾斜 {lean_deg:"
-        ".1f}°：可能预埋如此，或柱底面与柱轴线不垂直，或相机主点（cx、cy）有误：请用角尺量一个",
+        ".1f}°：可能预埋如此，或柱底面与柱轴线不垂直，或相机主点（cx、cy）有误：请用角尺量一个，"
+        f"并采用{_INTRINSICS.zh}",
     ),
     "finding.diameter_differs.other_sleeves": Sentence(
-        "sleeves of {design_mm:g} mm are designed, but the mouths on their places measure {measured_mm:.1f} mm",
-        "设计为 {design_mm:g} mm 套筒，而各位置上的套筒口实测 {measured_mm:.1f} mm",
+        "sleeves of {design_mm:g} mm are designed, but the mouths on their places measure {measured_mm:.1f} mm: "
+        "measure one with a calliper",
+        "设计为 {design_mm:g} mm 套筒，而各位置上的套筒口实测 {measured_mm:.1f} mm：请用卡尺量一个",
     ),
     "finding.diameter_differs.others": Sentence(
         "bars of {design_mm:g} mm are designed, but those that stand in the scan measure {measured_mm:.1f} mm "
@@ -70,9 +100,9 @@ SENTENCES: dict[str, Sentence] = {
         "in the scan of the {group:word} the pixels at edges and gaps repeat the depths of their neighbours: what "
         "is near was carried over what lies behind it, or over what was not measured, and edges stand where "
         "nothing is. Turn this off in the camera's software (hole filling with the nearest or the left neighbour, "
-        "dilation, edge padding) and scan again",
+        f"dilation, edge padding; {_NO_FILLING.en}) and scan again",
         "{group:word}的扫描在边缘和空缺处重复相邻像素的深度：近处表面被延伸到其后方或未测得之处，边缘因此移位。"
-        "请在相机软件中关闭（以最近点或左邻点补洞、膨胀、边缘扩展，即 hole filling / dilation）后重新扫描",
+        f"请在相机软件中关闭以最近点或左邻点补洞、膨胀、边缘扩展（{_NO_FILLING.zh}）后重新扫描",
     ),
     "finding.exposed_length_differs.long": Sentence(
         "{about:word} sticks out {measured_mm:.0f} mm where {expected_mm:.0f} mm are expected ({of:word}): it may "
@@ -94,9 +124,9 @@ SENTENCES: dict[str, Sentence] = {
     "finding.gaps_filled": Sentence(
         "the scan of the {group:word} has surfaces where nothing is, between edges and what lies behind them: "
         "what was not measured was filled in, or edges were fattened. Turn hole filling off in the camera's "
-        "software (gap filling, interpolation, dilation) and scan again",
+        f"software (interpolation, dilation; {_NO_FILLING.en}) and scan again",
         "{group:word}的扫描在边缘与其后方之间有并不存在的表面：未测得处被填补，或边缘被加粗。"
-        "请在相机软件中关闭孔洞填充（补洞、插值、膨胀，即 hole filling / gap filling）后重新扫描",
+        f"请在相机软件中关闭孔洞填充（补洞、插值、膨胀；{_NO_FILLING.zh}）后重新扫描",
     ),
     "finding.hoisting_frames_contradict": Sentence(
         "{source} (near = {near}) and {other} (near = {other_near}) contradict each other: they agree once one of "
@@ -119,12 +149,15 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "finding.mirrored": Sentence(
         "the scan of the {group:word} is mirrored: its points fit the pattern only as in a mirror. The picture "
-        "was flipped when it was stored, or the cloud has an axis the wrong way round",
-        "{group:word}的扫描是镜像的：各点只有镜像后才与布置吻合。存图时被翻转，或点云的某轴方向反了",
+        "was flipped when it was stored, or the cloud has an axis the wrong way round: store it as the camera gives it "
+        "(flip, mirror and rotate off)",
+        "{group:word}的扫描是镜像的：各点只有镜像后才与布置吻合。存图时被翻转，或点云的某轴方向反了："
+        "请按相机原样存储（关闭 flip、mirror、rotate，即翻转、镜像、旋转）",
     ),
     "finding.other_column": Sentence(
-        "the scan of the {group:word} does not show this column: its points fit the design of {column}",
-        "{group:word}的扫描不是这根柱：各点与 {column} 的设计吻合",
+        "the scan of the {group:word} does not show this column: its points fit the design of {column}. Name the file "
+        "of this column in the job",
+        "{group:word}的扫描不是这根柱：各点与 {column} 的设计吻合。请在任务中指定本柱的文件",
     ),
     "finding.pattern_off_section": Sentence(
         "the sleeves as a group sit {dx_mm:+.1f}, {dy_mm:+.1f} mm (±{U_mm:.1f} mm) and {turn_deg:+.2f}° from their "
@@ -158,42 +191,43 @@ SENTENCES: dict[str, Sentence] = {
     "finding.scale_differs.bores": Sentence(
         "what was scanned of the {groups:word}, patterns and bores together, is {scale:.4f} times as large as designed "
         "(±{U:.4f}): the intrinsics of the camera (focal length fx, fy in [camera]) or the unit are wrong; no position "
-        "in these scans is to be trusted before that is settled",
+        f"in these scans is to be trusted before that is settled. Take {_INTRINSICS.en}",
         "{groups:word}的扫描（布置与套筒内径合计）为设计尺寸的 {scale:.4f} 倍（±{U:.4f}）：相机内参（[camera] 中的焦距 "
-        "fx、fy）或单位有误；查明之前，这些扫描的位置均不可信",
+        f"fx、fy）或单位有误；查明之前，这些扫描的位置均不可信。请采用{_INTRINSICS.zh}",
     ),
     "finding.scale_differs.camera": Sentence(
         "the patterns of sleeves and rebars are both {scale:.4f} times as large as designed (±{U:.4f}): the "
         "intrinsics of the camera (focal length fx, fy in [camera]) or the unit are wrong; no position in these "
-        "scans is to be trusted before that is settled",
+        f"scans is to be trusted before that is settled. Take {_INTRINSICS.en}",
         "套筒与钢筋的布置尺寸同为设计的 {scale:.4f} 倍（±{U:.4f}）：相机内参（[camera] 中的焦距 "
-        "fx、fy）或单位有误；查明之前，这些扫描的位置均不可信",
+        f"fx、fy）或单位有误；查明之前，这些扫描的位置均不可信。请采用{_INTRINSICS.zh}",
     ),
     "finding.scale_differs.column": Sentence(
         "the patterns of sleeves and rebars differ in scale by {difference:.4f} (±{U:.4f}): one of the two scans, "
-        "or one of the two templates, is too large",
-        "套筒与钢筋的布置比例相差 {difference:.4f}（±{U:.4f}）：两个扫描之一或两个模板之一偏大",
+        f"or one of the two templates, is too large. See that both have {_INTRINSICS.en}",
+        "套筒与钢筋的布置比例相差 {difference:.4f}（±{U:.4f}）：两个扫描之一或两个模板之一偏大。"
+        f"请核对两个扫描是否都采用{_INTRINSICS.zh}",
     ),
     "finding.scale_differs.focal": Sentence(
         "the {group:word} lie on their design, with their sizes, once the focal length is taken as {times:.2g} "
-        "times what the job says: fx and fy in [camera] are those of another camera, or of another resolution; "
-        "take the intrinsics that the camera's software exports with the scans",
+        f"times what the job says: fx and fy in [camera] are those of another camera, or of {_RESOLUTION.en}; "
+        f"take {_INTRINSICS.en}",
         "只有把焦距取为任务所给的 {times:.2g} 倍时，{group:word}的位置和尺寸才与设计吻合：[camera] 中的 fx、fy "
-        "是另一台相机或另一分辨率的内参；请采用相机软件随扫描导出的内参",
+        f"是另一台相机或{_RESOLUTION.zh}的内参；请采用{_INTRINSICS.zh}",
     ),
     "finding.scale_differs.group": Sentence(
         "the pattern of the {group:word} is {scale:.4f} times as large as designed (±{U:.4f}): the intrinsics of "
         "the camera (focal length fx, fy in [camera]) or the unit are wrong, or the template was; no position in "
-        "this scan is to be trusted before that is settled",
+        f"this scan is to be trusted before that is settled. Take {_INTRINSICS.en}",
         "{group:word}的布置尺寸为设计的 {scale:.4f} 倍（±{U:.4f}）：相机内参（[camera] 中的焦距 "
-        "fx、fy）或单位有误，或模板有误；查明之前，该扫描的位置均不可信",
+        f"fx、fy）或单位有误，或模板有误；查明之前，该扫描的位置均不可信。请采用{_INTRINSICS.zh}",
     ),
     "finding.scale_differs.unit": Sentence(
         "the {group:word} lie on their design, with their sizes, once all lengths of the scan are divided by "
-        "{factor:.3g}: the depth scale (depth_scale_mm in [camera]) or the unit is wrong; write what the camera's "
-        "software states",
+        "{factor:.3g}: the depth scale (depth_scale_mm in [camera]) or the unit is wrong; write "
+        f"{_DEPTH_UNIT.en}",
         "只有把扫描的全部长度除以 {factor:.3g} 时，{group:word}的位置和尺寸才与设计吻合：深度比例（[camera] 中的 "
-        "depth_scale_mm）或单位有误；请按相机软件给出的值填写",
+        f"depth_scale_mm）或单位有误；{_DEPTH_UNIT.zh}",
     ),
     "finding.section_size_differs": Sentence(
         "the section measures {measured_mm:.1f} mm (±{U_mm:.1f} mm) between its edges {between}, {design_mm:g} mm are "
@@ -209,13 +243,14 @@ SENTENCES: dict[str, Sentence] = {
     "finding.smoothed": Sentence(
         "the scan of the {group:word} was smoothed: its noise is shared by neighbouring pixels, and edges run "
         "into each other. Turn smoothing off in the camera's software (surface smoothing, Gaussian, median or "
-        "spatial filter) and scan again",
+        f"spatial filter; {_NO_SMOOTHING.en}) and scan again",
         "{group:word}的扫描被平滑过：相邻像素的噪声相同，边缘相互渗混。"
-        "请在相机软件中关闭平滑（表面平滑、高斯、中值或空间滤波，即 smoothing / spatial filter）后重新扫描",
+        f"请在相机软件中关闭平滑（表面平滑、高斯、中值或空间滤波；{_NO_SMOOTHING.zh}）后重新扫描",
     ),
     "finding.swapped": Sentence(
-        "the scans of the sleeves and of the rebars are swapped: each shows what the other should",
-        "套筒与钢筋的扫描弄反了：各自显示的是对方的内容",
+        "the scans of the sleeves and of the rebars are swapped: each shows what the other should. Exchange the two "
+        "files in the job",
+        "套筒与钢筋的扫描弄反了：各自显示的是对方的内容。请在任务中对调这两个文件",
     ),
     "finding.swapped.one": Sentence(
         "the scan named for the {group:word} ({source}) shows the {others:word}: another file is meant",

@@ -22,6 +22,10 @@ SENTENCES: dict[str, Sentence] = {
         "{sleeve}-{rebar}: {distance_mm:.2f} mm, u = {u_mm:.2f} mm, is too close to the {clause}",
         "{sleeve}-{rebar}：{distance_mm:.2f} mm，u = {u_mm:.2f} mm，过于接近{clause}",
     ),
+    "hoisting.closed": Sentence(
+        "{labels:and} closed, in plain sight: take the tape, cap or mortar off and take a new frame",
+        "{labels:and} 清楚可见但被封住：请清除胶带、盖帽或砂浆后重新拍摄",
+    ),
     "hoisting.decides": Sentence("{label} decides where the column goes, and is not seen", "{label} 决定移动而未见到"),
     "hoisting.empty": Sentence(
         "the frame is empty: it holds too few points to show a column",
@@ -73,6 +77,10 @@ SENTENCES: dict[str, Sentence] = {
         "{labels} not seen: what is only inferred does not pass, look from another corner",
         "未见到 {labels}：仅靠推断不能判为合格，请从另一角拍摄",
     ),
+    "hoisting.missing": Sentence(
+        "{labels:and} not there: the frame shows what lies behind its place",
+        "{labels:and} 不在原处：画面中其位置后方清楚可见",
+    ),
     "hoisting.moved": Sentence("{label} moved {moved_mm:.1f} mm", "{label} 移动了 {moved_mm:.1f} mm"),
     "hoisting.moved_since": Sentence("{points} since the scan from before hoisting", "{points}（与吊装前的扫描相比）"),
     "hoisting.moved_since.look": Sentence(
@@ -91,8 +99,9 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "hoisting.no_bar": Sentence("no bar of {bar_mm:g} mm is seen under the foot", "柱底下方没有 {bar_mm:g} mm 的钢筋"),
     "hoisting.no_foot": Sentence(
-        "no foot of a column with sleeves of {diameter_mm:g} mm is seen in the frame",
-        "画面中没有带 {diameter_mm:g} mm 套筒的柱底",
+        "no foot of a column with sleeves of {diameter_mm:g} mm is seen in the frame: it is hidden, beside the "
+        "picture, or seen flatter than about 5 degrees",
+        "画面中没有带 {diameter_mm:g} mm 套筒的柱底：被遮挡、不在画面中，或视角小于约 5°",
     ),
     "hoisting.no_limit": Sentence("no limit is given", "未给出限值"),
     "hoisting.no_such_method": Sentence(
@@ -162,6 +171,10 @@ SENTENCES: dict[str, Sentence] = {
     "hoisting.sleeves_unfit": Sentence(
         "the sleeves in the frame do not lie as the design says: is it another column?",
         "画面中的套筒与设计布置不符：是否为另一根柱？",
+    ),
+    "hoisting.slid": Sentence(
+        "a regular row is not seen whole: which point is which is open, show it from end to end",
+        "等距的一排未全部见到：无法对应各点，请从一端到另一端完整拍摄",
     ),
     "hoisting.stale": Sentence("captured {age_s:.0f} s ago: take a new frame", "拍摄于 {age_s:.0f} s 前：请重新拍摄"),
     "hoisting.stray": Sentence(

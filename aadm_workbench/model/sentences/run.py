@@ -31,6 +31,8 @@ SENTENCES: dict[str, Sentence] = {
         "它看到的 {file} 与本机不同或不存在；请共享该文件夹，或加上 --ship-inputs",
     ),
     "run.killed": Sentence("killed by signal {signal}", "被信号 {signal} 终止"),
+    "run.killed_in_vain": Sentence("killed (and does not end)", "已终止（但仍未结束）"),
+    "run.killed_unseen": Sentence("killed (nobody there says how)", "被终止（那里没有说明原因）"),
     "run.other_code": Sentence("other code under the same version of aadm", "版本相同而代码不同的 aadm"),
     "run.other_versions": Sentence(
         "it has {different}; install the same version there and here", "它装有 {different}；请在两处安装相同的版本"
@@ -95,6 +97,7 @@ SENTENCES: dict[str, Sentence] = {
         "{file}: results cannot be kept there: {why}",
         "{file}：结果无法保存在那里：{why}",
     ),
+    "run.no_answer": Sentence("its answer makes no sense ({why})", "其应答无法理解（{why}）"),
     "run.no_events": Sentence(
         "{target}: events cannot be written there ({why})", "{target}：无法把事件写到那里（{why}）"
     ),

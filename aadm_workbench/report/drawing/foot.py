@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -20,7 +21,7 @@ _LIMIT_RADIUS = 15.0  # of the ring that stands for the limit: seen, and clear o
 _LIMIT_OF_PITCH = 0.42  # of the distance of neighbours: rings do not touch
 _ALARM_RING = 3.0  # about a point that fails, with half of its line
 _LONGEST_ARROW = 38.0  # two and a half rings: what is far beyond its limit still ends on the sketch
-_KEPT = 256  # arrangements of names: a job has few designs, and few columns of each that fail
+_KEPT = 256  # arrangements of points, and of names: a job has few designs, and few columns of each that fail
 _FACTORS = (200, 100, 50, 40, 25, 20, 15, 10, 8, 5, 4, 3, 2, 1)  # magnifications that a person can divide by
 
 
@@ -105,7 +106,7 @@ def foot_sketch(
     reach = _reach(marks, size_mm)
     scale = (SIDE - 2.0 * _MARGIN) / (2.0 * reach)
     limit_mm = next((mark.limit_mm for mark in marks if mark.limit_mm), None)
-    ring = min(_LIMIT_RADIUS, _LIMIT_OF_PITCH * _pitch_mm(marks) * scale)
+    ring = min(_LIMIT_RADIUS, _LIMIT_OF_PITCH * _pitch_mm(tuple([mark.design_mm for mark in marks])) * scale)
     factor = _factor(marks, limit_mm, scale, ring)
     below: list[Shape] = []
     if size_mm is not None:
@@ -124,7 +125,7 @@ def foot_sketch(
         shapes += _mark(mark, at, scale, factor, radius, ring)
         if mark.label in marked:
             shapes.append(Circle(at, reach + 4.5, "ring-named"))
-        if mark.offset_mm is not None and _length(mark.offset_mm) * scale * factor > reach:
+        if mark.offset_mm is not None and math.hypot(*mark.offset_mm) * scale * factor > reach:
             arrows.append(_arrow(mark, at, scale, factor))
     names = tuple(_to_name(mark, places[mark.label], reach, marked=mark.label in marked) for mark in marks)
     shapes += _names(names, radius, tuple(below), tuple(arrows))
@@ -209,25 +210,21 @@ def _reach(marks: Sequence[Mark], size_mm: Sequence[float] | None) -> float:
     return max([*ends, 1.0])
 
 
-def _pitch_mm(marks: Sequence[Mark]) -> float:
+@lru_cache(_KEPT)
+def _pitch_mm(places: tuple[Point, ...]) -> float:
     """Smallest distance between two points, mm."""
-    places = [mark.design_mm for mark in marks]
-    found = [_length((x1 - x0, y1 - y0)) for k, (x0, y0) in enumerate(places) for x1, y1 in places[k + 1 :]]
+    found = [math.dist(place, other) for k, place in enumerate(places) for other in places[k + 1 :]]
     return min((apart for apart in found if apart > 1.0), default=1000.0)
 
 
 def _factor(marks: Sequence[Mark], limit_mm: float | None, scale: float, ring: float) -> int:
     """The largest round factor at which neither ring nor arrow leaves its place."""
-    longest_mm = max((_length(mark.offset_mm) for mark in marks if mark.offset_mm), default=0.0)
+    longest_mm = max((math.hypot(*mark.offset_mm) for mark in marks if mark.offset_mm), default=0.0)
     fits = min(
         ring / (limit_mm * scale) if limit_mm else float(_FACTORS[0]),
         _LONGEST_ARROW / (longest_mm * scale) if longest_mm else float(_FACTORS[0]),
     )
     return next((factor for factor in _FACTORS if factor <= fits), 1)
-
-
-def _length(vector: Point) -> float:
-    return float((vector[0] ** 2 + vector[1] ** 2) ** 0.5)
 
 
 def _mirrored(mark: Mark) -> Mark:

@@ -89,14 +89,19 @@ class Layout:
         """A name for the point at a place, beyond a radius around it, ``towards`` a direction where that is free."""
         angle = math.atan2(towards[1], towards[0])
         for smaller in _SMALLER:
+            half = width_of_label(text, size * smaller, bold=bold) / 2.0, _HEIGHT * size * smaller / 2.0
             for further in _FURTHER[: 3 if smaller > _SMALLER[-1] else None]:
                 for turn_deg in _FINE_TURNS_DEG if further >= _LED else _TURNS_DEG:
                     way = angle + math.radians(turn_deg)
-                    label = _at(at, way, radius + further, text, size * smaller, style, bold=bold)
-                    drawn = self._placed(label, at, way, radius, further)
-                    if drawn:
-                        self._boxes.append(box_of(label))
-                        yield from drawn
+                    x, y = _middle(at, way, radius + further, half)
+                    box = (x - half[0], y - half[1], x + half[0], y + half[1])
+                    if not self.is_free(box):
+                        continue
+                    line = self._line_to(box, at, way, radius, further)
+                    if line is not None:
+                        self._boxes.append(box)
+                        yield from line
+                        yield Label((x, y), text, round(size * smaller, 2), style, bold=bold)
                         return
 
     def is_free(self, box: Box) -> bool:
@@ -106,29 +111,34 @@ class Layout:
             return False
         around = (left, low, right, high)
         for x, y, radius, _ in self._circles:
-            if _is_nearer((x, y), around, radius):
+            # Most are not near, which a look at their sides tells, and a call would take longer than that.
+            near = left - radius < x < right + radius and low - radius < y < high + radius
+            if near and _distance((x, y), around) < radius:
                 return False
         wide = _BETWEEN - _GAP
         for b in self._boxes:
             if left - wide < b[2] and b[0] < right + wide and low < b[3] and b[1] < high:
                 return False
-        for start, end, half in self._lines:
-            if _crosses(start, end, (left - half, low - half, right + half, high + half)):
+        for (x0, y0), (x1, y1), half in self._lines:
+            beyond = (
+                (x0 < left - half and x1 < left - half)
+                or (x0 > right + half and x1 > right + half)
+                or (y0 < low - half and y1 < low - half)
+                or (y0 > high + half and y1 > high + half)
+            )
+            if not beyond and _crosses((x0, y0), (x1, y1), (left - half, low - half, right + half, high + half)):
                 return False
         return True
 
-    def _placed(self, label: Label, at: Point, way: float, radius: float, further: float) -> list[Shape]:
-        """A name, with a line to it where it could be taken for another one's; empty where it has no place."""
-        box = box_of(label)
-        if not self.is_free(box):
-            return []
+    def _line_to(self, box: Box, at: Point, way: float, radius: float, further: float) -> list[Polyline] | None:
+        """The line to a name where it could be taken for another one's, else none; None where it has no place."""
         if further < _LED and self._is_told_apart(at, radius, box):
-            return [label]
+            return []
         line = Polyline(_line_to_name(at, way, radius, further), "guide")
         if further < _SHORTEST_LINE or not self._is_clear(line, at):
-            return []
+            return None
         self.keep_path(line)
-        return [line, label]
+        return [line]
 
     def _is_told_apart(self, at: Point, radius: float, box: Box) -> bool:
         """Whether a text at a box is taken for the name of its point: every other circle is clearly further away."""
@@ -140,7 +150,7 @@ class Layout:
         start, end = line.points
         if any(_crosses(start, end, box) for box in self._boxes):
             return False
-        return all((x, y) == at or _to_line((x, y), start, end) > solid for x, y, _, solid in self._circles)
+        return all((x, y) == at or to_line((x, y), start, end) > solid for x, y, _, solid in self._circles)
 
 
 def _line_to_name(at: Point, way: float, radius: float, further: float) -> tuple[Point, Point]:
@@ -166,7 +176,7 @@ def _is_nearer(at: Point, box: Box, apart: float) -> bool:
     return _distance(at, box) < apart
 
 
-def _to_line(at: Point, start: Point, end: Point) -> float:
+def to_line(at: Point, start: Point, end: Point) -> float:
     """From a place to a line between two others."""
     along = (end[0] - start[0], end[1] - start[1])
     square = along[0] ** 2 + along[1] ** 2 or 1.0
@@ -175,15 +185,14 @@ def _to_line(at: Point, start: Point, end: Point) -> float:
     return math.dist(at, (start[0] + share * along[0], start[1] + share * along[1]))
 
 
-def _at(at: Point, way: float, apart: float, text: str, size: float, style: str, *, bold: bool) -> Label:
-    """A label whose box begins so far from a point, in a direction."""
-    wide, high = width_of_label(text, size, bold=bold) / 2.0, _HEIGHT * size / 2.0
+def _middle(at: Point, way: float, apart: float, half: Point) -> Point:
+    """Of a box of half a width and height that begins so far from a point, in a direction."""
+    wide, high = half
     x, y = math.cos(way), math.sin(way)
     # From the middle of a box to its edge in that direction.
     reach = min(wide / abs(x) if abs(x) > 1e-9 else math.inf, high / abs(y) if abs(y) > 1e-9 else math.inf)
-    reach = min(reach, math.hypot(wide, high))
-    distance = apart + reach + 2.0 * _GAP
-    return Label((at[0] + x * distance, at[1] + y * distance), text, round(size, 2), style, bold=bold)
+    distance = apart + min(reach, math.hypot(wide, high)) + 2.0 * _GAP
+    return at[0] + x * distance, at[1] + y * distance
 
 
 def _crosses(start: Point, end: Point, box: Box) -> bool:

@@ -7,6 +7,8 @@ from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from aadm_workbench.model import Array, ColumnReport, GridAxis
 from aadm_workbench.report.drawing.layout import Layout, box_of, width_of_label
 from aadm_workbench.report.drawing.sketch import Label, Link, Point, Polyline, Shape, Sketch, rectangle
@@ -19,7 +21,10 @@ _EDGE = 26.0  # between the end of an axis and the edge: its name
 _SMALLEST, _LARGEST = 12.0, 44.0  # of a column's square: still clicked, and not larger than its name needs
 _LONGEST_NAME = 16  # letters: as wide as two squares
 _SMALLEST_NAME = 5.0  # 2 mm high on A4; where that is too wide a click says the name
-_HIGHEST = 620.0  # of the drawing: a long floor leaves room on the page
+_HIGHEST, _OF_PAGE = 620.0, 1350.0
+"""Height of the drawing: a long floor leaves room on the page, one of many columns fills it."""
+_ON_ANOTHER_MM = 100.0  # no column is that thin
+_CROWDED = 24.0  # between two columns: nearer, their squares touch and names have no room
 
 
 @dataclass(frozen=True)
@@ -74,11 +79,16 @@ def _placed(columns: Sequence[ColumnReport], anchors: dict[str, str], axes: Sequ
     places = [place_mm(column.T_model_column) for column in columns if column.T_model_column is not None]
     low = (min(x for x, _ in places), min(y for _, y in places))
     span = (max(x for x, _ in places) - low[0], max(y for _, y in places) - low[1])
-    scale = min((WIDTH - 2 * _MARGIN) / max(span[0], 1.0), (_HIGHEST - 2 * _MARGIN) / max(span[1], 1.0))
+    nearest_mm = _nearest_mm(places)
+    widest, highest, filled = (
+        (side - 2 * _MARGIN) / max(along, 1.0)
+        for side, along in ((WIDTH, span[0]), (_HIGHEST, span[1]), (_OF_PAGE, span[1]))
+    )
+    scale = min(widest, max(highest, min(filled, _CROWDED / nearest_mm)))
     height = span[1] * scale + 2 * _MARGIN
     inset = (WIDTH - span[0] * scale) / 2.0
     at = [(inset + (x - low[0]) * scale, _MARGIN + (y - low[1]) * scale) for x, y in places]
-    apart = _nearest(at)
+    apart = min(WIDTH, nearest_mm * scale)
     half = min(_LARGEST, max(_SMALLEST, 0.3 * apart)) / 2.0
     frame = (WIDTH, height)
 
@@ -92,15 +102,14 @@ def _placed(columns: Sequence[ColumnReport], anchors: dict[str, str], axes: Sequ
     return Sketch(WIDTH, height, tuple(shapes))
 
 
-def _nearest(places: Sequence[Point]) -> float:
-    """Smallest distance between two columns that do not stand on one another."""
-    found = [
-        ((x1 - x0) ** 2 + (y1 - y0) ** 2) ** 0.5
-        for k, (x0, y0) in enumerate(places)
-        for x1, y1 in places[k + 1 :]
-        if abs(x1 - x0) + abs(y1 - y0) > 1.0
-    ]
-    return min(found, default=WIDTH)
+def _nearest_mm(places_mm: Sequence[Point]) -> float:
+    """Smallest distance between two columns that do not stand on one another; infinite where there is none."""
+    x, y = np.array(places_mm, dtype=float).T
+    nearest = math.inf
+    for k in range(len(places_mm) - 1):
+        apart = np.hypot(x[k + 1 :] - x[k], y[k + 1 :] - y[k])
+        nearest = min(nearest, float(np.min(apart, where=apart > _ON_ANOTHER_MM, initial=nearest)))
+    return nearest
 
 
 def _tiles(columns: Sequence[ColumnReport], anchors: dict[str, str]) -> Sketch:

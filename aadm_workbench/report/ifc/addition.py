@@ -62,6 +62,8 @@ class Addition:
         self._radians = opened.radians
         self._taken = {found.decode() for found in _OURS_ALREADY.findall(text.content)}
         self._known: dict[tuple[object, ...], int] = {}
+        # By name, measure and type, then by value: a floor has half a million, too many for a key of each.
+        self._properties: dict[tuple[str, str, str], dict[Scalar, int]] = {}
         self._history = self._owner_history()
 
     def once(self, ifc_class: str, key: Sequence[object], **attributes: Any) -> Any:
@@ -127,11 +129,12 @@ class Addition:
             return self.new(measure, Name=name, EnumerationValues=[self.value("IfcLabel", value)])
         if measure in _ROUNDED:
             value = round(float(value), _ROUNDED[measure]) + 0.0
-        known = ("IfcPropertySingleValue", name, measure, type(value).__name__, value)
-        number = self._known.get(known)
-        if number is not None:
-            return self.file.by_id(number)
-        return self.once(known[0], known[1:], Name=name, NominalValue=self.value(measure, value))
+        alike = self._properties.setdefault((name, measure, type(value).__name__), {})
+        if value in alike:
+            return self.file.by_id(alike[value])
+        made = self.new("IfcPropertySingleValue", Name=name, NominalValue=self.value(measure, value))
+        alike[value] = made.id()
+        return made
 
     def point(self, *xyz_mm: float) -> Any:
         """A point, given in mm."""

@@ -33,6 +33,7 @@ Light: TypeAlias = Literal["green", "amber", "red"]
 
 SMALLEST_TURN_DEG = 0.005
 """What is shown as 0.00 is no turn."""
+_MOST_NAMED = 6  # points to be scanned again; of more, all are
 _NOTICED_TILT_DEG = 0.2  # 0.6 mm at the height of 180 mm that one measures at
 
 
@@ -196,7 +197,7 @@ def _first(column: ColumnReport, repair: RepairReport | None, compass: Compass) 
         yield from _refused(column)
     elif verdict == "inconclusive" and not held:
         told = any(_SAY_UP & codes_of(recognised(reason)) for reason in column.reasons)
-        yield Step(phrase("crew.say_up" if told else "crew.scan_closer"))
+        yield Step(phrase("crew.say_up")) if told else _scan_closer(column)
     elif not held and not any(_missing(column)):
         yield Step(phrase("crew.scan_closer"))
 
@@ -285,8 +286,21 @@ def _pairs(column: ColumnReport, repair: RepairReport, compass: Compass) -> Iter
 
 
 def _scan_closer(column: ColumnReport) -> Step:
-    labels = () if column.trial_assembly is None else column.trial_assembly.rescan
-    return Step(phrase("crew.scan_label_again", labels=", ".join(labels)) if labels else phrase("crew.scan_closer"))
+    named = ", ".join(to_scan_again(column))
+    return Step(phrase("crew.scan_label_again", labels=named) if named else phrase("crew.scan_closer"))
+
+
+def to_scan_again(column: ColumnReport) -> tuple[str, ...]:
+    """Points that are left open, or whose spacing or pair is; none where they are too many to be named."""
+    if column.trial_assembly is not None and column.trial_assembly.rescan:
+        return column.trial_assembly.rescan
+    groups = column.groups.values()
+    found = [point.label for group in groups for point in group.points if point.verdict == "inconclusive"]
+    for group in groups:
+        found += [label for one in group.spacing if one.verdict == "inconclusive" for label in one.between]
+    found += [label for pair in column.pairs if pair.verdict == "inconclusive" for label in (pair.sleeve, pair.rebar)]
+    labels = tuple(dict.fromkeys(found))
+    return labels if len(labels) <= _MOST_NAMED else ()
 
 
 def _of_pair(step: RepairStep, compass: Compass) -> Step:

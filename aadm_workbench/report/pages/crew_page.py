@@ -9,7 +9,7 @@ from aadm_workbench.model import ColumnReport, JobReport, Kind
 from aadm_workbench.report.column_view import declared_up
 from aadm_workbench.report.findings import Finding, findings
 from aadm_workbench.report.pages.crew import CrewAdvice, Step, crew_advice
-from aadm_workbench.report.pages.crew_sketch import crew_sketch, sleeves_from_below
+from aadm_workbench.report.pages.crew_sketch import crew_sketch, rings_of, sleeves_from_below
 from aadm_workbench.report.pages.pdf_canvas import A4, MM, draw_sketch, end_page, pages, write, write_lines
 from aadm_workbench.report.pages.pdf_text import lines_of, reportlab, width_of
 from aadm_workbench.report.words.labels import COLOUR, FAINT, HEAD, INK, WARN, Language, phrase
@@ -147,7 +147,7 @@ class _Page:
         side = max(60.0 * MM, min(112.0 * MM, self.y - low - 16.0 * MM))
         beside, narrow = _LEFT + side + 6.0 * MM, _WIDTH - side - 6.0 * MM
         below = sleeves_from_below(column)
-        bars_matter = any(point.verdict != "pass" for point in column.points(Kind.REBAR))
+        bars_matter = rings_of(column, Kind.REBAR) or any(p.verdict != "pass" for p in column.points(Kind.REBAR))
         if below is not None and not bars_matter and not advice.shifts:
             self._caption("crew.from_below", (_LEFT, low + side + 2.0 * MM), _WIDTH)
             draw_sketch(canvas, below, (_LEFT, low), side)

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
-from aadm_workbench.assembly.following import blame_of
+from aadm_workbench.assembly.following import blame_of, name_of
 from aadm_workbench.model import ColumnReport, Kind, PointResult
 from aadm_workbench.report.directions import SMALLEST_MM, Compass
-from aadm_workbench.report.drawing.layout import Layout
+from aadm_workbench.report.drawing.layout import Layout, to_line
 from aadm_workbench.report.drawing.sketch import STYLES, Circle, Label, Point, Polyline, Shape, Sketch, arrow
-from aadm_workbench.report.pages.crew import SMALLEST_TURN_DEG, CrewAdvice, Shift
+from aadm_workbench.report.pages.crew import SMALLEST_TURN_DEG, CrewAdvice, Shift, to_scan_again
 from aadm_workbench.report.words.labels import Language
 
 SIDE = 220.0
 """Of the drawing, in its own units; the page gives it its size."""
-_DOT, _RING = 5.5, 10.5  # radii of a point, and of the ring about one to look at
+_DOT, _RING = 5.5, 10.5  # radii of a point, and of the ring about one to look at, where their neighbours are far
+_SIGNS = {"fail": " ✗", "inconclusive": " ?", "not_measured": " –"}  # behind a name: no colour says it alone
+_CLEAR = 1.5  # between two things, lines included
 _MARGIN = 36.0  # about the foot: names and arrows of its outermost points, and where its sides lead to
 _NARROW = 20.0  # the same where nobody knows where its sides lead to
-_ARROW = 26.0  # long enough to show a direction, whatever the distance
+_ARROWS = (26.0, 23.0, 20.0, 17.0)
+"""Lengths that show a direction, whatever the distance: the longest that ends before the next point."""
 _MOVE = 52.0  # the arrow of the whole column: twice those of bars
 _TURN_RADIUS = 30.0  # of the bow that shows a turn: within the innermost bars
 
@@ -37,43 +40,84 @@ def crew_sketch(column: ColumnReport, advice: CrewAdvice, language: Language) ->
     shapes = [*_outline(column, frame, layout), *_edge_names(advice.compass, language, layout)]
     if "" in shifts:
         shapes += _move(shifts[""], frame, advice.turn_deg, layout)
-    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, shifts, {*blame_of(column).follows}, layout)))
+    kind = Kind.REBAR if column.rebars else Kind.SLEEVE
+    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, shifts, rings_of(column, kind), layout, column)))
 
 
 def sleeves_from_below(column: ColumnReport) -> Sketch | None:
-    """The foot as one sees it who stands below it, y upwards; None where every sleeve was measured and none fails."""
+    """The foot as one sees it who stands below it, y upwards; None where no sleeve is to be looked at."""
     points = column.points(Kind.SLEEVE)
-    if all(point.verdict in ("pass", "not_assessed") for point in points):
+    rings = rings_of(column, Kind.SLEEVE)
+    if not rings and all(point.verdict in ("pass", "not_assessed") for point in points):
         return None
     frame = _Frame(column, points, 0.0, _NARROW, mirrored=True)
     layout = Layout(SIDE, SIDE)
     shapes = [*_outline(column, frame, layout)]
-    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, {}, {*blame_of(column).follows}, layout)))
+    return Sketch(SIDE, SIDE, (*shapes, *_marked(points, frame, {}, rings, layout, column)))
+
+
+def rings_of(column: ColumnReport, kind: Kind) -> dict[str, str]:
+    """The sleeves or bars to look at, and the style of the ring about each.
+
+    Those that fail by themselves or were not measured; both ends of a spacing that fails though neither of them does;
+    what is to be scanned again.
+    """
+    group, follows = column.group(kind), {*blame_of(column).follows}
+    if group is None:
+        return {}
+    rings = {
+        point.label: "ring-fail"
+        for point in group.points
+        if point.verdict in ("fail", "not_measured") and point.label not in follows
+    }
+    failing = [one.between for one in group.spacing if one.verdict == "fail" and name_of(one) not in follows]
+    ends = [label for between in failing if not rings.keys() & {*between} for label in between]
+    again = to_scan_again(column) if column.verdict == "inconclusive" else ()
+    known = {point.label for point in group.points}
+    return (
+        dict.fromkeys([label for label in again if label in known], "ring-open")
+        | dict.fromkeys(ends, "ring-fail")
+        | rings
+    )
 
 
 def _marked(
-    points: Sequence[PointResult], frame: _Frame, shifts: dict[str, Shift], follows: Collection[str], layout: Layout
+    points: Sequence[PointResult],
+    frame: _Frame,
+    shifts: dict[str, Shift],
+    rings: dict[str, str],
+    layout: Layout,
+    column: ColumnReport,
 ) -> Iterator[Shape]:
-    """Every point with its name; those that fail by themselves or have to be moved are ringed, and named first."""
+    """Every point with its name; those to look at and those that have to be moved are ringed, and named first."""
+    follows = {*blame_of(column).follows}
     alarming = {
-        point.label
-        for point in points
-        if point.label in shifts or (point.verdict in ("fail", "not_measured") and point.label not in follows)
+        point.label: rings.get(point.label, "ring-fail") for point in points if point.label in {*rings, *shifts}
     }
-    dot = min(_DOT, 0.34 * _apart(points, frame))
+    apart = _apart(points, frame)
+    dot = min(_DOT, 0.34 * apart)
+    ring = max(min(_RING, apart - dot - _CLEAR), dot + 2.0 * _CLEAR)
+    places = {point.label: frame.place(point.design_mm) for point in points}
+    arrows = {
+        label: _arrow(shift, places[label], frame, [at for other, at in places.items() if other != label], dot)
+        for label, shift in shifts.items()
+        if label in places and math.hypot(*shift.vector_mm) > 0.0
+    }
     for point in points:
-        at = frame.place(point.design_mm)
-        layout.keep_circle(at, _RING + STYLES["ring-fail"].width / 2.0 if point.label in alarming else dot)
-        yield from _dot(point, at, dot)
+        at = places[point.label]
+        layout.keep_circle(at, ring + STYLES["ring-fail"].width / 2.0 if point.label in alarming else dot)
+        yield from _dot(point, at, dot, follows=point.label in follows and point.label not in alarming)
         if point.label in alarming:
-            yield Circle(at, _RING, "ring-fail")
-        if point.label in shifts:
-            layout.keep_path(_arrow(shifts[point.label], at, frame))
-    for point in points:
-        if point.label in shifts:
-            yield from _bend(shifts[point.label], frame.place(point.design_mm), frame, layout)
+            yield Circle(at, ring, alarming[point.label])
+    for drawn in arrows.values():
+        layout.keep_path(drawn)
+    for label, drawn in arrows.items():
+        yield drawn
+        yield from _length(drawn, math.hypot(*shifts[label].vector_mm), layout)
     for point in sorted(points, key=lambda point: point.label not in alarming):
-        yield from _name(point, frame, layout, dot, alarming=point.label in alarming)
+        named = point.label in alarming
+        sign = "" if point.label in follows and not named else _SIGNS.get(point.verdict, "")
+        yield from _name(f"{point.label}{sign}", places[point.label], layout, ring if named else dot, alarming=named)
 
 
 def _apart(points: Sequence[PointResult], frame: _Frame) -> float:
@@ -127,40 +171,42 @@ def _outline(column: ColumnReport, frame: _Frame, layout: Layout) -> Iterator[Sh
         yield outline
 
 
-def _dot(point: PointResult, at: Point, radius: float) -> Iterator[Shape]:
+def _dot(point: PointResult, at: Point, radius: float, *, follows: bool) -> Iterator[Shape]:
+    """What fails only because another does is drawn as any bar: nothing is to be done about it."""
     missing = point.verdict == "not_measured"
-    style = f"fill-{point.verdict}" if point.verdict in ("fail", "inconclusive", "not_measured") else "bar"
-    yield Circle(at, radius, style)
+    shown = point.verdict in ("fail", "inconclusive", "not_measured") and not follows
+    yield Circle(at, radius, f"fill-{point.verdict}" if shown else "bar")
     if missing:
         yield Label(at, "?", 1.6 * radius, bold=True)
 
 
-def _name(point: PointResult, frame: _Frame, layout: Layout, dot: float, *, alarming: bool) -> Iterator[Shape]:
+def _name(text: str, at: Point, layout: Layout, radius: float, *, alarming: bool) -> Iterator[Shape]:
     """Straight towards the middle, where no edge is; elsewhere where that is taken."""
-    at = frame.place(point.design_mm)
     x, y = SIDE / 2.0 - at[0], SIDE / 2.0 - at[1]
     straight = (0.0, math.copysign(1.0, y)) if abs(y) > abs(x) else (math.copysign(1.0, x), 0.0)
-    radius, size = (_RING + 1.2, 11.0) if alarming else (dot, 9.0)
+    radius, size = (radius + 0.7, 11.0) if alarming else (radius, 9.0)
     style = "text-fail" if alarming else "text"
-    sign = {"fail": " ✗", "inconclusive": " ?", "not_measured": " –"}.get(point.verdict, "") if alarming else ""
-    yield from layout.beside(at, f"{point.label}{sign}", size, radius, straight, style=style, bold=alarming)
+    yield from layout.beside(at, text, size, radius, straight, style=style, bold=alarming)
 
 
-def _arrow(shift: Shift, at: Point, frame: _Frame) -> Polyline:
-    """Where to a bar is bent."""
+def _arrow(shift: Shift, at: Point, frame: _Frame, others: Sequence[Point], dot: float) -> Polyline:
+    """Where to a bar is bent; over its neighbour only where this is nearer than any arrow is long."""
     x, y = frame.turned(shift.vector_mm)
-    length = math.hypot(x, y) or 1.0
-    return arrow(at, (at[0] + x / length * _ARROW, at[1] + y / length * _ARROW), "move", 9.0)
+    whole = math.hypot(x, y) or 1.0
+    ends = [(at[0] + x / whole * length, at[1] + y / whole * length) for length in _ARROWS]
+    free = (end for end in ends if all(to_line(other, at, end) > dot + 2.0 * _CLEAR for other in others))
+    return arrow(at, next(free, ends[0]), "move", 9.0)
 
 
-def _bend(shift: Shift, at: Point, frame: _Frame, layout: Layout) -> Iterator[Shape]:
-    length = math.hypot(*shift.vector_mm)
-    if length > 0.0:
-        drawn = _arrow(shift, at, frame)
-        yield drawn
-        end = drawn.points[-1]
-        ahead = (end[0] - at[0], end[1] - at[1])
-        yield from layout.beside(end, f"{length:.1f} mm", 10.0, 2.0, ahead, style="text-move", bold=True)
+def _length(drawn: Polyline, mm: float, layout: Layout) -> Iterator[Shape]:
+    """How far, at the tip of the arrow; beside it where there is no room."""
+    at, end = drawn.points
+    x, y = end[0] - at[0], end[1] - at[1]
+    for ahead in ((x, y), (-y, x), (y, -x)):
+        shapes = list(layout.beside(end, f"{mm:.1f} mm", 10.0, 2.0, ahead, style="text-move", bold=True))
+        if shapes:
+            yield from shapes
+            return
 
 
 def _move(shift: Shift, frame: _Frame, turn_deg: float, layout: Layout) -> Iterator[Shape]:

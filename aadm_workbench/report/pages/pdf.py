@@ -1,13 +1,14 @@
 """report.pdf: what report.html shows, on A4, to sign and to file.
 
 The first page says what to do, has a date and lines to sign on; then follow the columns, each on pages of its own, so
-that a thousand of them take no more memory than one.
+that a thousand of them take no more memory than one. Those of which nothing was measured share pages.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from aadm_workbench.report.column_view import column_notes
 from aadm_workbench.report.drawing.mould import mould_sketch
 from aadm_workbench.report.drawing.plan import floor_plans
 from aadm_workbench.report.findings import Finding, findings
-from aadm_workbench.report.hoist import headline
+from aadm_workbench.report.hoist import headline, worst_state
 from aadm_workbench.report.pages.crew import crew_advice, in_steps
 from aadm_workbench.report.pages.pdf_canvas import A4, MM, end_page, pages, write
 from aadm_workbench.report.pages.pdf_column import column_parts
@@ -36,6 +37,7 @@ from aadm_workbench.report.words.labels import (
     all_words,
     phrase,
     profile_words,
+    told,
     verdict_words,
 )
 from aadm_workbench.report.words.reasons import in_both_languages
@@ -59,7 +61,7 @@ def write_pdf(report: JobReport, path: Path, language: Language = "en", *, tower
     AadmError
         Where the file cannot be written.
     """
-    title = f"{phrase('ui.title').in_language(language)}: {report.job['name']}"
+    title = told(phrase("ui.title"), report.job["name"]).in_language(language)
     author = f"{report.tool['name']} {report.tool['version']}"
     found = findings(report)
     with pages(path, title, "report.pdf", author) as canvas:
@@ -68,8 +70,9 @@ def write_pdf(report: JobReport, path: Path, language: Language = "en", *, tower
         if tower is not None:
             book.add(lambda share: list(tower_blocks(tower, WIDTH, language, share)))
             book.add(lambda share: list(setting_out_blocks(tower, WIDTH, language)))
-        for finding in found:
-            book.add(partial(_of_column, report, finding, language))
+        for short, together in groupby(found, key=lambda finding: finding.is_told):
+            for chapter in [[*together]] if short else ([finding] for finding in together):
+                book.add(partial(_of_columns, report, chapter, language))
         book.add(lambda share: list(_back(report, language)))
 
 
@@ -111,12 +114,11 @@ def _ends_well(found: list[Page]) -> bool:
 
 def _front(report: JobReport, found: list[Finding], title: str, language: Language) -> Iterator[Block]:
     yield paragraph(title, WIDTH, 17.0, bold=True, outline=0, bookmark="top")
-    said = " · ".join(f"{_named(key, language)}: {value}" for key, value in report.capture.items() if value)
+    said = " · ".join(told(_named(key), value).in_language(language) for key, value in report.capture.items() if value)
     limits = profile_words(report.profile.name, report.profile.title).in_language(language)
     yield paragraph(" · ".join(part for part in (said, limits) if part), WIDTH, 8.0, colour=FAINT, after=8.0)
-    bad = any(finding.hoist.state == "no" for finding in found)
-    said = headline(report).in_language(language)
-    yield paragraph(said, WIDTH, 20.0, bold=True, colour=COLOUR["fail" if bad else "pass"], after=2.0)
+    colour = {"no": COLOUR["fail"], "not_yet": COLOUR["not_measured"], "yes": COLOUR["pass"]}[worst_state(report)]
+    yield paragraph(headline(report).in_language(language), WIDTH, 20.0, bold=True, colour=colour, after=2.0)
     names = ("checked_by", "signature", "date_signed")
     yield fields([phrase(f"ui.{name}").in_language(language) for name in names], WIDTH)
     for finding in found:
@@ -127,10 +129,9 @@ def _front(report: JobReport, found: list[Finding], title: str, language: Langua
     yield from _plans(report, found, language)
 
 
-def _named(key: str, language: Language) -> str:
+def _named(key: str) -> Phrase:
     """The name of something about the capture; those that people add keep theirs."""
-    known = all_words().get(f"ui.{key}")
-    return key if known is None else known.in_language(language)
+    return all_words().get(f"ui.{key}", Phrase(key, key))
 
 
 def _forbidden(report: JobReport, finding: Finding, language: Language) -> Iterator[Block]:
@@ -147,8 +148,7 @@ def _forbidden(report: JobReport, finding: Finding, language: Language) -> Itera
         last = more if k == len(finding.key_reasons) - 1 else ""
         yield paragraph(reason.in_language(language) + last, WIDTH, 9.0, indent=8.0, after=0.0, keep=True)
     steps = in_steps(crew_advice(report, column))
-    word = phrase("ui.what_to_do")
-    said = Phrase(f"{word.en}: {steps.en}", f"{word.zh}：{steps.zh}").in_language(language)
+    said = told(phrase("ui.what_to_do"), steps).in_language(language)
     yield paragraph(said, WIDTH, 9.0, colour=MOVE, indent=8.0, after=6.0)
 
 
@@ -171,6 +171,11 @@ def _plans(report: JobReport, found: list[Finding], language: Language) -> Itera
         yield Drawing(plan.sketch, WIDTH)
 
 
+def _of_columns(report: JobReport, found: Sequence[Finding], language: Language, share: float) -> list[Block]:
+    """One column; several, where nothing but words is said of each."""
+    return [block for finding in found for block in _of_column(report, finding, language, share)]
+
+
 def _of_column(report: JobReport, finding: Finding, language: Language, share: float) -> list[Block]:
     notes = (in_both_languages(note).in_language(language) for note in column_notes(finding.column))
     said = [paragraph(f"· {note}", WIDTH, 7.5, colour=FAINT, after=1.0) for note in notes]
@@ -185,7 +190,7 @@ def _back(report: JobReport, language: Language) -> Iterator[Block]:
 
 def _moulds(report: JobReport, language: Language) -> Iterator[Block]:
     for number, mould in enumerate(report.mould_drift):
-        name = f"{phrase('ui.mould').in_language(language)}: {mould.name}"
+        name = told(phrase("ui.mould"), mould.name).in_language(language)
         yield paragraph(name, WIDTH, 13.0, bold=True, outline=0, bookmark=f"mould-{number}")
         yield paragraph(in_both_languages(mould.conclusion).in_language(language), WIDTH, 9.0, bold=True)
         limit = "–" if mould.axis_limit_mm is None else f"{mould.axis_limit_mm:.2f}"
@@ -196,7 +201,7 @@ def _moulds(report: JobReport, language: Language) -> Iterator[Block]:
 
 
 def _profile(report: JobReport, language: Language) -> Iterator[Block]:
-    name = f"{phrase('ui.profile').in_language(language)}: {report.profile.name}"
+    name = told(phrase("ui.profile"), report.profile.name).in_language(language)
     yield paragraph(name, WIDTH, 13.0, bold=True, outline=0, bookmark="profile")
     yield paragraph(phrase("ui.unverified_note").in_language(language), WIDTH, 8.0, colour=FAINT)
     limits = profile_table(report)
@@ -213,5 +218,5 @@ def _inputs(report: JobReport, language: Language) -> Iterator[Block]:
     lines.append((phrase("ui.settings"), rest))
     lines.append((phrase("ui.made_by"), ", ".join(f"{key} {value}" for key, value in report.tool.items())))
     for word, value in lines:
-        yield paragraph(f"{word.in_language(language)}: {value}", WIDTH, 8.0, after=2.0)
+        yield paragraph(told(word, value).in_language(language), WIDTH, 8.0, after=2.0)
     yield paragraph(phrase("ui.frames_note").in_language(language), WIDTH, 8.0, colour=FAINT)

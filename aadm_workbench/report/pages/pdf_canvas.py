@@ -10,14 +10,15 @@ import io
 import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, lru_cache
 from itertools import groupby
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.drawing.sketch import STYLES, Anchor, Circle, Label, Link, Polyline, Shape, Sketch, arrowhead
-from aadm_workbench.report.pages.pdf_text import lines_of, prepared_font, printable, reportlab, width_of
+from aadm_workbench.report.pages.pdf_letters import Letters, paint
+from aadm_workbench.report.pages.pdf_text import lines_of, printable, reportlab, width_of
 from aadm_workbench.report.words.labels import INK
 
 MM = 72.0 / 25.4
@@ -25,9 +26,8 @@ MM = 72.0 / 25.4
 A4 = (210.0 * MM, 297.0 * MM)
 """Width and height, points (ISO 216)."""
 
-_BOLD_STROKE = 0.028  # of the size: letters are drawn with an outline of that width, since the font has no bold cut
 _QUARTER = 0.5522847498  # of the radius: a Bezier curve with this handle is a quarter of a circle to 0.03 %
-_ESCAPED = str.maketrans({sign: f"\\{sign}" for sign in "()\\"})  # in a string of PDF (ISO 32000-1, 7.3.4.2)
+_KEPT_CIRCLES = 256  # radii: points of a sketch, and sketches of a design, have few
 _PACKING = 3  # of zlib: an eighth more bytes than at its usual 6, in half of the time
 
 
@@ -60,92 +60,6 @@ def end_page(canvas: Any) -> None:
     packed = pdfdoc.PDFDictionary({"Filter": pdfdoc.PDFName("FlateDecode")})
     page.Contents = pdfdoc.PDFStream(packed, zlib.compress(page.stream.encode("latin-1"), _PACKING))
     page.stream = None
-
-
-class Letters:
-    """Texts of one colour, written with as few operators as they need."""
-
-    def __init__(self, canvas: Any, *, colour: str = INK, bold: bool = False) -> None:
-        self._canvas = canvas
-        self._written = [f"BT {_paint(colour)} rg"]
-        self._bold, self._colour = bold, colour
-        self._in_force: tuple[int, float] | None = None
-        if bold:
-            self._written.append(f"[] 0 d {_paint(colour)} RG 2 Tr")
-
-    def put(self, x: float, y: float, text: str, size: float) -> None:
-        """A text of printable signs, its base line at (x, y)."""
-        self.put_at(f"{x:.2f}", f"{y:.2f}", text, size)
-
-    def put_at(self, x: str, y: str, text: str, size: float) -> None:
-        """The same where the places are written already: cells of a row share their height, those of a column x."""
-        if not text:
-            return
-        if self._in_force == (0, size) and text.isascii():  # nearly all of them
-            self._written.append(f"1 0 0 1 {x} {y} Tm ({text.translate(_ESCAPED)}) Tj")
-            return
-        parts = _encoded(self._canvas, text)
-        subset, name, shown = parts[0]
-        if self._in_force == (subset, size) and len(parts) == 1:
-            self._written.append(f"1 0 0 1 {x} {y} Tm ({shown}) Tj")
-            return
-        self._written.append(f"1 0 0 1 {x} {y} Tm")
-        for subset, name, shown in parts:
-            if self._in_force != (subset, size):
-                self._written.append(f"{name} {size:g} Tf")
-                if self._bold:
-                    self._written.append(f"{size * _BOLD_STROKE:.3f} w")
-                self._in_force = subset, size
-            self._written.append(f"({shown}) Tj")
-
-    def done(self) -> None:
-        """Put them onto the page."""
-        self._canvas.addLiteral("\n".join([*self._written, "0 Tr ET" if self._bold else "ET"]))
-
-
-_Part: TypeAlias = tuple[int, str, str]
-"""Number of a subset of the font, its name in the page, and escaped bytes in it."""
-
-
-def _encoded(canvas: Any, text: str) -> tuple[_Part, ...]:
-    """A text in the subsets of the font that the document has so far; what is not ASCII is kept, sentences repeat."""
-    if text.isascii():
-        return _ascii(canvas, text)
-    kept: dict[str, tuple[_Part, ...]] = canvas.__dict__.setdefault("aadm_texts", {})
-    found = kept.get(text)
-    if found is None:
-        found = kept[text] = _in_subsets(canvas, text)
-    return found
-
-
-def _ascii(canvas: Any, text: str) -> tuple[_Part, ...]:
-    """A text of the first subset, in which reportlab gives each sign of ASCII its own code."""
-    name: str | None = canvas.__dict__.get("aadm_first_subset")
-    if name is None:
-        name = canvas.__dict__["aadm_first_subset"] = _sign(canvas, "0")[1]
-    return ((0, name, text.translate(_ESCAPED)),)
-
-
-def _in_subsets(canvas: Any, text: str) -> tuple[_Part, ...]:
-    known: dict[str, _Part] = canvas.__dict__.setdefault("aadm_signs", {})
-    signs = [known[sign] if sign in known else known.setdefault(sign, _sign(canvas, sign)) for sign in text]
-    return tuple(
-        (subset, name, "".join([sign[2] for sign in group]))
-        for (subset, name), group in groupby(signs, key=lambda sign: sign[:2])
-    )
-
-
-def _sign(canvas: Any, sign: str) -> _Part:
-    """One sign, put into a subset where it is in none yet."""
-    font, document = prepared_font(), canvas._doc
-    ((subset, shown),) = font.splitString(sign, document)
-    return subset, font.getSubsetInternalName(subset, document), reportlab("lib.rl_accel").escapePDF(shown)
-
-
-@cache
-def _paint(colour: str) -> str:
-    """``#1d2730`` as three numbers."""
-    return " ".join(f"{int(colour[k : k + 2], 16) / 255.0:.3f}" for k in (1, 3, 5))
 
 
 def write(
@@ -195,25 +109,25 @@ def write_lines(
 
 def area(canvas: Any, at: tuple[float, float], width: float, height: float, colour: str) -> None:
     """A filled rectangle, its lower left corner at a place."""
-    canvas.addLiteral(f"{_paint(colour)} rg {at[0]:.2f} {at[1]:.2f} {width:.2f} {height:.2f} re f")
+    canvas.addLiteral(f"{paint(colour)} rg {at[0]:.2f} {at[1]:.2f} {width:.2f} {height:.2f} re f")
 
 
 def fill(canvas: Any, ways: Sequence[str], colour: str) -> None:
     """Areas of one colour, each as operators of PDF."""
     if ways:
-        canvas.addLiteral(f"{_paint(colour)} rg {' '.join(ways)} f")
+        canvas.addLiteral(f"{paint(colour)} rg {' '.join(ways)} f")
 
 
 def stroke(canvas: Any, ways: Sequence[str], width: float, colour: str) -> None:
     """Lines of one width and colour, each as operators of PDF."""
     if ways:
-        canvas.addLiteral(f"[] 0 d {_paint(colour)} RG {width:.2f} w {' '.join(ways)} S")
+        canvas.addLiteral(f"[] 0 d {paint(colour)} RG {width:.2f} w {' '.join(ways)} S")
 
 
 def rule(canvas: Any, start: tuple[float, float], end: tuple[float, float], width: float, colour: str = INK) -> None:
     """A straight line."""
     ends = f"{start[0]:.2f} {start[1]:.2f} m {end[0]:.2f} {end[1]:.2f} l S"
-    canvas.addLiteral(f"[] 0 d {_paint(colour)} RG {width:.2f} w {ends}")
+    canvas.addLiteral(f"[] 0 d {paint(colour)} RG {width:.2f} w {ends}")
 
 
 def draw_sketch(canvas: Any, sketch: Sketch, at: tuple[float, float], width: float) -> None:
@@ -256,7 +170,9 @@ def _operators(shape: Circle | Polyline) -> str:
     """Colours, lines and the way of a circle or a path."""
     look, stroked, filled = _look(shape.style)
     if isinstance(shape, Circle):
-        return f"{look} {_round(shape)} {_painted(stroked=stroked, filled=filled)}"
+        x, y = shape.centre
+        round_way = _round(shape.radius)
+        return f"{look} q 1 0 0 1 {x:.2f} {y:.2f} cm {round_way} {_painted(stroked=stroked, filled=filled)} Q"
     way = (
         f"{look} {_way(shape.points, closed=shape.closed)} {_painted(stroked=stroked, filled=filled and shape.closed)}"
     )
@@ -270,8 +186,8 @@ def _look(name: str) -> tuple[str, bool, bool]:
     """Operators that set a style, whether its lines are drawn, and whether what they enclose is filled."""
     style = STYLES[name]
     dash = " ".join(f"{length:g}" for length in style.dash or ())
-    stroke = f" {_paint(style.stroke)} RG" if style.stroke else ""
-    fill = f" {_paint(style.fill)} rg" if style.fill else ""
+    stroke = f" {paint(style.stroke)} RG" if style.stroke else ""
+    fill = f" {paint(style.fill)} rg" if style.fill else ""
     return f"{style.width:g} w [{dash}] 0 d{stroke}{fill}", style.stroke is not None, style.fill is not None
 
 
@@ -281,20 +197,15 @@ def _painted(*, stroked: bool, filled: bool) -> str:
 
 
 def _way(points: Sequence[tuple[float, float]], *, closed: bool) -> str:
-    first, *rest = (f"{x:.2f} {y:.2f}" for x, y in points)
-    return " ".join([f"{first} m", *(f"{point} l" for point in rest), *(["h"] if closed else [])])
+    way = " l ".join([f"{x:.2f} {y:.2f}" for x, y in points]).replace(" l ", " m ", 1)
+    return f"{way} l{' h' if closed else ''}"
 
 
-def _round(circle: Circle) -> str:
-    """Four curves; the last leads back to where the first began."""
-    (x, y), r = circle.centre, circle.radius
-    h = r * _QUARTER
-    left, right, low, high = f"{x - r:.2f}", f"{x + r:.2f}", f"{y - r:.2f}", f"{y + r:.2f}"
-    near_left, near_right, near_low, near_high = f"{x - h:.2f}", f"{x + h:.2f}", f"{y - h:.2f}", f"{y + h:.2f}"
-    across, up = f"{x:.2f}", f"{y:.2f}"
+@lru_cache(_KEPT_CIRCLES)
+def _round(radius: float) -> str:
+    """Four curves about the origin; the last leads back to where the first began."""
+    r, h = f"{radius:.2f}", f"{radius * _QUARTER:.2f}"
     return (
-        f"{right} {up} m {right} {near_high} {near_right} {high} {across} {high} c "
-        f"{near_left} {high} {left} {near_high} {left} {up} c "
-        f"{left} {near_low} {near_left} {low} {across} {low} c "
-        f"{near_right} {low} {right} {near_low} {right} {up} c h"
+        f"{r} 0 m {r} {h} {h} {r} 0 {r} c -{h} {r} -{r} {h} -{r} 0 c "
+        f"-{r} -{h} -{h} -{r} 0 -{r} c {h} -{r} {r} -{h} {r} 0 c h"
     )

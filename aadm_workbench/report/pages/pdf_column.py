@@ -18,7 +18,7 @@ from aadm_workbench.report.pages.pdf_flow import Block
 from aadm_workbench.report.pages.pdf_parts import Beside, Drawing, band, paragraph
 from aadm_workbench.report.pages.pdf_tables import table
 from aadm_workbench.report.sheets.column_tables import column_blocks
-from aadm_workbench.report.words.labels import COLOUR, FAINT, INK, Language, phrase, verdict_words
+from aadm_workbench.report.words.labels import COLOUR, FAINT, INK, Language, Phrase, phrase, told, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
 
@@ -33,7 +33,7 @@ def column_parts(
     cause = finding.hoist.cause.in_language(language)
     yield band(f"{column.id}   {verdict} – {cause}", column.verdict, width)
     facts = [f"{phrase(name).in_language(language)} {value}" for name, value in column_facts(column)]
-    goes_on = f"{phrase('ui.goes_on').in_language(language)}: {verdict_words(column.goes_on, language)}"
+    goes_on = told(phrase("ui.goes_on"), verdict_words(column.goes_on, language)).in_language(language)
     yield paragraph(" · ".join([*facts, goes_on, state]), width, 8.5, colour=FAINT, after=5.0)
     for reason in finding.hoist.reasons:
         yield paragraph(f"· {reason.in_language(language)}", width, 9.0, after=1.0)
@@ -85,16 +85,14 @@ def _trial(column: ColumnReport, width: float, language: Language, share: float)
         return
     title = f"{phrase('ui.trial').in_language(language)}   {verdict_words(trial.verdict, language)}"
     yield paragraph(title, width, 10.0, bold=True, colour=COLOUR[trial.verdict], keep=True)
-    facts = [f"{phrase(name).in_language(language)}: {value}" for name, value in trial_facts(trial)]
+    facts = [told(phrase(name), value).in_language(language) for name, value in trial_facts(trial)]
     for name, pose in trial.poses.items():
-        said = phrase(f"ui.{name}").in_language(language)
-        largest = phrase("ui.largest_distance").in_language(language)
-        facts.append(f"{said}: {largest} {pose.max_mm:.2f} mm")
+        largest = phrase("ui.largest_distance")
+        furthest = Phrase(f"{largest.en} {pose.max_mm:.2f} mm", f"{largest.zh} {pose.max_mm:.2f} mm")
+        facts.append(told(phrase(f"ui.{name}"), furthest).in_language(language))
     yield paragraph(" · ".join(facts), width, 8.5)
     window = window_sketch(trial)
-    label = phrase("ui.window").in_language(language)
-    if window is None:
-        yield paragraph(f"{label}: {phrase('ui.no_window').in_language(language)}", width, 8.5)
-    else:
-        yield paragraph(f"{label}: {window_text(trial)}", width, 8.5, keep=True)
+    room = window_text(trial) or phrase("ui.no_window")
+    yield paragraph(told(phrase("ui.window"), room).in_language(language), width, 8.5, keep=window is not None)
+    if window is not None:
         yield Drawing(window, share * 0.45 * width)

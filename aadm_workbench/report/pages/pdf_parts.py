@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from aadm_workbench.report.drawing.sketch import Sketch
-from aadm_workbench.report.pages.pdf_canvas import Letters, area, draw_sketch, rule
+from aadm_workbench.report.pages.pdf_canvas import area, draw_sketch, rule
 from aadm_workbench.report.pages.pdf_flow import Block
+from aadm_workbench.report.pages.pdf_letters import Letters
 from aadm_workbench.report.pages.pdf_text import lines_of, shortened
 from aadm_workbench.report.words.labels import COLOUR, FAINT, INK
 
@@ -18,8 +19,7 @@ _LEADING = 1.35  # of the size
 _FEWEST_LINES = 2  # of a paragraph that is cut, on either page
 
 
-@dataclass(frozen=True)
-class Paragraph:
+class Paragraph(NamedTuple):
     """Lines of a text; with a bookmark they are found, with an outline level they stand in the table of contents."""
 
     lines: tuple[str, ...]
@@ -44,21 +44,22 @@ class Paragraph:
         fit = min(int(room / (self.size * _LEADING)), len(self.lines) - _FEWEST_LINES)
         if fit < _FEWEST_LINES or self.keep:
             return None
-        rest = replace(self, lines=self.lines[fit:], outline=None, bookmark="")
-        return replace(self, lines=self.lines[:fit], after=0.0), rest
+        rest = self._replace(lines=self.lines[fit:], outline=None, bookmark="")
+        return self._replace(lines=self.lines[:fit], after=0.0), rest
 
     def shrunk(self, height: float) -> Block:
         """As many lines as fit."""
-        return replace(self, lines=self.lines[: max(1, int(height / (self.size * _LEADING)))], after=0.0)
+        return self._replace(lines=self.lines[: max(1, int(height / (self.size * _LEADING)))], after=0.0)
 
     def draw(self, canvas: Any, x: float, top: float) -> None:
         """Its lines, its bookmark, its link."""
-        letters = Letters(canvas, colour=self.colour, bold=self.bold)
-        y = top - self.size * (_LEADING - 0.25)
-        for line in self.lines:
-            letters.put(x + self.indent, y, line, self.size)
-            y -= self.size * _LEADING
-        letters.done()
+        if any(self.lines):  # what but keeps others apart has none
+            letters = Letters(canvas, colour=self.colour, bold=self.bold)
+            y = top - self.size * (_LEADING - 0.25)
+            for line in self.lines:
+                letters.put(x + self.indent, y, line, self.size)
+                y -= self.size * _LEADING
+            letters.done()
         if self.bookmark:
             canvas.bookmarkHorizontal(self.bookmark, 0, top + self.size)
         if self.outline is not None:

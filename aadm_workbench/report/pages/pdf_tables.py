@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import accumulate, pairwise
 from typing import Any, NamedTuple
 
-from aadm_workbench.report.pages.pdf_canvas import Letters, area, fill, stroke
+from aadm_workbench.report.pages.pdf_canvas import area, fill, stroke
 from aadm_workbench.report.pages.pdf_flow import Block
-from aadm_workbench.report.pages.pdf_text import KEPT_TEXTS, lines_of, printable, shortened, width_of
-from aadm_workbench.report.sheets.numbers import is_number, number_text
+from aadm_workbench.report.pages.pdf_letters import Letters, Shown
+from aadm_workbench.report.pages.pdf_text import KEPT_TEXTS, lines_of, printable, shortened, thousandths_of
+from aadm_workbench.report.sheets.numbers import is_number, number_texts
 from aadm_workbench.report.sheets.tables import Cell, CellKind, Heading, Row
 from aadm_workbench.report.words.labels import COLOUR, HEAD, INK, Language, phrase, rule_words, verdict_words
 from aadm_workbench.report.words.reasons import in_both_languages
 
 SIZE = 7.0
 """Of the letters, points: the smallest that is read on paper."""
+_OF_THOUSAND = SIZE / 1000.0  # points of a thousandth of the letters' size
 _LEADING = 1.25 * SIZE  # points: lines of a cell do not touch
 _PADDING = 2.6  # points: between text and line
 _ABOVE, _BELOW = 1.4, 1.8  # points: between a text and the lines of its row
@@ -25,7 +28,7 @@ _LONGEST_CELL = (500, 20)
 """Characters and lines: in the narrowest column they fill less than a page."""
 _FEWEST_ROWS = 3  # of a table that is cut, on either page
 
-_STRIPE, _LINE, _FAIL_FILL, _UNVERIFIED = "#f6f8f9", "#d5dbe0", "#fbe3d7", "#8a4b00"
+_STRIPE, _LINE, _FAIL_FILL, _UNVERIFIED, _ON_HEAD = "#f6f8f9", "#d5dbe0", "#fbe3d7", "#8a4b00", "#ffffff"
 
 
 class TableCell(NamedTuple):
@@ -36,109 +39,142 @@ class TableCell(NamedTuple):
     fill: str = ""
 
 
-class TableRow(NamedTuple):
-    """Cells beside each other, and the lines of the highest."""
+class TableColumn(NamedTuple):
+    """Cells below each other, of a width, pt; nearly all have one line, in ink."""
 
+    head: tuple[str, ...]
     cells: tuple[TableCell, ...]
-    lines: int
+    width: float
+    flush_right: bool
+    one_line: bool
+    in_ink: bool
 
-    @property
-    def height(self) -> float:
-        """With the room above and below its texts, pt."""
-        return self.lines * _LEADING + _ABOVE + _BELOW
+    def operators(self, shown: Shown, lines: Sequence[str], x: float, heights: Sequence[str]) -> list[str]:
+        """What puts lines of this column where they stand: one at each of these heights; empty where there is none."""
+        if not self.flush_right:
+            left = f"1 0 0 1 {x + _PADDING:.2f}"
+            return [f"{left} {y} Tm {shown[line]}" if line else "" for line, y in zip(lines, heights, strict=False)]
+        end = x + self.width - _PADDING
+        return [
+            f"1 0 0 1 {end - thousandths_of(line) * _OF_THOUSAND:.2f} {y} Tm {shown[line]}" if line else ""
+            for line, y in zip(lines, heights, strict=False)
+        ]
 
 
 @dataclass(frozen=True)
 class Table:
-    """Rows under a heading that every page repeats; ``first`` is the number of the first row, for the stripes."""
+    """Rows of heights, pt, under a heading that every page repeats; ``first`` is the number of the first row."""
 
-    head: TableRow
-    rows: tuple[TableRow, ...]
-    widths: tuple[float, ...]
-    flush_right: tuple[bool, ...]
+    columns: tuple[TableColumn, ...]
+    heights: tuple[float, ...]
     first: int = 0
     keep: bool = False
 
     @property
     def height(self) -> float:
         """Of heading and rows, pt."""
-        return self.head.height + sum(row.height for row in self.rows)
+        return self._head_height + sum(self.heights)
+
+    @property
+    def _head_height(self) -> float:
+        return _height_of(max([len(column.head) for column in self.columns]))
 
     def split(self, room: float) -> tuple[Block, Block] | None:
         """Between two rows."""
-        fit, used = 0, self.head.height
-        for row in self.rows:
-            used += row.height
-            if used > room:
-                break
-            fit += 1
-        fit = min(fit, len(self.rows) - _FEWEST_ROWS)
-        if fit < _FEWEST_ROWS:
-            return None
-        return replace(self, rows=self.rows[:fit]), replace(self, rows=self.rows[fit:], first=self.first + fit)
+        fit = min(self._fitting(room), len(self.heights) - _FEWEST_ROWS)
+        return None if fit < _FEWEST_ROWS else (self._cut(0, fit), self._cut(fit, len(self.heights)))
 
     def shrunk(self, height: float) -> Block:
         """As many rows as fit: where the first one fills a page, its cells lose lines."""
-        fit, used = 0, self.head.height
-        for row in self.rows:
-            used += row.height
-            fit += used <= height
-        return replace(self, rows=self.rows[: max(1, fit)])
+        return self._cut(0, max(1, self._fitting(height)))
+
+    def _fitting(self, room: float) -> int:
+        """So many rows are no higher than that together with the heading."""
+        ends = accumulate(self.heights, initial=self._head_height)
+        return sum(end <= room for end in ends) - 1
+
+    def _cut(self, start: int, end: int) -> Table:
+        columns = tuple([column._replace(cells=column.cells[start:end]) for column in self.columns])
+        return replace(self, columns=columns, heights=self.heights[start:end], first=self.first + start)
 
     def draw(self, canvas: Any, x: float, top: float) -> None:
         """Fills and lines first, then texts, those of a colour together."""
-        width = sum(self.widths)
-        y = top - self.head.height
-        area(canvas, (x, y), width, top - y, HEAD)
-        texts = _Texts(canvas)
-        self._write(texts, self.head, x, top, lift=True)
-        stripes, lines = [], []
-        for number, row in enumerate(self.rows, start=self.first):
-            below = y - row.height
-            if number % 2:
-                stripes.append(f"{x:.2f} {below:.2f} {width:.2f} {y - below:.2f} re")
-            lines.append(f"{x:.2f} {below:.2f} m {x + width:.2f} {below:.2f} l")
-            self._write(texts, row, x, y)
-            y = below
+        width = sum([column.width for column in self.columns])
+        head = top - self._head_height
+        edges = [head - below for below in accumulate(self.heights, initial=0.0)]
+        area(canvas, (x, head), width, top - head, HEAD)
+        rows = enumerate(pairwise(edges), start=self.first)
+        stripes = [f"{x:.2f} {low:.2f} {width:.2f} {high - low:.2f} re" for number, (high, low) in rows if number % 2]
         fill(canvas, stripes, _STRIPE)
-        self._fills(canvas, x, top - self.head.height)
-        stroke(canvas, lines, 0.3, _LINE)
-        for letters in texts.values():
-            letters.done()
+        self._fills(canvas, x, edges)
+        stroke(canvas, [f"{x:.2f} {low:.2f} m {x + width:.2f} {low:.2f} l" for low in edges[1:]], 0.3, _LINE)
+        self._heads(canvas, x, head)
+        self._texts(canvas, x, edges)
 
-    def _fills(self, canvas: Any, x: float, y: float) -> None:
+    def _fills(self, canvas: Any, x: float, edges: Sequence[float]) -> None:
         """Under the verdicts that one has to look at."""
-        for row in self.rows:
-            y -= row.height
-            left = x
-            for cell, width in zip(row.cells, self.widths, strict=True):
-                if cell.fill:
-                    area(canvas, (left, y), width, row.height, cell.fill)
-                left += width
+        for column in self.columns:
+            if not column.in_ink:
+                for cell, (high, low) in zip(column.cells, pairwise(edges), strict=True):
+                    if cell.fill:
+                        area(canvas, (x, low), column.width, high - low, cell.fill)
+            x += column.width
 
-    def _write(self, texts: _Texts, row: TableRow, x: float, top: float, *, lift: bool = False) -> None:
-        """Where each line of a row stands; headings stand on the foot of their row."""
-        first = top - _ABOVE - SIZE
-        heights = [f"{first - number * _LEADING:.2f}" for number in range(row.lines)]
-        for cell, width, right in zip(row.cells, self.widths, self.flush_right, strict=True):
-            start = f"{x + _PADDING:.2f}"
-            x += width
-            letters = texts[cell.colour]
-            for line, height in zip(cell.lines, heights[-len(cell.lines) :] if lift else heights, strict=False):
-                left = f"{x - _PADDING - width_of(line, SIZE):.2f}" if right else start
-                letters.put_at(left, height, line, SIZE)
+    def _heads(self, canvas: Any, x: float, foot: float) -> None:
+        """Headings stand on the foot of their row."""
+        letters = Letters(canvas, colour=_ON_HEAD)
+        shown = letters.of_size(SIZE)
+        for column in self.columns:
+            lines = column.head
+            first = foot + _height_of(len(lines)) - _ABOVE - SIZE
+            letters.add(column.operators(shown, lines, x, _heights(first, len(lines))))
+            x += column.width
+        letters.done()
+
+    def _texts(self, canvas: Any, x: float, edges: Sequence[float]) -> None:
+        """Row by row, for who copies a table wants its rows; what has a colour of its own behind the others."""
+        letters = {INK: Letters(canvas)}
+        shown = letters[INK].of_size(SIZE)
+        firsts = [high - _ABOVE - SIZE for high in edges[:-1]]
+        heights = [f"{first:.2f}" for first in firsts]
+        placed: list[Sequence[str]] = []
+        for column in self.columns:
+            if column.one_line:
+                operators = column.operators(shown, [cell.lines[0] for cell in column.cells], x, heights)
+            else:
+                operators = [
+                    "\n".join(column.operators(shown, cell.lines, x, _heights(first, len(cell.lines))))
+                    for cell, first in zip(column.cells, firsts, strict=True)
+                ]
+            for colour, coloured in () if column.in_ink else _by_colour(column.cells, operators):
+                if colour == INK:
+                    operators = coloured
+                    continue
+                if colour not in letters:
+                    letters[colour] = Letters(canvas, colour=colour)
+                    letters[colour].of_size(SIZE)
+                letters[colour].add(filter(None, coloured))
+            placed.append(operators)
+            x += column.width
+        letters[INK].add([operators for row in zip(*placed, strict=True) for operators in row if operators])
+        for each in letters.values():
+            each.done()
 
 
-class _Texts(dict[str, Letters]):
-    """Letters of a page by their colour."""
+def _by_colour(cells: Sequence[TableCell], operators: Sequence[str]) -> Iterator[tuple[str, list[str]]]:
+    """What is written in each colour, empty in the other rows; ink first, even where nothing is written in it."""
+    for colour in dict.fromkeys([INK, *(cell.colour for cell in cells)]):
+        yield colour, [each if cell.colour == colour else "" for cell, each in zip(cells, operators, strict=True)]
 
-    def __init__(self, canvas: Any) -> None:
-        super().__init__()
-        self._canvas = canvas
 
-    def __missing__(self, colour: str) -> Letters:
-        self[colour] = letters = Letters(self._canvas, colour=colour)
-        return letters
+def _heights(first: float, number: int) -> list[str]:
+    """Of the lines of a cell."""
+    return [f"{first - line * _LEADING:.2f}" for line in range(number)]
+
+
+def _height_of(lines: int) -> float:
+    """Of a row of so many lines, with the room above and below them, pt."""
+    return lines * _LEADING + _ABOVE + _BELOW
 
 
 def table(headings: Sequence[Heading], rows: Sequence[Row], width: float, language: Language) -> Table:
@@ -147,28 +183,40 @@ def table(headings: Sequence[Heading], rows: Sequence[Row], width: float, langua
     kinds = [heading.kind for heading in headings]
     columns: list[Row] = list(zip(*rows, strict=True)) if rows else [()] * len(headings)
     texts = [_written(cells, kind, language) for cells, kind in zip(columns, kinds, strict=True)]
-    widest = [max(map(_width, set(column)), default=0.0) for column in texts]
+    widest = [max(map(_width, column), default=0.0) for column in texts]
     widths = _widths(names, widest, headings, width)
-    rooms = [round(each - 2.0 * _PADDING, 1) for each in widths]
-    head = _row([TableCell(_wrapped(name, room), "#ffffff") for name, room in zip(names, rooms, strict=True)])
-    body = [
-        [_number(text) for text in written]
-        if is_number(kind) and wide <= room
-        else [_words(cell, kind, text, room) for cell, text in zip(cells, written, strict=True)]
-        for cells, kind, written, wide, room in zip(columns, kinds, texts, widest, rooms, strict=True)
+    parts = zip(kinds, columns, texts, widest, strict=True)
+    made = [
+        _column(_wrapped(name, round(each - 2.0 * _PADDING, 1)), each, *part)
+        for name, each, part in zip(names, widths, parts, strict=True)
     ]
-    return Table(head, tuple(map(_row, zip(*body, strict=True))), tuple(widths), tuple(map(is_number, kinds)))
+    return Table(tuple(made), _row_heights(made, len(rows)))
+
+
+def _column(
+    head: tuple[str, ...], width: float, kind: CellKind, cells: Row, texts: list[str], widest: float
+) -> TableColumn:
+    room = round(width - 2.0 * _PADDING, 1)
+    number = is_number(kind)
+    if number and widest <= room:
+        return TableColumn(head, tuple(map(_number, texts)), width, number, one_line=True, in_ink=True)
+    made = tuple([_words(cell, kind, text, room) for cell, text in zip(cells, texts, strict=True)])
+    one_line = all(len(cell.lines) == 1 for cell in made)
+    return TableColumn(head, made, width, number, one_line, in_ink=all(cell.colour == INK for cell in made))
+
+
+def _row_heights(columns: Sequence[TableColumn], rows: int) -> tuple[float, ...]:
+    """Of the lines of the highest cell of each row, pt."""
+    lines = [1] * rows
+    for column in columns:
+        if not column.one_line:
+            lines = [max(most, len(cell.lines)) for most, cell in zip(lines, column.cells, strict=True)]
+    return tuple([_height_of(most) for most in lines])
 
 
 def _written(cells: Row, kind: CellKind, language: Language) -> list[str]:
     """The cells of a column as texts."""
-    if is_number(kind):
-        return ["" if cell is None or cell == "" else number_text(cell, kind) for cell in cells]
-    return [_text(cell, kind, language) for cell in cells]
-
-
-def _row(cells: Sequence[TableCell]) -> TableRow:
-    return TableRow(tuple(cells), max([len(cell.lines) for cell in cells]))
+    return number_texts(cells, kind) if is_number(kind) else [_text(cell, kind, language) for cell in cells]
 
 
 @lru_cache(KEPT_TEXTS)
@@ -196,8 +244,9 @@ def _wrapped(text: str, room: float) -> tuple[str, ...]:
     return (printable(text),) if _width(text) <= room else lines_of(text, SIZE, room)
 
 
+@lru_cache(KEPT_TEXTS)
 def _width(text: str) -> float:
-    return width_of(text if text.isascii() else printable(text), SIZE)
+    return thousandths_of(printable(text)) * _OF_THOUSAND
 
 
 @lru_cache(KEPT_TEXTS, typed=True)  # 1 and 1.0 are not written alike
@@ -217,7 +266,7 @@ def _widths(names: list[str], widest: list[float], headings: Sequence[Heading], 
     """As wide as the widest cells, headings may break; texts give way where the page is too narrow."""
     wanted = []
     for k, (heading, cells) in enumerate(zip(headings, widest, strict=True)):
-        words = max((_width(word) for word in names[k].split()), default=0.0)
+        words = max(map(_width, names[k].split()), default=0.0)
         head = words if heading.kind != "text" else min(_width(names[k]), max(words, cells))
         wanted.append(max(cells, min(head, 60.0)) + 2.0 * _PADDING + 1.0)
     excess = sum(wanted) - width

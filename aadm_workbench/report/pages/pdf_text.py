@@ -61,11 +61,12 @@ def printable(text: str) -> str:
 
 def width_of(text: str, size: float) -> float:
     """Width of one line, pt."""
-    return _width_in_thousandths(text) * size / 1000.0
+    return thousandths_of(text) * size / 1000.0
 
 
 @lru_cache(KEPT_TEXTS)
-def _width_in_thousandths(text: str) -> float:
+def thousandths_of(text: str) -> float:
+    """Width of one line of printable signs, thousandths of its size."""
     widths = _widths()
     return sum([widths[sign] for sign in text])
 
@@ -114,10 +115,17 @@ def lines_of(text: str, size: float, width: float) -> tuple[str, ...]:
 
 
 def _break(line: str, piece: str) -> int:
-    """Where a line ends that a piece does not fit on: signs that never stand first, or last, take others along."""
-    keep = len(line)
-    if piece in _NEVER_FIRST and keep > 1:
-        keep -= 1
+    """Where a line ends that a piece does not fit on: signs that never stand first, or last, take others along.
+
+    What is taken along is a word, "mm" in one piece; of a word that fills the line, its last letter.
+    """
+    keep, first = len(line), piece
+    words = _TOKEN.findall(line)
+    while first in _NEVER_FIRST and len(words) > 1:
+        first = words.pop()
+        keep -= len(first)
+    if first in _NEVER_FIRST:
+        keep = max(1, keep - 1)
     while keep > 1 and line[keep - 1] in _NEVER_LAST:
         keep -= 1
     return keep

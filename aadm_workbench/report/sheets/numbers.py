@@ -28,6 +28,17 @@ def number_text(value: float | int | str, kind: CellKind) -> str:
     return text.removeprefix("-") if float(text) == 0.0 else text
 
 
+def number_texts(values: Sequence[float | int | str | None], kind: CellKind) -> list[str]:
+    """The same of the cells of a column, empty where there is none: a thousand columns have half a million."""
+    if kind == "share" or any(isinstance(value, str) for value in values):
+        return ["" if value is None or value == "" else number_text(value, kind) for value in values]
+    sign, decimals = ("+", 2) if kind == "mm_signed" else ("", _DECIMALS.get(kind, 2))
+    form, zero = f"%{sign}.{decimals}f", f"{0.0:.{decimals}f}"
+    texts = ["" if value is None else form % value for value in values]
+    below_zero = f"-{zero}"
+    return [f"{sign}{zero}" if text == below_zero else text for text in texts] if below_zero in texts else texts
+
+
 def signed(value: float, decimals: int = 2) -> str:
     """``+0.31``."""
     text = f"{value:+.{decimals}f}"

@@ -32,7 +32,7 @@ class Heading:
     def in_full(self) -> Phrase:
         """With the unit."""
         unit = _UNITS.get(self.kind, "")
-        return Phrase(f"{self.name.en}{unit}", f"{self.name.zh}{unit}")
+        return Phrase(f"{self.name.en}{unit}", f"{self.name.zh}{unit}") if unit else self.name
 
 
 _UNITS = {"mm": ", mm", "mm_signed": ", mm", "mm_fine": ", mm", "deg": ", °"}
@@ -239,5 +239,8 @@ def input_rows(column: ColumnReport) -> Iterator[Row]:
 
 def narrowed(headings: Sequence[Heading], rows: Sequence[Row]) -> tuple[tuple[Heading, ...], list[Row]]:
     """Without the columns that are empty in every row."""
-    used = [k for k in range(len(headings)) if any(row[k] not in (None, "") for row in rows)]
-    return tuple(headings[k] for k in used), [tuple(row[k] for k in used) for row in rows]
+    filled = [
+        column for column in enumerate(zip(*rows, strict=True)) if any(cell not in (None, "") for cell in column[1])
+    ]
+    kept = tuple(headings[k] for k, _ in filled)
+    return kept, list(zip(*(column for _, column in filled), strict=True))

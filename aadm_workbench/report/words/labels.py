@@ -63,6 +63,13 @@ def phrase(name: str, /, **values: object) -> Phrase:
     return found.filled(**values) if values else found
 
 
+def told(name: Phrase, value: object) -> Phrase:
+    """``Goes on: fail``, with the colon of each language."""
+    known = value if isinstance(value, Phrase) else Phrase(str(value), str(value))
+    colon = phrase("ui.colon")
+    return Phrase(f"{name.en}{colon.en}{known.en}", f"{name.zh}{colon.zh}{known.zh}")
+
+
 def rule_words(name: str) -> Phrase:
     """The name of a tolerance rule, or of its severity, in words; a profile's own names as they are, but for ``_``."""
     shown = name.replace("_", " ")

@@ -7,12 +7,12 @@ import zlib
 import numpy as np
 import pytest
 
-from batch.runner.packed import LONGEST_TEXT_BYTES, pack, unpack
+from batch.runner.packed import LONGEST_TEXT_BYTES, in_signs, pack, unpack
 
 
 def deflated(content: bytes) -> str:
     """A part of a packed text, without the words that reports have in common."""
-    return base64.b64encode(zlib.compress(content)).decode()
+    return base64.b85encode(zlib.compress(content)).decode()
 
 
 @pytest.mark.parametrize(
@@ -35,6 +35,13 @@ def test_texts_come_back(text: str) -> None:
     assert packed.isascii()
     assert not set('"\\') & set(packed)
     assert unpack(packed) == text
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 4, 5, 8, 1001])
+def test_bytes_are_written_as_the_standard_library_does(count: int) -> None:
+    content = np.random.default_rng(count).integers(0, 256, count, dtype=np.uint8).tobytes()
+    for bytes_of in (content, bytes(count), b"\xff" * count):
+        assert in_signs(bytes_of) == base64.b85encode(bytes_of).decode()
 
 
 def test_numbers_come_back_bit_by_bit() -> None:

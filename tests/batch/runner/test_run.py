@@ -215,7 +215,7 @@ def test_columns_of_a_model(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch
     other = replace(inline_design("PCZ-1", table), names=("PCZ-1",), global_id="1" * 22)
     asked: list[dict[str, object]] = []
 
-    def read_design(path: Path, **selectors: str | None) -> ModelDesign:
+    def read_design(path: Path, **selectors: object) -> ModelDesign:
         asked.append({"path": path, **selectors})
         return ModelDesign(str(path), "f" * 64, "IFC4", columns=(design, other))
 
@@ -233,6 +233,7 @@ def test_columns_of_a_model(write_job: WriteJob, monkeypatch: pytest.MonkeyPatch
             "sleeves": None,
             "rebars": None,
             "units": "mm",
+            "only": ["C-301", "C-302", "PCZ-1"],
         }
     ]
     assert report.model == {"source": "models/floor3.ifc", "sha256": "f" * 64}

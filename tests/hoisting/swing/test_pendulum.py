@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ import pytest
 from aadm_workbench.hoisting.swing.motion import Look, Motion, motion_of, with_look
 from aadm_workbench.hoisting.swing.pendulum import swing_of
 from aadm_workbench.model import Array, CameraMove, Correction
+from batch.capturing.session import LiveFolder
 
 RING = np.array([[x, y] for x in (-95.0, 0.0, 95.0) for y in (-95.0, 0.0, 95.0) if (x, y) != (0.0, 0.0)])
 NOISE_MM = 0.05
@@ -147,3 +150,32 @@ def test_a_column_that_turns_to_and_fro_is_not_still() -> None:
 def test_a_clock_that_is_set_back_begins_anew() -> None:
     found = looks(np.zeros((4, 2)), np.array([100.0, 101.0, 102.0, 5.0]))
     assert [look.time_s for look in found] == [5.0]
+
+
+class Clocked:
+    """A camera that keeps when it was asked."""
+
+    def __init__(self) -> None:
+        self.now_s, self.times = 0.0, list[float]()
+
+    def take(self, folder: Path) -> None:
+        self.times.append(self.now_s)
+
+
+@pytest.mark.parametrize("period_s", [2.0, 4.0])
+def test_a_column_that_swings_at_the_pace_of_the_watchs_camera_does_not_seem_to_stand(
+    period_s: float, tmp_path: Path
+) -> None:
+    """Asked for a frame every 4 s; frames 4.0 s apart would show a swing of 6 mm at one place."""
+    camera = Clocked()
+    live = LiveFolder(cast(Any, camera), tmp_path, 4.0, lambda: camera.now_s)
+    while len(camera.times) < 9:
+        live.fault()
+        camera.now_s += 0.05
+    times = np.array(camera.times)
+    assert np.diff(times).mean() == pytest.approx(4.0, rel=0.05)
+    phases = 2.0 * np.pi * times / period_s + 0.3
+    places = 6.0 * np.column_stack([np.cos(phases), 0.3 * np.sin(phases)])
+    for count in range(3, 9):
+        swing = swing_of(times[:count], places[:count], NOISE_MM)
+        assert swing is None or swing.amplitude_mm + np.hypot(*swing.rest) > 3.0

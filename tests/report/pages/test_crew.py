@@ -281,3 +281,15 @@ def test_whether_a_clause_says_how_far_to_bend_is_no_matter_of_its_words(floor: 
         said = " ".join(note.en for note in advice_notes(of_column(column)))
         assert ("working figure" in said) == own
         assert (clause in said) == (not own)
+
+
+def test_what_is_left_open_is_named_to_be_scanned_again(floor: dict[str, Any]) -> None:
+    """R3 and R4 stand nearly too far from each other: two bars to look at, not a column."""
+    column = next(column for column in typed(floor).columns if column.id == "C-7")
+    opened = [spacing.between for spacing in column.rebars.spacing if spacing.verdict == "inconclusive"]
+    (step,) = crew_advice(typed(floor), column).steps
+    assert [set(re.findall(r"R\d+", step.text.en))] == [set(labels) for labels in opened]
+    for point in floor["columns"][6]["rebars"]["points"]:
+        point["verdict"] = "inconclusive"
+    (step,) = crew_advice(typed(floor), typed(floor).columns[6]).steps
+    assert step.text.en == "Scan again, closer and straight."

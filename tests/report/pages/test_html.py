@@ -266,6 +266,19 @@ def test_prints_every_column_on_a4(page: Any, floor: dict[str, Any], tmp_path: P
     assert "Drag to turn" not in text
 
 
+def test_what_was_not_measured_takes_no_page_of_its_own_in_print(
+    page: Any, floor: dict[str, Any], tmp_path: Path
+) -> None:
+    error = floor["columns"][4]
+    many = [error | {"id": f"E-{number}"} for number in range(4)]
+    opened(page, floor | {"columns": [floor["columns"][0], *many]}, tmp_path)
+    page.pdf(path=tmp_path / "printed.pdf", prefer_css_page_size=True)
+    texts = [sheet.extract_text() for sheet in pypdf.PdfReader(tmp_path / "printed.pdf").pages]
+    # What may be hoisted stands with the rest of the headline.
+    assert "1 may be hoisted" in texts[0]
+    assert any(text.count("it could not be checked") == 4 for text in texts[1:])
+
+
 def test_fits_small_screens(page: Any, floor: dict[str, Any], tmp_path: Path) -> None:
     opened(page, floor | {"columns": floor["columns"][:3]}, tmp_path)
     page.click("#open-all")

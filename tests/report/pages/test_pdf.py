@@ -7,6 +7,7 @@ from typing import Any
 import pypdf
 import pytest
 
+from aadm_workbench.report.pages.html import html_text
 from aadm_workbench.report.pages.pdf import write_pdf
 from aadm_workbench.report.pages.pdf_text import lines_of, printable, width_of
 from tests.report.checked_floor import HOSTILE
@@ -86,6 +87,16 @@ def test_lines_break_between_words_and_chinese_characters() -> None:
     assert printable("✗ 柱 🏗") == "× 柱 □"
 
 
+@pytest.mark.parametrize("width", range(40, 300, 7))
+def test_what_takes_a_sign_along_to_the_next_line_is_a_word(width: int) -> None:
+    text = "S6–S7 间距与设计相差 -2.02 mm，限值 ±2 mm（T/CCES 30-2022，4.3.3）：不确定度 0.07 mm，过于接近限值"
+    lines = lines_of(text, 12.0, float(width))
+    assert "".join(lines).replace(" ", "") == text.replace(" ", "")
+    assert not any(line.startswith(("，", "）", "：")) for line in lines)
+    if width > 60:  # T/CCES is wider than less
+        assert sum(line.count("mm") for line in lines) == 3
+
+
 def page_texts(path: Path) -> list[str]:
     return [re.sub(r"\s+", "", page.extract_text()) for page in pypdf.PdfReader(path).pages]
 
@@ -123,3 +134,27 @@ def test_many_columns_without_a_place(floor: dict[str, Any], tmp_path: Path, lan
     write_pdf(typed(floor | {"columns": columns}), tmp_path / "report.pdf", language)
     titles = [entry.title for entry in pypdf.PdfReader(tmp_path / "report.pdf").outline if not isinstance(entry, list)]
     assert sum(title.startswith("K-") for title in titles) == 330
+
+
+def test_columns_without_measurements_share_pages(floor: dict[str, Any], tmp_path: Path) -> None:
+    """Two lines are no page; whatever was measured begins on a page of its own."""
+    error = floor["columns"][4]
+    many = [error | {"id": f"E-{number}"} for number in range(8)]
+    write_pdf(typed(floor | {"columns": [*floor["columns"][:2], *many]}), tmp_path / "report.pdf")
+    reader = pypdf.PdfReader(tmp_path / "report.pdf")
+    entries = [entry for entry in reader.outline if not isinstance(entry, list)]
+    begins = {entry.title: reader.get_destination_page_number(entry) for entry in entries}
+    assert len({begins[f"E-{number}"] for number in range(8)}) == 1
+    assert begins["E-0"] < begins["C-2"] < begins["C-1"]
+
+
+def test_chinese_pages_have_chinese_colons(floor: dict[str, Any], tmp_path: Path) -> None:
+    """No half-width colon behind a Chinese word, in what this product says itself; names of people stay."""
+    floor["job"]["name"] = floor["capture"]["operator"] = "N"
+    write_pdf(typed(floor), tmp_path / "report.pdf", "zh")
+    shown = {"report.pdf": text_of(tmp_path / "report.pdf")}
+    shown["report.html"] = re.sub(
+        r"<(script|style).*?</\1>|<[^>]*>", "", html_text(typed(floor), "zh"), flags=re.DOTALL
+    )
+    for name, text in shown.items():
+        assert re.findall(r"[\u4e00-\u9fff]:.{0,9}", text) == [], name

@@ -2,15 +2,19 @@
 
 import re
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pytest
 
 from aadm_workbench.report.column_view import foot_sketches
 from aadm_workbench.report.drawing.foot import FootSketch, Mark, foot_sketch
 from aadm_workbench.report.drawing.plan import floor_plans
 from aadm_workbench.report.drawing.sketch import Circle, Label, Link, Polyline, Sketch, arrow
+from aadm_workbench.report.pages.html import html_text
 from aadm_workbench.report.pages.svg import svg_of
+from aadm_workbench.report.words.labels import SIGN
 from tests.report.checked_floor import HOSTILE, place_of
 from tests.report.typed import of_column, typed
 
@@ -80,3 +84,31 @@ def test_no_name_becomes_markup() -> None:
     assert not re.search(r'\sonclick="', text)
     quoted = re.sub(r"=([\w.-]+)(?=[ >])", r'="\1"', text)
     ElementTree.fromstring(quoted)
+
+
+@pytest.mark.parametrize(("along_x", "along_y"), [(25, 40), (5, 60), (60, 5), (2, 2), (1, 1)])
+def test_squares_of_a_crowded_plan_do_not_touch(along_x: int, along_y: int, floor: dict[str, Any]) -> None:
+    """A thousand columns fill a page, a few do not; no square lies on its neighbour, and each has its sign."""
+    column = typed(floor).columns[1]
+    columns = []
+    for k in range(along_x * along_y):
+        T = np.eye(4)
+        T[:2, 3] = 6000.0 * (k % along_x), 6000.0 * (k // along_x)
+        columns.append(replace(column, id=f"K-{k}", T_model_column=T))
+    (plan,) = floor_plans(columns, {column.id: column.id for column in columns})
+    squares = [shape for shape in plan.sketch.shapes if isinstance(shape, Link)]
+    middles = np.array(list(links(plan.sketch).values()))
+    (low, _, high, _) = next(part for part in squares[0].shapes if isinstance(part, Polyline)).points
+    apart = [np.abs(middles - middle).max(axis=1) for middle in middles]
+    assert all(np.count_nonzero(one < high[0] - low[0] + 2.0) == 1 for one in apart)
+    assert plan.sketch.height <= 1.36 * plan.sketch.width
+    assert plan.sketch.height <= 0.63 * plan.sketch.width or len(columns) > 200
+    assert all(any(isinstance(part, Label) and part.text == "✗" for part in square.shapes) for square in squares)
+
+
+def test_every_verdict_of_a_page_has_its_sign(floor: dict[str, Any]) -> None:
+    """Printed in grey it says the same: a word and a sign wherever there is a colour."""
+    text = html_text(typed(floor))
+    shown = re.findall(r'class="[^"]*\bv-(\w+)[^"]*">\s*(?:<[^>]*>)*([^<]*)', text)
+    assert {verdict for verdict, _ in shown} >= {"pass", "fail", "inconclusive", "not_measured", "error"}
+    assert [(verdict, said) for verdict, said in shown if not said.startswith(f"{SIGN[verdict]} ")] == []

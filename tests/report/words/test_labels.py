@@ -20,7 +20,7 @@ from aadm_workbench.scan.intrinsics import Intrinsics, checked_camera
 from aadm_workbench.scan.plausible import refuse_ray_distances
 
 CHINESE = re.compile(r"[\u4e00-\u9fff]")
-SAME = {"ui.global_id", "ui.hash", "ui.offset_x", "ui.offset_y", "ui.u", "ui.p_value", "ui.cp", "ui.cpk"}
+SAME = {"ui.global_id", "ui.hash", "ui.offset_x", "ui.offset_y", "ui.u", "ui.p_value", "ui.colon", "ui.cp", "ui.cpk"}
 
 
 @pytest.mark.parametrize("name", all_words())

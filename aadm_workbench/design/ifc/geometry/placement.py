@@ -93,25 +93,27 @@ class Placements:
         UnreadableGeometryError
             Where placements are relative to each other in a circle, or on a grid of curves.
         """
-        chain: list[Any] = []
+        chain: list[tuple[int, Any]] = []
         passed: set[int] = set()
-        while placement is not None and placement.id() not in self._known:
-            if placement.is_a("IfcGridPlacement"):
-                self._known[placement.id()] = self._on_grid(placement)
+        T = _STILL
+        while placement is not None:
+            number = placement.id()
+            if number in self._known:
+                T = self._known[number]
                 break
-            if _axes_of(placement) is None:
-                raise UnreadableGeometryError(
-                    Reason("geometry.not_evaluated", id=placement.id(), type=placement.is_a())
-                )
-            if placement.id() in passed:
-                raise UnreadableGeometryError(Reason("geometry.own_placement", id=placement.id()))
-            passed.add(placement.id())
-            chain.append(placement)
+            if placement.is_a() == "IfcGridPlacement":
+                T = self._known[number] = self._on_grid(placement)
+                break
+            axes = _axes_of(placement)
+            if axes is None:
+                raise UnreadableGeometryError(Reason("geometry.not_evaluated", id=number, type=placement.is_a()))
+            if number in passed:
+                raise UnreadableGeometryError(Reason("geometry.own_placement", id=number))
+            passed.add(number)
+            chain.append((number, axes))
             placement = optional(placement, "PlacementRelTo")
-        T = np.eye(4) if placement is None else self._known[placement.id()]
-        for link in reversed(chain):
-            T = T @ self.of_axes(_axes_of(link))
-            self._known[link.id()] = T
+        for number, axes in reversed(chain):
+            T = self._known[number] = T @ self.of_axes(axes)
         return T
 
     def _on_grid(self, placement: Any) -> Array:
@@ -122,7 +124,7 @@ class Placements:
         """An IfcAxis2Placement3D or 2D, or an IfcAxis1Placement; None is the identity."""
         if axes is None:
             return np.eye(4)
-        if axes.is_a("IfcAxis2Placement2D"):
+        if axes.is_a() == "IfcAxis2Placement2D":
             return frame(self.point(axes.Location), None, _direction(axes.RefDirection))
         z, x = _direction(optional(axes, "Axis")), _direction(optional(axes, "RefDirection"))
         return frame(self.point(optional(axes, "Location")), z, x)
@@ -141,34 +143,31 @@ class Placements:
                 raise UnreadableGeometryError(Reason("geometry.scales", id=operator.id(), scale=first))
         return T
 
-    def of_map(self, source: Any) -> Array:
-        """The origin of an IfcRepresentationMap, which thousands of mapped items share."""
-        if source.id() not in self._known:
-            self._known[source.id()] = self.of_axes(source.MappingOrigin)
-        return self._known[source.id()]
-
     def point(self, point: Any) -> Array:
         """An IfcCartesianPoint as (3,) mm; a point of the plane gets z = 0."""
         return self.coordinates(optional(point, "Coordinates"))
 
     def coordinates(self, values: Any) -> Array:
         """Two or three coordinates of the file as (3,) mm."""
-        xyz = np.zeros(3)
-        xyz[: len(values)] = values
-        xyz *= self.mm
-        if not max(map(abs, xyz.tolist())) < FARTHEST_MM:
+        if len(values) != 3:
+            padded = np.zeros(3)
+            padded[: len(values)] = values
+            values = padded.tolist()
+        xyz = [value * self.mm for value in values]  # of three numbers: numpy takes twice as long
+        if not max(map(abs, xyz)) < FARTHEST_MM:
             raise NothingThereError(Reason("geometry.far", distance=max(map(abs, values))))
-        return xyz
+        return np.array(xyz)
 
 
 def _axes_of(placement: Any) -> Any:
     """Axes of a local placement; of one along an alignment those that it is written with for who cannot follow it."""
-    if placement.is_a("IfcLocalPlacement"):
+    if placement.is_a() == "IfcLocalPlacement":
         return optional(placement, "RelativePlacement")
     return optional(placement, "CartesianPosition")
 
 
 _STILL = np.eye(4)  # nothing moves
+_STILL.setflags(write=False)
 
 
 def frame(origin: Array, z: Array | None, x: Array | None) -> Array:

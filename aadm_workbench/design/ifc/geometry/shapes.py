@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -34,6 +34,15 @@ _SAME_MM = 1e-4
 """Vertices that differ by less are drawn alike."""
 
 
+class _Source(NamedTuple):
+    """An IfcRepresentationMap: number of what it shows, items and origin; ``plain`` where none of them is mapped."""
+
+    number: int
+    items: Sequence[Any]
+    T: Array
+    plain: bool
+
+
 @dataclass(frozen=True, eq=False)
 class Shapes:
     """Evaluates the shapes of products and keeps those that are drawn many times.
@@ -51,6 +60,7 @@ class Shapes:
     _tubes: dict[int, tuple[Tube, ...]] = field(default_factory=dict, repr=False)
     _congruent: dict[tuple[str, bytes, bytes, bytes], Any] = field(default_factory=dict, repr=False)
     _courses: dict[int, tuple[Course, ...]] = field(default_factory=dict, repr=False)
+    _sources: dict[int, _Source] = field(default_factory=dict, repr=False)
 
     @property
     def placements(self) -> Placements:
@@ -157,17 +167,29 @@ class Shapes:
 
     def _leaves(self, items: Iterable[Any], T: Array, within: tuple[int, ...] = ()) -> Iterator[tuple[Any, Array]]:
         for item in items:
-            if item.is_a("IfcMappedItem"):
-                source = optional(optional(item, "MappingSource"), "MappedRepresentation")
-                if source.id() in within:
-                    raise NothingThereError(Reason("geometry.own_mapped", id=item.id()))
-                yield from self._leaves(optional(source, "Items"), T @ self._mapping(item), (*within, source.id()))
-            else:
+            if item.is_a() != "IfcMappedItem":
                 yield item, T
+                continue
+            source = self._source(optional(item, "MappingSource"))
+            if source.number in within:
+                raise NothingThereError(Reason("geometry.own_mapped", id=item.id()))
+            T_item = T @ (self.placements.of_operator(optional(item, "MappingTarget")) @ source.T)
+            if source.plain:
+                yield from ((leaf, T_item) for leaf in source.items)
+            else:
+                yield from self._leaves(source.items, T_item, (*within, source.number))
 
-    def _mapping(self, item: Any) -> Array:
-        target = self.placements.of_operator(optional(item, "MappingTarget"))
-        return target @ self.placements.of_map(optional(item, "MappingSource"))
+    def _source(self, drawn: Any) -> _Source:
+        """What thousands of mapped items share, read once."""
+        number = drawn.id()
+        if number not in self._sources:
+            items = optional(optional(drawn, "MappedRepresentation"), "Items")
+            plain = not any(item.is_a() == "IfcMappedItem" for item in items)
+            shown = optional(drawn, "MappedRepresentation").id()
+            self._sources[number] = _Source(
+                shown, items, self.placements.of_axes(optional(drawn, "MappingOrigin")), plain
+            )
+        return self._sources[number]
 
     def _shapes(self, product: Any, item: Any) -> tuple[Shape, ...]:
         try:

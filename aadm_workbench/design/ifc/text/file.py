@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import re
 import zipfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path, PurePosixPath
@@ -76,37 +77,43 @@ def open_ifc(path: str | Path) -> OpenedIfc:
     ifcopenshell = _ifcopenshell()
     began = perf_counter()
     path = Path(path)
-    packed = path.suffix.lower() == ".ifczip"
-    written = _bytes(path)
-    content = model_in_archive(path) if packed else written
-    _check_frame(path, content)
-    schemas = ifcopenshell.ifcopenshell_wrapper.schema_names()
-    text = prepared(content, schemas)
-    if text.schema not in schemas:
-        named = Reason("ifc.names_schema" if text.schema else "ifc.names_no_schema", schema=text.schema)
-        raise DesignError(Reason("ifc.schema", path=path, why=named))
-    file, warnings = _parsed(path, text.content, is_on_disk=text.content == written)
+    # Of what is on the disk as it is to be parsed no copy is in memory meanwhile.
+    sha256, content, notes = _text_of(path, ifcopenshell.ifcopenshell_wrapper.schema_names())
+    file, warnings = _parsed(path, content)
     return OpenedIfc(
         source=str(path),
-        sha256=hashlib.sha256(written).hexdigest(),
+        sha256=sha256,
         file=file,
         mm=_length_unit_mm(path, file),
         radians=_angle_unit(path, file),
         mm2=_area_unit_mm2(path, file),
-        warnings=(*text.notes, *warnings),
+        warnings=(*notes, *warnings),
         seconds=perf_counter() - began,
     )
 
 
-def _parsed(path: Path, content: bytes, *, is_on_disk: bool) -> tuple[Any, list[str]]:
+def _text_of(path: Path, schemas: Sequence[str]) -> tuple[str, bytes | None, tuple[str, ...]]:
+    """Hash of a file, the text to parse, None where that is the file itself, and what was not as STEP wants it."""
+    written = _bytes(path)
+    content = model_in_archive(path) if path.suffix.lower() == ".ifczip" else written
+    _check_frame(path, content)
+    text = prepared(content, schemas)
+    if text.schema not in schemas:
+        named = Reason("ifc.names_schema" if text.schema else "ifc.names_no_schema", schema=text.schema)
+        raise DesignError(Reason("ifc.schema", path=path, why=named))
+    parsed = None if text.content == written else text.content
+    return hashlib.sha256(written).hexdigest(), parsed, text.notes
+
+
+def _parsed(path: Path, content: bytes | None) -> tuple[Any, list[str]]:
     """The file of ifcopenshell, each number in it that of one entity, and what a person should know of it."""
-    file, log = _read(path, content if not is_on_disk else None)
-    complaints = _complaints(log, content)
+    file, log = _read(path, content)
+    complaints = _complaints(log, path, content)
     warnings: list[str] = [Reason("ifc.skipped", why=complaint) for complaint in complaints]
     twice = list(dict.fromkeys(int(number) for number in _OVERWRITTEN.findall(log)))
     if twice:
         # The parser gives both under one number, and what refers to it gets either.
-        file, _ = _read(path, numbered_once(content))
+        file, _ = _read(path, numbered_once(path.read_bytes() if content is None else content))
         code = "ifc.number" if len(twice) == 1 else "ifc.numbers"
         warnings.append(Reason(code, shown=listed([f"#{one}" for one in twice], _SHOWN)))
     if file is None or not _holds_project(file):
@@ -125,7 +132,7 @@ def _read(path: Path, content: bytes | None) -> tuple[Any, str]:
         else:
             file = ifcopenshell.file.from_string(content.decode("ascii"))
     except (ifcopenshell.Error, OSError, RuntimeError, UnicodeDecodeError) as error:
-        complaints = _complaints(ifcopenshell.get_log(), path.read_bytes() if content is None else content)
+        complaints = _complaints(ifcopenshell.get_log(), path, content)
         raise DesignError(Reason("ifc.unread", path=path, why="; ".join(complaints) or error)) from error
     return file, ifcopenshell.get_log()
 
@@ -181,8 +188,8 @@ def _check_frame(path: Path, content: bytes) -> None:
         raise DesignError(Reason("ifc.cut", path=path, lines=lines))
 
 
-def _complaints(log: str, content: bytes) -> list[str]:
-    """What the parser had to say, with the line instead of the offset."""
+def _complaints(log: str, path: Path, content: bytes | None) -> list[str]:
+    """What the parser had to say of a text, or else of the file, with the line instead of the offset."""
     complaints = []
     for line in log.splitlines():
         found = _LOG_ERROR.match(line.strip())
@@ -191,6 +198,7 @@ def _complaints(log: str, content: bytes) -> list[str]:
         text = found["text"].strip()
         offset = _AT_OFFSET.search(text)
         if offset:
+            content = path.read_bytes() if content is None else content
             number = content.count(b"\n", 0, int(offset["offset"])) + 1
             text = Reason("ifc.line", number=number, said=_AT_OFFSET.sub("", text))
         complaints.append(text)
