@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from aadm_workbench.model import WORST_FIRST, ColumnReport, JobReport, Kind, PointResult, Verdict
+from aadm_workbench.model import WORST_FIRST, ColumnReport, JobReport, Kind, PointResult, Reason, Verdict
 
 Trend: TypeAlias = Literal["worse", "better", "same"]
 
@@ -110,13 +110,13 @@ def compare_reports(before: JobReport, after: JobReport) -> Changes:
 def _inputs(before: JobReport, after: JobReport) -> Iterator[str]:
     models = [(report.model or {}).get("sha256") for report in (before, after)]
     if models[0] != models[1]:
-        yield "the models are not the same file"
+        yield Reason("report.models_differ")
     if before.profile != after.profile:
-        yield f"the tolerances differ: {before.profile.name}, then {after.profile.name}"
-    for key in ("decision", "method"):
+        yield Reason("report.tolerances_differ", before=before.profile.name, after=after.profile.name)
+    for key, code in (("decision", "report.decision_differs"), ("method", "report.method_differs")):
         values = [report.job.get(key, "") for report in (before, after)]
         if values[0] != values[1]:
-            yield f"{key}: {values[0]}, then {values[1]}"
+            yield Reason(code, before=values[0], after=values[1])
 
 
 def _compare(before: ColumnReport, after: ColumnReport) -> ColumnChange:

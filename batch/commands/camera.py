@@ -59,9 +59,7 @@ def _add_plate(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--pitch", type=length, default=160.0, metavar="MM", help="between holes (default: 160)")
     parser.add_argument("--pins", type=length, default=20.0, metavar="MM", help="diameter of the pins (default: 20)")
     parser.add_argument("--out", type=Path, default=Path("plate"), metavar="DIR", help="folder (default: plate)")
-    parser.add_argument(
-        "--language", choices=("en", "zh"), default="en", metavar="LANGUAGE", help="en or zh: of the drawing"
-    )
+    parser.add_argument("--language", choices=("en", "zh"), metavar="LANGUAGE", help="en or zh: of the drawing")
     add_switches(parser, prints_json=None)
     parser.set_defaults(run=_draw)
 
@@ -121,6 +119,7 @@ def _draw(options: argparse.Namespace) -> int:
     from aadm_workbench.errors import DesignError
 
     from ..shown.terminal import show
+    from ..shown.told import words_for
 
     plate = drawn_plate(options.holes, options.diameter, options.pitch, options.pins)
     try:
@@ -130,9 +129,10 @@ def _draw(options: argparse.Namespace) -> int:
     write_plate(plate, options.out / "plate.toml")
     write_plate_dxf(plate, options.out / "plate.dxf")
     write_plate_step(plate, options.out / "plate.step")
-    write_plate_pdf(plate, options.out / "plate.pdf", options.language)
+    write_plate_pdf(plate, options.out / "plate.pdf", options.language or "en")
     if not options.quiet:
-        show(f"Wrote plate.toml, plate.dxf, plate.step, plate.pdf to {options.out}")
+        files = ", ".join(f"plate.{form}" for form in ("toml", "dxf", "step", "pdf"))
+        show(words_for(options, "told_camera")("told.wrote", names=files, folder=options.out))
     return ALL_PASS
 
 
@@ -146,13 +146,15 @@ def _plate_and_captures(
     from aadm_workbench.scan.read import read_scan
 
     from ..shown.progress import StepProgress
+    from ..shown.told import words_for
 
     plate = read_plate(options.plate)
     if options.temperature is not None:
         plate = plate.at(options.temperature)
     camera = None if options.camera is None else read_camera(options.camera)
     scale_mm, found = options.depth_scale, []
-    with StepProgress("captures", quiet=options.quiet or options.json) as progress:
+    words, quiet = words_for(options, "told_camera"), options.quiet or options.json
+    with StepProgress(words("told.captures"), quiet=quiet, language=words.language) as progress:
         step = progress.start(len(files))
         for path in files:
             scan = read_scan(path, camera=camera, depth_scale_mm=scale_mm)
@@ -170,6 +172,7 @@ def _learn(options: argparse.Namespace) -> int:
 
     from ..shown.camera_tables import learned_tables
     from ..shown.terminal import show, show_json
+    from ..shown.told import words_for
 
     plate, captures = _plate_and_captures(options, options.captures)
     found = learned(captures, plate)
@@ -178,7 +181,8 @@ def _learn(options: argparse.Namespace) -> int:
     if options.json:
         show_json(encode(learned_document(found)))
     elif not options.quiet:
-        show(*learned_tables(found), f"Written: {options.out}")
+        words = words_for(options, "told_camera")
+        show(*learned_tables(found, words), words("told.written", path=options.out))
     return ALL_PASS
 
 
@@ -189,6 +193,7 @@ def _verify(options: argparse.Namespace) -> int:
 
     from ..shown.camera_tables import verified_table
     from ..shown.terminal import show, show_json
+    from ..shown.told import words_for
 
     profile = read_profile(options.profile)
     plate, (capture,) = _plate_and_captures(options, [options.capture], profile)
@@ -204,5 +209,6 @@ def _verify(options: argparse.Namespace) -> int:
             )
         )
     elif not options.quiet:
-        show(verified_table(checks), f"Log: {log}")
+        words = words_for(options, "told_camera")
+        show(verified_table(checks, words), words("log", path=log))
     return exit_code_of([one.verdict for one in checks])

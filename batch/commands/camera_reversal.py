@@ -14,7 +14,7 @@ def add_reversal(parser: argparse.ArgumentParser) -> None:
         "captures", type=Path, nargs="+", metavar="JOB", help="jobs (.toml), or reports of checks (.json)"
     )
     add_switches(parser, prints_json="what was found")
-    parser.set_defaults(run=_run, by="job", language="en")
+    parser.set_defaults(run=_run, by="job", language=None)
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -25,6 +25,7 @@ def _run(options: argparse.Namespace) -> int:
 
     from ..shown.camera_tables import reversal_tables
     from ..shown.terminal import show, show_json
+    from ..shown.told import words_for
     from .gauge import captures_in
 
     reports = [capture.report for path in options.captures for capture in captures_in(path, options)]
@@ -34,5 +35,5 @@ def _run(options: argparse.Namespace) -> int:
     if options.json:
         show_json(encode(reversal_document(found)))
     elif not options.quiet:
-        show(*reversal_tables(found))
+        show(*reversal_tables(found, words_for(options, "told_camera")))
     return exit_code_of([one.verdict for one in found])

@@ -42,6 +42,7 @@ def run(options: argparse.Namespace) -> int:
     from aadm_workbench.errors import CameraError, CaptureError, JobError
 
     from ..shown.terminal import say
+    from ..shown.told import told
 
     addresses = options.camera or _of_the_system()
     if not addresses:
@@ -54,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
         except (CameraError, CaptureError) as error:
             if options.camera:
                 raise
-            say(str(error))
+            say(told(error, options))
             failed = True
     _print(found, options)
     return ERRORS if failed else ALL_PASS
@@ -73,12 +74,14 @@ def _of_the_system() -> list[str]:
 
 
 def _print(found: Sequence[Device], options: argparse.Namespace) -> None:
-    from ..shown.terminal import new_table, show
+    from ..shown.terminal import show
+    from ..shown.told import words_for
 
     if options.json:
         print(json.dumps([asdict(device) for device in found], ensure_ascii=False, indent=2))
     elif not options.quiet:
-        table = new_table("camera", "maker", "model", "serial number")
+        words = words_for(options, "told_cameras")
+        table = words.table("camera", "maker", "model", "serial")
         for device in found:
             table.add_row(device.address, device.vendor, device.model, device.serial)
-        show(table if found else "no camera is there")
+        show(table if found else words("none"))

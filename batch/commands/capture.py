@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from aadm_workbench.model import Json
 
     from ..capturing.session import Session
+    from ..shown.told import Words
 
 EXAMPLE = """\
 examples:
@@ -66,6 +67,7 @@ def _take_all(session: Session, options: argparse.Namespace, single: bool) -> tu
 
     from ..capturing.session import name_of
     from ..shown.terminal import say
+    from ..shown.told import told, words_for
 
     written: list[dict[str, Json]] = []
     lost: list[str] = []
@@ -78,15 +80,15 @@ def _take_all(session: Session, options: argparse.Namespace, single: bool) -> tu
         except EndOfFramesError as error:
             if options.count is not None:
                 lost.append(str(error))
-            say(str(error))
+            say(told(error, options))
             break
         except CaptureError as error:
             lost.append(str(error))
-            say(str(error))
+            say(told(error, options))
         else:
             written.append(_entry(folder, frame))
             if not (options.quiet or options.json):
-                say(_line(folder, frame))
+                say(_line(folder, frame, words_for(options, "told_capture")))
         if count is None or len(written) + len(lost) < count:
             sleep(max(0.0, (options.every or 0.0) - (monotonic() - began)))
     return written, lost
@@ -98,20 +100,19 @@ def _entry(folder: Path, frame: Frame) -> dict[str, Json]:
     return {"folder": str(folder), **frame.record(stamp_of(frame.captured_s) or "")}
 
 
-def _line(folder: Path, frame: Frame) -> str:
-    warned = "".join(f"; {note}" for note in frame.notes)
-    return f"{folder}: {_what(frame)}{warned}"
+def _line(folder: Path, frame: Frame, words: Words) -> str:
+    return words.of(str(folder), words.joined([_what(frame, words), *frame.notes]))
 
 
-def _what(frame: Frame) -> str:
+def _what(frame: Frame, words: Words) -> str:
     import numpy as np
 
     if frame.files:
-        return f"{len(frame.files)} files, as they were"
+        return words("files", number=len(frame.files))
     depth_mm = frame.depth_mm if frame.points is None else frame.points[..., 2]
     if depth_mm is None:
-        return "nothing"
+        return words("nothing")
     returned = depth_mm[np.isfinite(depth_mm)]
     share = returned.size / depth_mm.size
     height, width = depth_mm.shape
-    return f"{width} x {height} pixels, {share:.0%} returned, {returned.min():.0f} to {returned.max():.0f} mm away"
+    return words("taken", width=width, height=height, share=share, near=returned.min(), far=returned.max())

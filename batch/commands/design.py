@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from aadm_workbench.design.model_design import ModelDesign, NotTaken
     from aadm_workbench.model import Array, AssemblyPoint, ColumnDesign
 
+    from ..shown.told import Words
+
 _NEAR_MM = 1500.0  # of a column's axis: what stands further off belongs to none of its sides
 
 EXAMPLE = """\
@@ -68,6 +70,7 @@ def run(options: argparse.Namespace) -> int:
 
     from ..shown.published_table import published_tables
     from ..shown.terminal import say, show
+    from ..shown.told import words_for
 
     wanted: str | None = options.column
     selector = wanted if wanted and _SELECTOR.search(wanted) else None
@@ -76,29 +79,30 @@ def run(options: argparse.Namespace) -> int:
             options.model, columns=selector, sleeves=options.sleeves, rebars=options.rebars, units=options.units
         )
     columns = model.columns if wanted is None or selector else (model.column(wanted),)
+    words = words_for(options, "told_design")
     if options.json:
         _print_json(model, columns, why=options.why, published=options.method == "published")
     elif not options.quiet:
-        show(*_tables(model, columns, why=options.why, loose=wanted is None))
+        show(*_Shown(model, columns, options.why, wanted is None, words).parts())
         if options.method == "published":
-            show(*published_tables(columns))
+            show(*published_tables(columns, words))
     if not options.quiet:
-        for warning in _warnings(model, columns):
-            say(f"warning: {warning}")
+        for warning in _warnings(model, columns, words):
+            say(words("told.warning", said=warning))
         if model.parse_seconds:
-            say(f"{model.source}: parsed in {model.parse_seconds:.2f} s, points found in {model.seconds:.2f} s")
+            say(words("parsed", model=model.source, parsed=model.parse_seconds, found=model.seconds))
     if not columns:
-        nothing = f"aadm: {options.model} has no column with grouting sleeves in its foot; it holds {model.holdings}"
-        say(f"{nothing}. {model.hint}" if model.hint else nothing)
+        nothing = words("nothing", model=options.model, holdings=words.said(model.holdings))
+        say(f"aadm: {nothing}" + (words("ending", hint=words.said(model.hint)) if model.hint else ""))
     return ALL_PASS if columns else UNDECIDED
 
 
-def _warnings(model: ModelDesign, columns: Sequence[ColumnDesign]) -> Iterator[str]:
+def _warnings(model: ModelDesign, columns: Sequence[ColumnDesign], words: Words) -> Iterator[str]:
     """What a person should know about the model, then about each column; with more than one it says which."""
-    yield from model.warnings
+    yield from map(words.said, model.warnings)
     for column in columns:
-        called = f"{column.id}: " if len(columns) > 1 else ""
-        yield from (f"{called}{warning}" for warning in column.warnings)
+        for warning in map(words.said, column.warnings):
+            yield words.of(column.id, warning) if len(columns) > 1 else warning
 
 
 def _print_json(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: bool, published: bool) -> None:
@@ -175,23 +179,59 @@ def _entries(points: Sequence[AssemblyPoint], T_model_column: Array | None, *, w
     return found
 
 
-def _tables(model: ModelDesign, columns: Sequence[ColumnDesign], *, why: bool, loose: bool) -> Iterator[Table | str]:
-    for column in columns:
-        yield _heading(column)
-        yield _point_table(_entries(column.sleeves + column.rebars, column.T_model_column, why=why), why)
-        yield ""
-    left_over = model.loose_sleeves + model.loose_rebars if loose else ()
-    if left_over:
-        yield f"Loose: {len(model.loose_sleeves)} sleeves and {len(model.loose_rebars)} rebars belong to no column"
-        yield _point_table(_entries(left_over, None, why=why), why)
-        yield ""
-    left_out = [left for left in model.not_taken if loose or not _of_another(left, columns)]
-    if why and left_out:
-        yield "Left out"
-        yield _left_out_table(left_out)
-        yield ""
-    points = sum(len(column.sleeves) + len(column.rebars) for column in columns)
-    yield f"{len(columns)} column{'' if len(columns) == 1 else 's'}, {points} sleeves and rebars in {model.source}"
+@dataclass(frozen=True)
+class _Shown:
+    """Columns of a model for people; ``loose`` where what belongs to no column is shown, too."""
+
+    model: ModelDesign
+    columns: Sequence[ColumnDesign]
+    why: bool
+    loose: bool
+    words: Words
+
+    def parts(self) -> Iterator[Table | str]:
+        model, words = self.model, self.words
+        for column in self.columns:
+            yield _heading(column)
+            yield self._points(_entries(column.sleeves + column.rebars, column.T_model_column, why=self.why))
+            yield ""
+        left_over = model.loose_sleeves + model.loose_rebars if self.loose else ()
+        if left_over:
+            yield words("loose", sleeves=len(model.loose_sleeves), rebars=len(model.loose_rebars))
+            yield self._points(_entries(left_over, None, why=self.why))
+            yield ""
+        left_out = [left for left in model.not_taken if self.loose or not _of_another(left, self.columns)]
+        if self.why and left_out:
+            yield words("left_out")
+            yield self._left_out(left_out)
+            yield ""
+        points = sum(len(column.sleeves) + len(column.rebars) for column in self.columns)
+        yield words.counted("columns", len(self.columns), points=points, model=model.source)
+
+    def _points(self, entries: Sequence[_Entry]) -> Table | str:
+        words = self.words
+        numbers = [words(name) for name in ("x", "y", "z", "diameter", "length")]
+        rows = [
+            [
+                entry.label or "-",
+                *(f"{value:.2f}" for value in entry.centre_mm),
+                f"{entry.diameter_mm:g}",
+                "" if entry.length_mm is None else f"{entry.length_mm:g}",
+                entry.global_id or "",
+                *([words.said(entry.why or "")] if self.why else []),
+            ]
+            for entry in entries
+        ]
+        last = [words("ui.global_id"), *([words("why")] if self.why else [])]
+        return _table([words("ui.point"), *numbers, *last], rows, numbers)
+
+    def _left_out(self, left_out: Sequence[NotTaken]) -> Table | str:
+        words = self.words
+        rows = [
+            [words(f"told.{left.what}"), left.ifc_class, left.global_id, left.name, words.said(left.reason)]
+            for left in left_out
+        ]
+        return _table([words(name) for name in ("what", "class", "ui.global_id", "name", "shown.reason")], rows)
 
 
 def _of_another(left: NotTaken, columns: Sequence[ColumnDesign]) -> bool:
@@ -207,27 +247,6 @@ def _heading(column: ColumnDesign) -> str:
     size = "" if column.size_mm is None else f"{column.size_mm[0]:g} x {column.size_mm[1]:g} mm"
     place = [text for text in (column.storey, column.grid, column.piece_mark, size, column.global_id) if text]
     return f"{column.id}: {', '.join(place)}" if place else column.id
-
-
-def _point_table(entries: Sequence[_Entry], why: bool) -> Table | str:
-    numbers = ("x mm", "y mm", "z mm", "Diameter", "Length")
-    rows = [
-        [
-            entry.label or "-",
-            *(f"{value:.2f}" for value in entry.centre_mm),
-            f"{entry.diameter_mm:g}",
-            "" if entry.length_mm is None else f"{entry.length_mm:g}",
-            entry.global_id or "",
-            *([entry.why or ""] if why else []),
-        ]
-        for entry in entries
-    ]
-    return _table(("Point", *numbers, "GlobalId", *(["Why"] if why else [])), rows, numbers)
-
-
-def _left_out_table(left_out: Sequence[NotTaken]) -> Table | str:
-    rows = [[left.what, left.ifc_class, left.global_id, left.name, left.reason] for left in left_out]
-    return _table(("What", "Class", "GlobalId", "Name", "Reason"), rows)
 
 
 def _table(headings: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[str] = ()) -> Table | str:

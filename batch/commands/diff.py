@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from aadm_workbench.report.changes import Changes, ColumnChange, PointChange
     from aadm_workbench.stack.changes import SetChange
 
+    from ..shown.told import Words
+
 EXAMPLE = """\
 examples:
   aadm diff monday/report.json tuesday/report.json
@@ -47,6 +49,7 @@ def run(options: argparse.Namespace) -> int:
     from aadm_workbench.stack.measured import measured_floor
 
     from ..shown.terminal import show, show_json
+    from ..shown.told import words_for
 
     before, after = read_report(options.before), read_report(options.after)
     changes = compare_reports(before, after)
@@ -58,59 +61,54 @@ def run(options: argparse.Namespace) -> int:
         summed = {"any_change": changes.any_change, "any_worse": changes.any_worse}
         show_json(encode({**asdict(changes), "changed": trends, **summed, "set": [*map(asdict, set_otherwise)]}))
     elif not options.quiet:
-        show(*([_settings(set_otherwise)] if set_otherwise else []), *_parts(changes))
+        words = words_for(options, "told_diff")
+        show(*([_settings(set_otherwise, words)] if set_otherwise else []), *_parts(changes, words))
     if changes.any_worse:
         return WORSE
     return CHANGED if changes.any_change or set_otherwise else NO_CHANGE
 
 
-def _parts(changes: Changes) -> Iterator[Table | str]:
+def _parts(changes: Changes, words: Words) -> Iterator[Table | str]:
     """Tables and lines for people."""
     if changes.changed:
-        yield _columns(changes)
+        yield _columns(changes, words)
         points = [(change, point) for change in changes.changed for point in change.points]
         if points:
-            yield _points(points)
+            yield _points(points, words)
     if changes.new:
-        yield f"New: {', '.join(changes.new)}"
+        yield words("new", names=words.listed(changes.new))
     if changes.missing:
-        yield f"Missing: {', '.join(changes.missing)}"
-    yield from (f"Note: {text}" for text in changes.inputs)
+        yield words("missing", names=words.listed(changes.missing))
+    yield from (words("note", said=words.said(text)) for text in changes.inputs)
     total = len(changes.changed) + len(changes.unchanged)
     counted = {trend: sum(change.trend == trend for change in changes.changed) for trend in ("worse", "better")}
     if not changes.any_change:
-        yield f"Nothing changed in {total} columns."
+        yield words("nothing", number=total)
         return
-    yield (
-        f"{total} columns compared: {counted['worse']} worse, {counted['better']} better, "
-        f"{len(changes.changed) - sum(counted.values())} with moved points alone, {len(changes.unchanged)} unchanged"
-    )
+    moved = len(changes.changed) - sum(counted.values())
+    yield words("compared", number=total, **counted, moved=moved, unchanged=len(changes.unchanged))
 
 
-def _columns(changes: Changes) -> Table:
+def _columns(changes: Changes, words: Words) -> Table:
     from rich.text import Text
 
-    from ..shown.terminal import new_table
-
-    table = new_table("Column", "Trend", "Verdict", "Goes on", "Largest distance", "New reason")
+    table = words.table("shown.column", "trend", "shown.verdict", "shown.goes_on", "largest", "new_reason")
     for change in changes.changed:
         table.add_row(
             Text(change.id),
-            change.trend,
-            _step(change.from_verdict, change.to_verdict),
-            _step(change.from_goes_on, change.to_goes_on),
+            words(change.trend),
+            _step(change.from_verdict, change.to_verdict, words),
+            _step(change.from_goes_on, change.to_goes_on, words),
             _distances(change),
-            Text(change.new_reasons[0] if change.new_reasons and change.trend == "worse" else ""),
+            Text(words.said(change.new_reasons[0]) if change.new_reasons and change.trend == "worse" else ""),
         )
     return table
 
 
-def _settings(changes: Sequence[SetChange]) -> Table:
+def _settings(changes: Sequence[SetChange], words: Words) -> Table:
     from rich.text import Text
 
-    from ..shown.terminal import new_table
-
-    table = new_table("Column", "Comes to stand", "Then", "Moved", "u", numbers=("Moved", "u"))
+    table = words.table("shown.column", "comes_to_stand", "then", "moved", "u", numbers=("moved", "u"))
     for change in changes:
         table.add_row(
             Text(change.id),
@@ -122,12 +120,11 @@ def _settings(changes: Sequence[SetChange]) -> Table:
     return table
 
 
-def _points(points: list[tuple[ColumnChange, PointChange]]) -> Table:
+def _points(points: list[tuple[ColumnChange, PointChange]], words: Words) -> Table:
     from rich.text import Text
 
-    from ..shown.terminal import new_table
-
-    table = new_table("Column", "Point", "From", "To", "Moved", "u", "Verdict", numbers=("From", "To", "Moved", "u"))
+    numbers = ("from", "to", "moved", "u")
+    table = words.table("shown.column", "ui.point", *numbers, "shown.verdict", numbers=numbers)
     for change, point in points:
         table.add_row(
             Text(change.id),
@@ -136,13 +133,13 @@ def _points(points: list[tuple[ColumnChange, PointChange]]) -> Table:
             _offset(point.to_mm),
             "" if point.moved_mm is None else f"{point.moved_mm:.2f} mm",
             "" if point.u_mm is None else f"{point.u_mm:.2f} mm",
-            _step(point.from_verdict, point.to_verdict),
+            _step(point.from_verdict, point.to_verdict, words),
         )
     return table
 
 
-def _step(before: str, after: str) -> str:
-    said = [word.replace("_", " ") for word in (before, after)]
+def _step(before: str, after: str, words: Words) -> str:
+    said = [words.word(word) for word in (before, after)]
     return said[0] if before == after else f"{said[0]} → {said[1]}"
 
 

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
     from aadm_workbench.model import Array, AssemblyPoint, Extraction, Scan
 
+    from ..shown.told import Words
+
 EXAMPLE = """\
 examples:
   aadm extract C-301-foot.ply --kind sleeve --diameter 36 --expected 12
@@ -66,19 +68,21 @@ def run(options: argparse.Namespace) -> int:
     from aadm_workbench.model import Kind
 
     from ..shown.terminal import say, show, show_json
+    from ..shown.told import words_for
 
+    words = words_for(options, "told_extract")
     scan = _read(options)
     extraction = extract(scan, Kind(options.kind), options.diameter, options.method, np.random.default_rng(0))
     extraction = in_coordinates_of_the_file(extraction, scan)
     if options.json:
         show_json(_encoded(scan, extraction, options.expected))
     elif not options.quiet:
-        show(_table(extraction), "", _summary(scan, extraction, options.expected))
+        show(_table(extraction, words), "", _summary(scan, extraction, options.expected, words))
     found = len(extraction.points)
     for note in () if options.quiet else scan.notes:
-        say(f"aadm: {scan.source}: {note}")
+        say(f"aadm: {words.of(scan.source, words.said(note))}")
     if extraction.reason and not options.quiet:
-        say(f"aadm: {scan.source}: {extraction.reason}")
+        say(f"aadm: {words.of(scan.source, words.said(extraction.reason))}")
     return ALL_PASS if found >= (options.expected or 1) else UNDECIDED
 
 
@@ -148,11 +152,9 @@ def _uncertainty_mm(point: AssemblyPoint, vertical: Array | None) -> float | Non
     return float(np.sqrt(max(across, 0.0) / 2.0))
 
 
-def _table(extraction: Extraction) -> Table:
-    from ..shown.terminal import new_table
-
-    numbers = ("", "x mm", "y mm", "z mm", "Diameter mm", "u mm")
-    table = new_table(*numbers, "Evidence", numbers=numbers)
+def _table(extraction: Extraction, words: Words) -> Table:
+    numbers = ("", "x", "y", "z", "diameter", "u")
+    table = words.table(*numbers, "evidence", numbers=numbers)
     for number, point in enumerate(extraction.points, start=1):
         u_mm = _uncertainty_mm(point, extraction.vertical)
         table.add_row(
@@ -160,11 +162,12 @@ def _table(extraction: Extraction) -> Table:
             *(f"{value:.3f}" for value in point.centre),
             f"{point.diameter_mm:.3f}",
             "" if u_mm is None else f"{u_mm:.3f}",
-            point.why,
+            words.said(point.why),
         )
     return table
 
 
-def _summary(scan: Scan, extraction: Extraction, expected: int | None) -> str:
-    of = "" if expected is None else f" of {expected} expected"
-    return f"{len(extraction.points)} {extraction.kind.plural}{of} in {scan.source}, method {extraction.method}"
+def _summary(scan: Scan, extraction: Extraction, expected: int | None, words: Words) -> str:
+    kind, number = words(f"told.{extraction.kind.plural}"), len(extraction.points)
+    about = {"number": number, "kind": kind, "scan": scan.source, "method": extraction.method}
+    return words("found", **about) if expected is None else words("found_of", expected=expected, **about)

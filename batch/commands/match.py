@@ -43,9 +43,11 @@ def run(options: argparse.Namespace) -> int:
     from ..matching.run import run_match
     from ..runner.run import RunOptions
     from ..shown.progress import StepProgress
+    from ..shown.told import words_for
 
     folder = report_folder(options)
-    with StepProgress("measuring", quiet=options.quiet) as progress:
+    words = words_for(options, "told_match")
+    with StepProgress(words("told.measuring"), quiet=options.quiet, language=words.language) as progress:
         done = run_match(job, RunOptions(options.method, tuple(options.only), pool_options(options)), progress.start)
     done = replace(done, report=without_absolute_paths(done.report, job))
     return _hand_over(done, folder, options)
@@ -58,6 +60,7 @@ def _hand_over(done: MatchRun, folder: Path, options: argparse.Namespace) -> int
 
     from ..shown.match_table import match_tables
     from ..shown.terminal import say, show, show_json
+    from ..shown.told import told, words_for
 
     if options.debug:
         for name, trace in done.traces.items():
@@ -68,10 +71,11 @@ def _hand_over(done: MatchRun, folder: Path, options: argparse.Namespace) -> int
         write_atomically(folder / "match.json", content)
     except AadmError as error:
         # Everything was matched, so this is not the "nothing was checked" that other errors mean.
-        say(f"aadm: {error}")
+        say(f"aadm: {told(error, options)}")
         code = INTERNAL
     if options.json:
         show_json(content)
     elif not options.quiet:
-        show(*match_tables(done.report), f"Report: {folder / 'match.json'}")
+        words = words_for(options, "told_match")
+        show(*match_tables(done.report, words), words("shown.report", file=folder / "match.json"))
     return code

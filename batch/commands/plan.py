@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from aadm_workbench.hoisting.plan import CameraPlan, View
     from aadm_workbench.model import Camera, ColumnDesign
 
+    from ..shown.told import Words
+
 EXAMPLE = """\
 examples:
   aadm plan --size 600 --sleeve-diameter 36 --rebar-diameter 20 --per-side 4 --height 180
@@ -72,6 +74,7 @@ def run(options: argparse.Namespace) -> int:
     from aadm_workbench.report.json import encode
 
     from ..shown.terminal import show, show_json
+    from ..shown.told import words_for
 
     design, camera = _subject(options)
     labels = [point.label for point in design.sleeves]
@@ -92,7 +95,7 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         show_json(encode({"plan": plan, "views": views}))
     elif not options.quiet:
-        show(*_shown(plan, design))
+        show(*_shown(plan, design, words_for(options, "told_plan")))
     return UNDECIDED if plan.reason else ALL_PASS
 
 
@@ -138,26 +141,24 @@ def _square(options: argparse.Namespace) -> ColumnDesign:
     return inline_design("column", table)
 
 
-def _shown(plan: CameraPlan, design: ColumnDesign) -> list[Table | str]:
-    from ..shown.terminal import new_table
-
-    numbers = ("From the first bar", "Below the tops", "Sleeves", "Bars", "u", "Depth")
-    table = new_table("Frame", "Corner", *numbers, numbers=numbers)
+def _shown(plan: CameraPlan, design: ColumnDesign, words: Words) -> list[Table | str]:
+    numbers = ("from_first", "below_tops", "sleeves", "bars", "u", "depth")
+    table = words.table("frame", "corner", *numbers, numbers=numbers)
     for number, view in enumerate(plan.views, 1):
-        table.add_row(str(number), view.near, *_cells(view, design))
+        table.add_row(str(number), view.near, *_cells(view, design, words))
     lines: list[Table | str] = [table] if plan.views else []
     if plan.reason:
-        lines.append(plan.reason)
-    lines.append("Aim at the bars' axis, at 45 % of the gap between bar tops and foot; lengths in mm.")
+        lines.append(words.said(plan.reason))
+    lines.append(words("aim"))
     return lines
 
 
-def _cells(view: View, design: ColumnDesign) -> tuple[str, ...]:
+def _cells(view: View, design: ColumnDesign, words: Words) -> tuple[str, ...]:
     return (
         f"{view.distance_mm:.0f}",
         f"{view.below_tops_mm:.0f}",
         f"{len(view.sleeves)}/{len(design.sleeves)}",
         f"{len(view.rebars)}/{len(design.rebars)}",
         f"{view.u_mm if view.u_of_all_mm is None else view.u_of_all_mm:.2f}",
-        f"{view.depth_mm[0]:.0f} to {view.depth_mm[1]:.0f}",
+        words("range", near=view.depth_mm[0], far=view.depth_mm[1]),
     )

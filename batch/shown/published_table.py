@@ -14,28 +14,28 @@ if TYPE_CHECKING:
     from aadm_workbench.design.published import PublishedPoint
     from aadm_workbench.model import Array, ColumnDesign
 
+    from .told import Words
 
-def published_tables(columns: Sequence[ColumnDesign]) -> Iterator[Table | str]:
+
+def published_tables(columns: Sequence[ColumnDesign], words: Words) -> Iterator[Table | str]:
     """One table for each column, in the model's frame, with the distance in the plane from the exact centres."""
     from rich.text import Text
 
     from aadm_workbench.inspection.as_designed import published_route
 
-    from .terminal import new_table
-
-    numbers = ("x mm", "y mm", "z mm", "Edge points", "Difference mm")
+    numbers = ("x", "y", "z", "edge_points", "difference")
     for column in columns:
         points = published_route(column)
-        table = new_table("Point", *numbers, numbers=numbers)
+        table = words.table("ui.point", *numbers, numbers=numbers)
         for point in points:
             centre = _in_model(point, column)
             difference_mm = point.difference_mm
             found = ["", "", ""] if centre is None else [f"{value:.2f}" for value in centre]
-            away = "no points" if difference_mm is None else f"{difference_mm:.3f}"
+            away = words("no_points") if difference_mm is None else f"{difference_mm:.3f}"
             table.add_row(*(Text(text) for text in (point.label, *found, str(point.edge_points), away)))
-        yield f"{column.id} by the published route: model, cloud, pass-through filter, mean of edge points"
+        yield words("published", column=column.id)
         yield table
-        yield f"Difference to the exact centres: {_summary(points)}"
+        yield words("differences", said=_summary(points, words))
         yield ""
 
 
@@ -78,8 +78,8 @@ def _in_model(point: PublishedPoint, column: ColumnDesign) -> Array | None:
     return T[:3, :3] @ point.centre + T[:3, 3]
 
 
-def _summary(points: Sequence[PublishedPoint]) -> str:
+def _summary(points: Sequence[PublishedPoint], words: Words) -> str:
     away_mm = [point.difference_mm for point in points if point.difference_mm is not None]
     if not away_mm:
-        return "no points"
-    return f"{np.mean(away_mm):.3f} mm on average, {max(away_mm):.3f} mm at most, over {len(away_mm)} points"
+        return words("no_points")
+    return words("on_average", mean=float(np.mean(away_mm)), most=max(away_mm), number=len(away_mm))

@@ -139,4 +139,13 @@ SENTENCES: dict[str, Sentence] = {
         "{count:d} elements got property sets of their own where they had shared one",
         "{count:d} 个构件原共用一个属性集，现各有自己的属性集",
     ),
+    "report.models_differ": Sentence("the models are not the same file", "两次的模型不是同一文件"),
+    "report.tolerances_differ": Sentence(
+        "the tolerances differ: {before}, then {after}",
+        "允许偏差依据不同：先为 {before}，后为 {after}",
+    ),
+    "report.decision_differs": Sentence(
+        "decision: {before}, then {after}", "判定规则不同：先为 {before}，后为 {after}"
+    ),
+    "report.method_differs": Sentence("method: {before}, then {after}", "方法不同：先为 {before}，后为 {after}"),
 }

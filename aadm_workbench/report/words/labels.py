@@ -5,11 +5,12 @@ from __future__ import annotations
 import tomllib
 from functools import cache
 from pathlib import Path
-from typing import NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
-from aadm_workbench.model import reason
+if TYPE_CHECKING:
+    from aadm_workbench.model import reason  # which loads numpy: aadm doctor speaks without it
 
-Language: TypeAlias = reason.Language
+Language: TypeAlias = "reason.Language"
 
 SIGN = {"pass": "✓", "fail": "✗", "inconclusive": "?", "not_measured": "–", "error": "!", "not_assessed": "○"}
 """A sign beside each verdict, so that nothing depends on colour."""
