@@ -286,18 +286,8 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
         "wall_residual_mm": fit.wall_mm,
         "wall_points": int(fit.wall_count.sum()),
     }
-    return Extraction(
-        Kind.REBAR,
-        "refined",
-        points,
-        tops_level,
-        vertical,
-        source,
-        exposed,
-        quality,
-        complete=bars.complete,
-        rings=bars.rings,
-    )
+    found = Extraction(Kind.REBAR, "refined", points, tops_level, vertical, source, exposed, quality)
+    return replace(found, complete=bars.complete, rings=bars.rings)
 
 
 def _points(tops: Tops, fit: PooledFit, lean_prior: float, level: Plane, lost_mm: float) -> tuple[AssemblyPoint, ...]:
