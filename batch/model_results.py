@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
@@ -9,6 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from aadm_workbench.errors import JobError
+
+from .shown.told import words_for
 
 if TYPE_CHECKING:
     from aadm_workbench.inspection.job import Job
@@ -57,19 +60,19 @@ def write_results(
     return write_ifc(report, model, out, report_location=_link(report_folder, out), force=force, setting=setting)
 
 
-def written_lines(done: WriteBack) -> Iterator[str]:
+def written_lines(done: WriteBack, options: argparse.Namespace) -> Iterator[str]:
     """What was done, for people."""
+    words = words_for(options, "told_writeback")
     if done.columns:
-        yield (
-            f"{_counted(len(done.columns), 'column')}: {_counted(done.property_sets, 'property set')} and "
-            f"{_counted(done.annotations, 'as-built mark')} in the model ({done.schema})"
-        )
+        columns = words.counted("columns", len(done.columns))
+        sets, marks = words.counted("sets", done.property_sets), words.counted("marks", done.annotations)
+        yield words("counted", columns=columns, sets=sets, marks=marks, schema=done.schema)
     if done.missing:
-        yield f"Not in the model: {', '.join(done.missing)}"
-    yield from done.notes
+        yield words("missing", names=", ".join(done.missing))
+    yield from (words.said(note) for note in done.notes)
     if done.backup is not None:
-        yield f"The model as it was: {done.backup}"
-    yield f"Model: {done.out}" if done.changed else f"Model: {done.out} (was so already)"
+        yield words("backup", path=done.backup)
+    yield words("model" if done.changed else "already", path=done.out)
 
 
 def written_json(done: WriteBack) -> bytes:
@@ -77,10 +80,6 @@ def written_json(done: WriteBack) -> bytes:
     from aadm_workbench.report.json import encode
 
     return encode(asdict(done))
-
-
-def _counted(number: int, name: str) -> str:
-    return f"{number} {name}" if number == 1 else f"{number} {name}s"
 
 
 def _link(folder: Path, out: Path) -> str:

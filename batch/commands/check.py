@@ -283,5 +283,5 @@ def _write_model(served: _Served, options: argparse.Namespace) -> int:
         _complain(error, options)
         return INTERNAL
     if not options.quiet:
-        say("\n".join(written_lines(written)))
+        say("\n".join(written_lines(written, options)))
     return 0

@@ -80,8 +80,9 @@ def run(options: argparse.Namespace) -> int:
         show_json(encode(gauge_document(found)))
     elif not options.quiet:
         from ..shown.gauge_tables import gauge_tables
+        from ..shown.told import words_for
 
-        show(*gauge_tables(found), *(f"Written: {path}" for path in written))
+        show(*gauge_tables(found), *(words_for(options, "told")("written", path=path) for path in written))
     return exit_code_of(found.verdicts)
 
 

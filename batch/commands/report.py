@@ -125,13 +125,14 @@ def _folder(options: argparse.Namespace, otherwise: Path) -> Path:
 
 def _say(files: dict[str, Path], options: argparse.Namespace) -> None:
     from ..shown.terminal import show, show_json
+    from ..shown.told import words_for
 
     if options.json:
         from aadm_workbench.report.json import encode
 
         show_json(encode({"files": {name: str(path) for name, path in files.items()}}))
     elif not options.quiet:
-        show(*(f"Written: {path}" for path in files.values()))
+        show(*(words_for(options, "told")("written", path=path) for path in files.values()))
 
 
 def job_cards(job: Job, only: Sequence[str] = ()) -> list[ScanCard]:

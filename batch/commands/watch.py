@@ -59,6 +59,7 @@ def run(options: argparse.Namespace) -> int:
     from aadm_workbench.inspection.tasks import plan_job
 
     from ..shown.terminal import say, show_json
+    from ..shown.told import words_for
     from ..watch.run import Watcher, WatchOptions
 
     (task,) = plan_job(job, only=(options.column,)).tasks
@@ -68,7 +69,15 @@ def run(options: argparse.Namespace) -> int:
         watcher = Watcher(
             task,
             options.folder,
-            WatchOptions(state, options.frames, options.seconds, options.present, NEAR.get(options.near), live),
+            WatchOptions(
+                state,
+                options.frames,
+                options.seconds,
+                options.present,
+                NEAR.get(options.near),
+                live,
+                words_for(options, "told_watch"),
+            ),
             (lambda line: None) if quiet else say,
         )
         verdict = watcher.run()

@@ -94,4 +94,4 @@ def _show(done: WriteBack, options: argparse.Namespace) -> None:
     if options.json:
         show_json(written_json(done))
     elif not options.quiet:
-        show(*written_lines(done))
+        show(*written_lines(done, options))

@@ -23,6 +23,7 @@ from aadm_workbench.model.reason import reason_of, renamed
 from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.json import encode
 
+from ..shown.told import Words
 from .corners import Corners
 from .folder import FolderWatch, corner_of
 from .state import Frame, frame_line, state_document
@@ -41,12 +42,16 @@ class Live(Protocol):
         """Write the next frame if it is time; what kept it from being written, empty where nothing did."""
 
 
+_ENGLISH = Words("en", "told_watch")
+
+
 @dataclass(frozen=True)
 class WatchOptions:
     """``frames`` and ``seconds``: when to stop (None: never); ``present``: begin with the frames that are there.
 
     ``near``: the corner of the camera that writes into the folder itself; None: that of the column in the job.
     ``live``: that camera, where the watch asks it; None where another program does.
+    ``words``: those of what is said.
     """
 
     state: Path
@@ -55,6 +60,7 @@ class WatchOptions:
     present: bool = False
     near: tuple[int, int] | None = None
     live: Live | None = None
+    words: Words = _ENGLISH
 
 
 class Watcher:
@@ -91,7 +97,7 @@ class Watcher:
         """Measure frames until the options say enough, and return the verdict on the last one."""
         if not self.options.present:
             self._folder.skip_present()
-        self.say(f"{self.task.column.id}: waiting for frames in {self._folder.folder}")
+        self._tell("waiting", folder=self._folder.folder)
         began = monotonic()
         while not self._enough(monotonic() - began):
             if self._no_more_comes():
@@ -123,15 +129,20 @@ class Watcher:
         frames, limit = self.options.frames, self.options.seconds
         return (frames is not None and self.frames >= frames) or (limit is not None and seconds >= limit)
 
+    def _tell(self, name: str, **values: object) -> None:
+        words = self.options.words
+        self.say(words.of(self.task.column.id, words(name, **values)))
+
     def _before(self) -> Before:
         """Where the job's scans from before hoisting put sleeves and bars."""
         column = self.task.column
         if not column.sleeves and not column.rebars:
             return Before()
-        self.say(f"{column.id}: measuring its scans from before hoisting")
+        self._tell("before")
         report = inspect_column(self.task).report
         if report.verdict is Verdict.ERROR:
-            self.say(f"{column.id}: {'; '.join(report.reasons)}; its design places are used")
+            words = self.options.words
+            self._tell("design_places", why=words("between").join(words.said(one) for one in report.reasons))
         return Before.of(report)
 
     def _frame(self, path: Path) -> None:
@@ -199,7 +210,7 @@ class Watcher:
         )
         document, fitness = state_document(self.task.column.id, frame)
         write_atomically(self.options.state, encode(document))
-        self.say(frame_line(frame, fitness))
+        self.say(frame_line(frame, fitness, self.options.words))
 
     def _moved(self, measurement: HoistingMeasurement, captured_s: float | None) -> Motion:
         """How the column moves, by the times of the frames; one without a time stands alone."""

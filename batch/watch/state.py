@@ -13,6 +13,7 @@ from aadm_workbench.report.hoisting_fitness import VALID_FOR_S, Fitness, fitness
 from aadm_workbench.report.json import encode
 
 from ..shown.terminal import in_words
+from ..shown.told import Words
 
 SCHEMA = 2  # of aadm-state.json
 
@@ -108,29 +109,27 @@ def _running(
     }
 
 
-def frame_line(frame: Frame, fitness: Fitness) -> str:
+def frame_line(frame: Frame, fitness: Fitness, words: Words) -> str:
     """A line for people: verdict, largest distance, what the crane must do, and whether the column may be lowered."""
-    report, name = frame.report, frame.report.source
+    report = frame.report
+    told = words.of(report.source, in_words(report.verdict, words.language))
     if report.max_mm is None:
-        reason = report.reasons[0] if report.reasons else ""
-        return f"{name}: {in_words(report.verdict)}: {reason}"
+        return words.of(told, words.said(report.reasons[0]) if report.reasons else "")
     worst = max((pair for pair in report.pairs if pair.distance_mm is not None), key=lambda p: p.distance_mm or 0.0)
-    words = [f"{name}: {in_words(report.verdict)}", f"largest {report.max_mm:.2f} mm at {worst.sleeve}"]
+    parts = [told, words("largest", most=report.max_mm, sleeve=worst.sleeve)]
     if len(report.joined) > 1:
-        words.append(f"from {len(report.joined)} frames together")
+        parts.append(words("together", count=len(report.joined)))
     move = frame.motion.rest if frame.motion is not None and fitness.shows_move else None
     if move is not None and move.camera is not None and report.verdict is not Verdict.NOT_MEASURED:
-        words.append(
-            f"move {_way(move.camera.right_mm, 'right', 'left')}, {_way(move.camera.away_mm, 'away', 'nearer')}, turn "
-            f"{move.yaw_deg:+.2f} deg"
-        )
+        right_mm, away_mm = move.camera.right_mm, move.camera.away_mm
+        aside = words("right" if right_mm >= 0.0 else "left", by=abs(right_mm))
+        ahead = words("away" if away_mm >= 0.0 else "nearer", by=abs(away_mm))
+        parts.append(words("move", aside=aside, ahead=ahead, turn=move.yaw_deg))
     running = frame.running
     if running is not None:
-        still = f"still for {running.frames} frames" if running.frames > 1 else "one frame"
-        words.append(f"moved by {running.moved_mm:.1f} mm" if running.moved_mm is not None else still)
-    words.append(f"READY, {fitness.reason}".rstrip(", ") if fitness.ready else f"not ready: {fitness.reason}")
-    return f"{'; '.join(words)} ({frame.seconds:.2f} s)"
-
-
-def _way(value_mm: float, ahead: str, back: str) -> str:
-    return f"{abs(value_mm):.1f} mm {ahead if value_mm >= 0.0 else back}"
+        still = words("still", frames=running.frames) if running.frames > 1 else words("one_frame")
+        parts.append(words("moved", by=running.moved_mm) if running.moved_mm is not None else still)
+    reason = words.said(fitness.reason)
+    ready = words("ready_but", reason=reason) if reason else words("ready")
+    parts.append(ready if fitness.ready else words("not_ready", reason=reason))
+    return words("line", parts=words("between").join(parts), seconds=frame.seconds)
