@@ -114,15 +114,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _say(told(error, options))
         return BAD_USAGE
     except KeyboardInterrupt:
-        _say("interrupted")
+        from .shown.told import words_for
+
+        _say(words_for(options, "told")("interrupted"))
         return INTERRUPTED
     except Exception as error:  # noqa: BLE001 - this is the outermost boundary
         if options.debug:
             _show_trace()
-        hint = "" if options.debug else "; repeat the command with --debug to see where it happened"
-        _say(f"internal error: {type(error).__name__}: {error}{hint}")
+        _say(_internal(error, options))
         return INTERNAL
     return code
+
+
+def _internal(error: Exception, options: argparse.Namespace) -> str:
+    """What is said of an error that nobody foresaw; in English where the words themselves cannot be read."""
+    what = f"{type(error).__name__}: {error}"
+    hint = "" if options.debug else "; repeat the command with --debug to see where it happened"
+    try:
+        from .shown.told import words_for
+
+        return words_for(options, "told")("internal" if options.debug else "internal_where", what=what)
+    except Exception:  # noqa: BLE001 - the error itself is what has to be said
+        return f"internal error: {what}{hint}"
 
 
 def _language_of(words: Sequence[str]) -> Language:

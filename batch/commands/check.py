@@ -152,13 +152,13 @@ def _stopped(
 ) -> int:
     """Say that a check ends before its end, and what is kept of it."""
     from ..shown.terminal import say
-    from ..shown.told import told
+    from ..shown.told import told, words_for
 
+    words = words_for(options, "told")
     journal.stop()
     events.send("interrupted", done=shown.done, columns=shown.total)
-    say(f"aadm: {told(stop, options) or 'interrupted'}")
-    kept = f"{shown.done} of {shown.total} columns are kept in {journal.path}"
-    say(f"aadm: {kept}; repeat the command with --resume")
+    say(f"aadm: {told(stop, options) or words('interrupted')}")
+    say(f"aadm: {words('kept', done=shown.done, total=shown.total, journal=journal.path)}")
     return INTERRUPTED if isinstance(stop, KeyboardInterrupt) else INTERNAL
 
 
