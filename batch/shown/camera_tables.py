@@ -25,6 +25,8 @@ _FIGURES = {
     "stretch of rebars": "stretch_of_rebars",
     "scatter of sleeves, mm": "scatter_of_sleeves",
     "scatter of rebars, mm": "scatter_of_rebars",
+    "rings of pixels lost at sleeves": "rings_of_sleeves",
+    "rings of pixels lost at rebars": "rings_of_rebars",
 }
 """Names of the log, and the words of each."""
 _PER_MILLION = 1e6  # of relative figures: what a metre gains in micrometres

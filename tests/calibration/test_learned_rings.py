@@ -9,13 +9,16 @@ import numpy as np
 import pytest
 
 from aadm_workbench.assembly.findings.rules import profile_findings
+from aadm_workbench.calibration.learn.verify import verified
+from aadm_workbench.calibration.plate.plate import drawn_plate
 from aadm_workbench.extract.edges.learned_edges import EDGE_LAWS, with_learned_stretch
 from aadm_workbench.extract.rebars import extract_rebars
 from aadm_workbench.extract.sleeves import extract_sleeves
-from aadm_workbench.model import Camera, CameraProfile, Extraction, Kind, LearnedEdges, Measure
+from aadm_workbench.model import Camera, CameraProfile, Extraction, Kind, LearnedEdges, Measure, Verdict
 from aadm_workbench.scan.camera_profile import profile_text, read_profile
 from aadm_workbench.twin.scenes import LAB
 from tests.assembly.test_findings import group, square
+from tests.calibration.test_learn import captures
 from tests.extract.edges.test_bars_without_rings import without_rings
 from tests.scenes import lab_bars, lab_foot, lab_scan
 
@@ -58,3 +61,11 @@ def test_the_file_of_a_profile_keeps_its_rings(tmp_path: Path) -> None:
         0.93,
         None,
     ]
+
+
+def test_the_check_before_a_shift_tells_a_filter_that_was_switched_on() -> None:
+    plate = drawn_plate(12, 36.0, 160.0, 20.0)
+    (capture, *_) = captures(plate, np.random.default_rng(2), count=1)
+    for rings, verdicts in ((0.1, [Verdict.PASS] * 2), (1.0, [Verdict.FAIL] * 2), (None, [])):
+        checks = verified(replace(capture, rings=dict.fromkeys(Kind, rings)), plate, profile(0.0))
+        assert [check.verdict for check in checks if check.name.startswith("rings")] == verdicts

@@ -49,9 +49,9 @@ def test_the_tutorial_leads_to_a_learned_camera(tmp_path: Path, monkeypatch: pyt
         assert len(learned[kind]["lost"]) > 5
         assert 0.0 <= learned[kind]["share"] <= 1.0
     log = Path("camera-0042-log.csv").read_text().splitlines()
-    assert len(log) == 5
+    assert len(log) == 7
     assert all(line.startswith("2026-11-21,plate-2.tiff,") for line in log[1:])
-    assert Path("chart.html").read_text().count("<svg") == 4
+    assert Path("chart.html").read_text().count("<svg") == 6
     assert {path.name for path in Path("plate-for-the-workshop").iterdir()} == {
         "plate.dxf",
         "plate.pdf",

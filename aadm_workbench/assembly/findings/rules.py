@@ -23,7 +23,7 @@ from aadm_workbench.assembly.findings.finding import SeenGroup, make_finding
 from aadm_workbench.assembly.findings.scale import scale_findings
 from aadm_workbench.assembly.matching.match import FAR_FROM_DECLARED
 from aadm_workbench.assembly.pose.eopa import wrap
-from aadm_workbench.extract.edges.learned_edges import EDGE_LAWS
+from aadm_workbench.extract.edges.learned_edges import EDGE_LAWS, OFF_RINGS
 from aadm_workbench.extract.filter_signs import COPIED, GAPS_FILLED, SMOOTHED
 from aadm_workbench.extract.pooled.fit import USUAL_LEAN
 from aadm_workbench.extract.pooled.system import Priors
@@ -57,10 +57,6 @@ _OFF_PIXELS = -0.5, 0.8
 """Of the edges of mouths: with their own profile -0.4 to 0.2 on ray-cast cameras. On a path-traced one mouths with a
 chamfer of half a millimetre, as no plate has, look 0.5 larger without a filter and 0.7 with a ring dropped. A ring that
 the profile does not know makes 0.6 to 1.3, one that it knows and the camera does not drop as much the other way."""
-
-_OFF_RINGS = 0.5
-"""Of rings that were dropped and learned: half of one. With their own profile within 0.22 on a path-traced camera, with
-another's 0.88 and more."""
 
 
 def findings_of(design: ColumnDesign, groups: Sequence[SeenGroup]) -> tuple[Finding, ...]:
@@ -271,7 +267,7 @@ def profile_findings(groups: Sequence[SeenGroup]) -> Iterator[Finding]:
     """A camera whose edges are not those of the profile that the job names; a profile that other laws have learned."""
     for group in groups:
         name, quality = group.kind.plural, group.extraction.quality
-        limits = {"learned_rings_off": (-_OFF_RINGS, _OFF_RINGS), "learned_edges_off_pixels": _OFF_PIXELS}
+        limits = {"learned_rings_off": (-OFF_RINGS, OFF_RINGS), "learned_edges_off_pixels": _OFF_PIXELS}
         for figure, (low, high) in limits.items():
             off = quality.get(figure)
             if isinstance(off, float) and not low < off < high:

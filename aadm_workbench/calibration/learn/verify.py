@@ -14,6 +14,7 @@ from aadm_workbench.calibration.learn.capture import PlateCapture
 from aadm_workbench.calibration.learn.stretch import one_capture
 from aadm_workbench.calibration.plate.plate import Plate
 from aadm_workbench.errors import ReportError
+from aadm_workbench.extract.edges.learned_edges import OFF_RINGS
 from aadm_workbench.model import CameraProfile, Kind, Verdict
 from aadm_workbench.own_files import write_atomically
 from aadm_workbench.report.drawing.sketch import Circle, Label, Polyline, Shape, Sketch
@@ -45,7 +46,7 @@ class Checked:
 
 
 def verified(capture: PlateCapture, plate: Plate, profile: CameraProfile) -> tuple[Checked, ...]:
-    """The stretch of holes and pins against the profile, and how far their centres scatter.
+    """The stretch of holes and pins against the profile, how far their centres scatter, and what is lost at steps.
 
     The capture is one whose scan had the profile: what it loses at edges is then taken off, as it was when learned.
     """
@@ -57,6 +58,9 @@ def verified(capture: PlateCapture, plate: Plate, profile: CameraProfile) -> tup
         checks.append(Checked(name, found.mean[kind] - edges.stretch.value, limit))
         usual_mm = edges.scatter_pitches * capture.pitch_mm
         checks.append(Checked(f"scatter of {kind.plural}, mm", found.scatter_mm[kind], _SCATTER_TIMES * usual_mm))
+        seen = capture.rings.get(kind)
+        if seen is not None and edges.rings is not None:
+            checks.append(Checked(f"rings of pixels lost at {kind.plural}", seen - edges.rings, OFF_RINGS))
     return tuple(checks)
 
 

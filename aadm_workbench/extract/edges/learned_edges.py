@@ -38,6 +38,10 @@ is what they leave. ``tests/calibration/test_laws.py`` tells when."""
 LEARNED_BAND_MM = 1.5
 """About a surface: what is farther from it has not found it. Noise at three metres is less."""
 
+OFF_RINGS = 0.5
+"""Of rings that are dropped and learned: half of one. With their own profile within 0.22 on a path-traced camera, with
+another's 0.88 and more."""
+
 DISC_U_PITCHES = 0.1
 """Per axis, of discs that are set right: where a filter takes whole pixels their edges are as rough."""
 
