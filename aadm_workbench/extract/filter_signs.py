@@ -107,7 +107,7 @@ def filter_signs(
     size = height.shape[1] * height.shape[2]
     runs = [_ramps(patches.height.ravel(), in_air, step) // size for step in (1, patches.columns)]
     each = np.bincount(np.concatenate(runs), minlength=len(centre)) / (2.0 * np.pi * radius_mm / pitch_mm)
-    ramps, usual = float(each.mean()), float(np.median(each))
+    ramps, usual = float(each.mean()), float(median(each))
     rows = slice(None, None, _EVERY)
     first, second, fourth = (
         _roughness(height[:, rows], on_surface[:, rows], step) if flat else None for step in (1, 2, _FAR)

@@ -9,6 +9,7 @@ of NumPy load its masked arrays, and look for much that is nowhere here: the sam
 from __future__ import annotations
 
 import sys
+from functools import cache
 from importlib.machinery import PathFinder
 from importlib.util import find_spec, module_from_spec
 from typing import Any
@@ -21,8 +22,9 @@ _PACKAGE, _COMPILED = "scipy.special", "_special_ufuncs"
 _NAMES = ("expit", "gammainc", "gammaincinv", "ndtr")
 
 
+@cache
 def functions() -> Any:
-    """The module that holds the functions."""
+    """The module that holds the functions: looked for when one is called, for a workbench begins without SciPy."""
     found = sys.modules.get(_PACKAGE) or compiled()
     if found is None:
         import scipy.special
@@ -46,8 +48,24 @@ def compiled() -> Any:
     return module if all(hasattr(module, name) for name in _NAMES) else None
 
 
-_FOUND = functions()
-expit, gammainc, gammaincinv, ndtr = (getattr(_FOUND, name) for name in _NAMES)
+def expit(values: Any) -> Any:
+    """The logistic function."""
+    return functions().expit(values)
+
+
+def gammainc(shape: Any, values: Any) -> Any:
+    """The regularised lower incomplete gamma function."""
+    return functions().gammainc(shape, values)
+
+
+def gammaincinv(shape: Any, shares: Any) -> Any:
+    """The value at which the regularised lower incomplete gamma function has a share."""
+    return functions().gammaincinv(shape, shares)
+
+
+def ndtr(values: Any) -> Any:
+    """The distribution function of the standard normal law."""
+    return functions().ndtr(values)
 
 
 def percentiles(values: Any, percents: Any) -> Any:
