@@ -76,3 +76,21 @@ def test_a_check_loads_nothing_that_it_does_not_use(tmp_path: Path) -> None:
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=tmp_path)
     assert "aadm_workbench.extract.sleeves" in done.stdout.split()
     assert UNUSED.isdisjoint(done.stdout.split())
+
+
+def test_a_workbench_knows_its_methods_before_anything_is_installed() -> None:
+    """FreeCAD brings NumPy alone; the buttons that install the rest are there only where the workbench has begun."""
+    code = """
+import sys
+
+class Missing:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in {"cv2", "ifcopenshell", "msgspec", "open3d", "rich", "scipy"}:
+            raise ModuleNotFoundError(name)
+
+sys.meta_path.insert(0, Missing())
+from aadm_workbench.extract.method import METHODS
+print(*METHODS)
+"""
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert "refined" in done.stdout.split()
