@@ -141,8 +141,7 @@ class Watcher:
         self._tell("before")
         report = inspect_column(self.task).report
         if report.verdict is Verdict.ERROR:
-            words = self.options.words
-            self._tell("design_places", why=words("between").join(words.said(one) for one in report.reasons))
+            self._tell("design_places", why=self.options.words.joined(report.reasons))
         return Before.of(report)
 
     def _frame(self, path: Path) -> None:

@@ -132,4 +132,4 @@ def frame_line(frame: Frame, fitness: Fitness, words: Words) -> str:
     reason = words.said(fitness.reason)
     ready = words("ready_but", reason=reason) if reason else words("ready")
     parts.append(ready if fitness.ready else words("not_ready", reason=reason))
-    return words("line", parts=words("between").join(parts), seconds=frame.seconds)
+    return words("line", parts=words.joined(parts), seconds=frame.seconds)
