@@ -129,12 +129,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _internal(error: Exception, options: argparse.Namespace) -> str:
     """What is said of an error that nobody foresaw; in English where the words themselves cannot be read."""
     what = f"{type(error).__name__}: {error}"
-    hint = "" if options.debug else "; repeat the command with --debug to see where it happened"
     try:
         from .shown.told import words_for
 
         return words_for(options, "told")("internal" if options.debug else "internal_where", what=what)
     except Exception:  # noqa: BLE001 - the error itself is what has to be said
+        hint = "" if options.debug else "; repeat the command with --debug to see where it happened"
         return f"internal error: {what}{hint}"
 
 

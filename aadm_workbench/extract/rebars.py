@@ -82,8 +82,8 @@ class _Bars:
     fit: PooledFit
     points: tuple[AssemblyPoint, ...]
     complete: bool
-    lost_mm: float
     rings: float | None
+    dropped_mm: float
 
 
 def extract_rebars(
@@ -185,16 +185,16 @@ def _measured(
     leaning = with_sides_that_lean(tops, patches, planes, fit.centre, radius_mm)
     if leaning is not tops:
         tops, fit = leaning, _fit(leaning, radius_mm, priors)
-    fit, dropped_mm = _shifted(fit, tops, lines, bend)
-    own, height = patches.of(tops.kept), planes.of(tops.kept).height(patches.of(tops.kept))
-    rings = rings_dropped(gaps_at_steps(own, height, tops.centre, radius_mm, pitch_mm))
+    fit, rings = _shifted(fit, tops, lines, bend)
+    own = patches.of(tops.kept)
+    counted = rings_dropped(gaps_at_steps(own, planes.of(tops.kept).height(own), tops.centre, radius_mm, pitch_mm))
     # Where rings were dropped edges stand that much inside, however well they go with the size that was looked for.
-    fit = replace(fit, radius_u_mm=max(fit.radius_u_mm, rings * pitch_mm))
-    known, lost_mm = known_edges(scan.learned, Kind.REBAR, patches.of(tops.kept).eye, axes_on(level)), 0.0
+    fit = replace(fit, radius_u_mm=max(fit.radius_u_mm, counted * pitch_mm))
+    known, lost_mm = known_edges(scan.learned, Kind.REBAR, own.eye, axes_on(level)), 0.0
     if lines is not None and known is not None:
         fit, lost_mm = _drawn_to_discs(fit, lines, known), known.most_lost_mm
     points = _points(tops, fit, priors.lean, level, lost_mm)
-    return _Bars(tops, fit, points, signs.complete, dropped_mm, None if lines is None else dropped_mm / bend.pitch_mm)
+    return _Bars(tops, fit, points, signs.complete, rings, (rings or 0.0) * bend.pitch_mm)
 
 
 def _own_levels(scan: Scan, sample: Thinned, level: Plane, centres: Array, radius_mm: float) -> Array:
@@ -221,15 +221,15 @@ def _bend(lines: SightLines | None, tops: Tops, radius_mm: float) -> Bend:
     return bend_at_edges(lines, seen.centre, seen.radius, pitch_mm, -1.0)
 
 
-def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -> tuple[PooledFit, float]:
-    """The fit without the shift that all its centres share, as far as known, and how wide the lost rings are, mm."""
+def _shifted(fit: PooledFit, tops: Tops, lines: SightLines | None, bend: Bend) -> tuple[PooledFit, float | None]:
+    """The fit without the shift that all its centres share, as far as known, and how many rings are lost, if known."""
     if lines is None:
-        return fit, 0.0
+        return fit, None
     eroded = eroded_rings(tops.beyond, tops.rims, fit.centre, bend.pitch_mm)
     shift = shift_of_tops(lines.slope, bend, eroded)
     covariance = _FIT_SHARE**2 * fit.covariance + shift.covariance
     shifted = replace(fit, centre=fit.centre - shift.mean, covariance=covariance, radius_u_mm=shift.radius_u_mm)
-    return shifted, eroded * bend.pitch_mm
+    return shifted, eroded
 
 
 def _drawn_to_discs(fit: PooledFit, lines: SightLines, known: KnownEdges) -> PooledFit:
@@ -264,10 +264,10 @@ def _extraction(bars: _Bars, standing: Standing, diameter_mm: float) -> Extracti
     tops, fit = bars.tops, bars.fit
     # where a filter drops rings, it does so on the side of the step alone: outlines are that much out of round
     within_mm = max(AGREES_MM, 2.0 * float(median(tops.pitch_mm)))
-    within_mm = max(within_mm, min(within_mm + bars.lost_mm, _OUT_OF_ROUND * diameter_mm / 2))
+    within_mm = max(within_mm, min(within_mm + bars.dropped_mm, _OUT_OF_ROUND * diameter_mm / 2))
     agree = agreeing_shares(tops.rims, fit.centre, fit.outline_radius, within_mm)
     off = 2 * fit.outline_radius / diameter_mm - 1.0
-    right = (off < _RADIUS_MISFIT) & (off > -_RADIUS_MISFIT - 2 * bars.lost_mm / diameter_mm)
+    right = (off < _RADIUS_MISFIT) & (off > -_RADIUS_MISFIT - 2 * bars.dropped_mm / diameter_mm)
     sound = np.flatnonzero(right & (agree > _SOUND_SHARE)).tolist()
     points = tuple(bars.points[k] for k in sound if _stands_out(bars.points[k], standing.floor))
     if not points:

@@ -34,10 +34,9 @@ def bent_face(frame: HoistingFrame, face: FootFace, radius_mm: float) -> FootFac
     fitted = _fitted(points, float(np.hypot(*face.mouths.T).max()))
     if fitted is None:
         return face
-    level, residual_mm = fitted
+    level, off, residual_mm = fitted
     # seen flat, walls of mouths may outnumber the face: what they bend has fewer points close to it than the plane
     near_mm = _BAND_SIGMAS * min(residual_mm, face.residual_mm)
-    off = points[:, 2] - level_terms(points[:, :2]) @ level
     if (np.abs(off) < near_mm).sum() <= (np.abs(points[:, 2]) < near_mm).sum():
         return face
     at_mouths = level_terms(face.mouths)
@@ -69,8 +68,8 @@ def _of_face(frame: HoistingFrame, face: FootFace, radius_mm: float) -> Array:
     return np.asarray(local[clear])
 
 
-def _fitted(points: Array, reach_mm: float) -> tuple[Array, float] | None:
-    """Height, slopes and curvatures (6,) of a face about its axes, and how far points (n, 3) scatter about it, mm."""
+def _fitted(points: Array, reach_mm: float) -> tuple[Array, Array, float] | None:
+    """Height, slopes and curvatures (6,) of a face about its axes; how far off points (n, 3) lie, and scatter, mm."""
     scale = np.array([1.0, *(2 * [reach_mm]), *(3 * [reach_mm**2])])
     system = level_terms(points[:, :2]) / scale
     off, level, band_mm = points[:, 2], np.zeros(6), _BENT_MM
@@ -81,4 +80,4 @@ def _fitted(points: Array, reach_mm: float) -> tuple[Array, float] | None:
         level = np.linalg.lstsq(system[near], points[near, 2], rcond=None)[0]
         off = points[:, 2] - system @ level
         band_mm = min(band_mm, max(_BAND_SIGMAS * TO_SIGMA * float(np.median(np.abs(off[near]))), 0.1))
-    return level / scale, TO_SIGMA * float(np.median(np.abs(off[np.abs(off) < band_mm])))
+    return level / scale, off, TO_SIGMA * float(np.median(np.abs(off[np.abs(off) < band_mm])))
